@@ -108,6 +108,23 @@ def test_what_a_file_leaves_out_takes_the_default_of_the_scene():
     assert validate(Parameters, {}) == Parameters()
 
 
+class OwnBall(Group):
+    shape: Literal["round", "long"] = choice(..., "seen from the side")
+    drag: NoDrag | FittedDrag = either(FittedDrag(critical=6e4), "drag of the air")
+
+
+class Needs(Group):
+    ball: OwnBall = group(..., "the ball")
+    place: Place = group(..., "where it lies")
+
+
+def test_a_group_that_must_be_there_has_defaults_inside():
+    found = validate(Needs, {"ball": {"shape": "long", "drag": {"model": "table"}}, "place": {"name": "a"}})
+    assert found.ball.drag == FittedDrag(model="table", critical=6e4)
+    with pytest.raises(RequestError, match=r"place: missing"):
+        validate(Needs, {"ball": {"shape": "long"}}, "shot.toml")
+
+
 @pytest.mark.parametrize(
     ("text", "expected"),
     [

@@ -57,6 +57,14 @@ def test_long_work_shows_a_bar_and_clears_it(clock, monkeypatch):
     assert_cleared(terminal)
 
 
+def test_the_bar_stays_in_its_line(clock, monkeypatch):
+    monkeypatch.setattr("sys.stderr", terminal := Terminal())
+    with bar("frames of a long name" * 9) as progress:
+        clock(3.0)
+        progress(1, 2)
+    assert max(map(len, terminal.getvalue().split("\r"))) == 79
+
+
 def test_short_work_shows_nothing(clock, monkeypatch):
     monkeypatch.setattr("sys.stderr", terminal := Terminal())
     work(clock, 1.9)

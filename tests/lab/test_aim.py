@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
-from math import asin, atan, degrees, hypot, radians, sin, sqrt
+from math import asin, atan, degrees, hypot, inf, nan, radians, sin, sqrt
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
 from PIL import Image
@@ -12,8 +14,9 @@ from PIL import Image
 from sandbox.cli import main
 from sandbox.errors import RequestError, RunError
 from sandbox.lab.aim import Target, aim, as_target, parse_target, search
+from sandbox.lab.aim.greatest import peak
 from sandbox.lab.aim.report import as_text
-from sandbox.lab.axes import parse_span
+from sandbox.lab.axes import Span, parse_span
 from sandbox.lab.runs import runs
 from sandbox.parameters import walk
 from sandbox.scene import load
@@ -118,6 +121,28 @@ def test_two_numbers_without_a_solution(vacuum):
     assert found.solutions == []
     assert found.nearest is not None
     assert found.nearest.values[0] == pytest.approx(40.0, abs=0.1)
+
+
+def test_two_numbers_without_a_solution_come_as_near_as_they_can(vacuum):
+    """At 30 deg both are proportional to v^2: the misses, each by the spread of its result, are least at one speed."""
+    found = aim(vacuum, {"launch.angle": (10, 30), "launch.speed": (20, 40)}, {"carry": 120.0, "apex": 20.5})
+    by_square = [(sin(2 * a) / GRAVITY, sin(a) ** 2 / (2 * GRAVITY)) for a in (radians(10), radians(30))]
+    weights = [(high, high / (1600 * high - 400 * low) ** 2) for low, high in zip(*by_square, strict=True)]
+    wanted = sum(weight * value for (_, weight), value in zip(weights, (120.0, 20.5), strict=True))
+    speed = sqrt(wanted / sum(weight * each for each, weight in weights))
+    assert found.nearest.values == pytest.approx((30.0, speed), abs=1e-3)
+
+
+def test_the_peak_is_sought_where_the_result_is_known():
+    shots: Any = SimpleNamespace(
+        spans=[Span("x", 0.0, 4.0)], results=lambda points, phase: [{"x": x} for (x,) in points]
+    )
+    unknown = {0: None, 1: nan}
+    (place,), height = peak(
+        shots, [0.0], [4.0], lambda found: unknown.get(int(found["x"]), -1 - (found["x"] - 2.5) ** 2)
+    )
+    assert (place, height) == pytest.approx((2.5, -1.0), abs=1e-6)
+    assert peak(shots, [0.0], [1.5], lambda found: None)[1] == -inf
 
 
 def test_what_holds_or_not_has_intervals():

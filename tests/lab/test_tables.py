@@ -43,6 +43,11 @@ def test_headings_of_numbers_are_wrapped_and_no_digit_is_lost():
     assert "".join(table(["", ""], [["1" * 60, "2" * 60]], "rr")).split() == ["1" * 60, "2" * 60]
 
 
+def test_room_that_a_heading_gives_up_is_that_of_a_text():
+    text = " ".join(["word"] * 14)
+    assert table(("a heading of three words", "said"), [("1", text)], "rl")[-1] == f"        1  {text}"
+
+
 def test_what_stands_in_brackets_is_text_and_nothing_splits_a_row():
     assert table(("a", "b"), [("[red]x[/red]", "two\nlines"), ("\x1b[2J", ":smile:")], "ll") == [
         "  a             b",

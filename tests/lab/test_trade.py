@@ -210,6 +210,12 @@ def test_a_coefficient_as_at_the_start_is_that_of_the_start():
     assert same(*start) == pytest.approx(drag(*start))
 
 
+def test_what_a_scene_has_is_left_out_and_not_put_in():
+    (windy, burning) = (list(variants(load(name).build())) for name in ("golf/headwind", "rocket"))
+    assert [v.change for v in windy if v.part in ("wind", "spin decay")] == ["left out", "left out"]
+    assert "loss of mass" in [v.part for v in burning]
+
+
 def test_throw_and_cloth_on_a_table():
     names = {variant.part for variant in variants(load("billiards").build())}
     assert {"friction of balls (throw)", "rolling friction of the cloth"} <= names
