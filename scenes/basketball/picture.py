@@ -15,10 +15,11 @@ from sandbox.picture.painter import around_corners
 from sandbox.picture.palette import mix, palette, scene_colours
 from sandbox.picture.path import Mark
 from sandbox.picture.places import Hall, Person, Size, boards
+from sandbox.picture.places.courts import basketball_key, basketball_lines
 from sandbox.picture.views import Box, Camera, Entry, Eye, Length, Look, Painter, Place, Sheet, SideView, seams
 from sandbox.sport.amounts import metres, roughly, times
 
-from . import court
+from . import hoop
 from .scene import Parameters, entry, on_floor
 
 CARD, COLOURS = palette("card"), scene_colours(__file__)
@@ -76,8 +77,8 @@ class Picture(SideView[Parameters]):
         return self.parameters.hoop.middle
 
     @cached_property
-    def net(self) -> court.HangingNet:
-        return court.HangingNet(self.run, self.parameters)
+    def net(self) -> hoop.HangingNet:
+        return hoop.HangingNet(self.run, self.parameters)
 
     @property
     def hoop_size(self) -> Size:
@@ -96,9 +97,9 @@ class Picture(SideView[Parameters]):
     @cached_property
     def place(self) -> Place:
         face = self.parameters.board[0]
-        lines = court.lines(face, self.ring[0])
-        ground = boards(FLOOR, areas=[(court.key(face), FLOOR["key"])], lines=lines)
-        goal = self.hoop_size.of(*court.stand(self.parameters), *court.hoop(self.parameters))
+        lines = basketball_lines(face, self.ring[0])
+        ground = boards(FLOOR, areas=[(basketball_key(face), FLOOR["key"])], lines=lines)
+        goal = self.hoop_size.of(*hoop.stand(self.parameters), *hoop.hoop(self.parameters))
         return Place(Hall(**COLOURS["hall"]), ground, [*goal, *self.thrower])
 
     def behind(self, painter: Painter, camera: Camera, t: float) -> None:

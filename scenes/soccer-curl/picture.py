@@ -11,11 +11,12 @@ from sandbox.picture.lettering import around
 from sandbox.picture.palette import mix, palette, scene_colours
 from sandbox.picture.places import goal as goal_at
 from sandbox.picture.places import plan
+from sandbox.picture.places.courts import PENALTY_SPOT, pitch_lines
 from sandbox.picture.views import AboveView, Box, Camera, Entry, Painter, Sheet
 from sandbox.sport.amounts import metres, times
 from sandbox.sport.readings import first_touch
 
-from ..soccer.look import EARLIER, LINE, LOOK, SPOT, STRIPE, TRACE, pitch_lines
+from ..soccer.look import EARLIER, LINE, LOOK, STRIPE, TRACE
 from .scene import BOARDS_ASIDE, BOARDS_BEHIND, BOARDS_BEYOND, Parameters
 
 CARD, COLOURS = palette("card"), scene_colours(__file__)
@@ -77,7 +78,7 @@ class Picture(AboveView[Parameters]):
         return (
             plan.Stripes(grass, COLOURS["grass"], STRIPE, end),
             *(plan.Line(tuple(points), LINE, COLOURS["line"]) for points in pitch_lines(end, middle)),
-            plan.Spot((end - SPOT, middle), LINE, COLOURS["line"]),
+            plan.Spot((end - PENALTY_SPOT, middle), LINE, COLOURS["line"]),
             *(plan.Ground(everywhere._replace(**edge), COLOURS["beyond"]) for edge in sides),
             *(plan.Stripes(box, COLOURS["boards"], BOARD_LENGTH, -BOARDS_ASIDE, along=True) for box in boards),
             plan.Worn((end - 0.3, middle), 1.2, 0.42 * goal.width, COLOURS["worn"], 0.4),

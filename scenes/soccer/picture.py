@@ -10,10 +10,11 @@ import numpy as np
 from sandbox.engine.setup import Segment
 from sandbox.picture.palette import mix
 from sandbox.picture.places import Person, Shape, Size, Stands, goal, turf
+from sandbox.picture.places.courts import PITCH_WIDTH, pitch_lines
 from sandbox.picture.views import Box, Camera, Length, Place, Sheet, SideView
 from sandbox.sport.amounts import metres, roughly, times
 
-from .look import COLOURS, EARLIER, LINE, LOOK, STRIPE, TRACE, WIDTH, pitch_lines
+from .look import COLOURS, EARLIER, LINE, LOOK, STRIPE, TRACE
 from .scene import Parameters
 
 PITCH, BOARDS = COLOURS["pitch"], COLOURS["stands"]["boards"]
@@ -78,7 +79,7 @@ class Picture(SideView[Parameters]):
     def _boards(self) -> list[Shape]:
         """Advertising boards across the pitch, where a ball is out of play."""
         shapes = (surface.shape for surface in self.run.setup.surfaces if surface.name == "boards")
-        edges = np.arange((GOAL_WIDTH + WIDTH) / 2, -BOARD, -BOARD).clip(0.0).tolist()
+        edges = np.arange((GOAL_WIDTH + PITCH_WIDTH) / 2, -BOARD, -BOARD).clip(0.0).tolist()
         return [
             Shape([(*low, near), (*low, far), (*top, far), (*top, near)], mix(BOARDS[i * 3 % 4], PITCH["far"], 0.25))
             for low, top in ((shape.a, shape.b) for shape in shapes if isinstance(shape, Segment))

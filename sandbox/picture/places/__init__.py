@@ -1,6 +1,7 @@
 """Of what a place is made, seen from the side: ground, what lies behind it, and things that stand on it."""
 
-from sandbox.picture.places.ground import COURT_WIDTH, Ground, Line, Planks, Stripes, boards, tennis_court, turf
+from sandbox.picture.places.courts import COURT_WIDTH, tennis_court
+from sandbox.picture.places.ground import Ground, Line, Planks, Stripes, boards, turf
 from sandbox.picture.places.landscape import Landscape
 from sandbox.picture.places.scenery import Hall, Scenery, Stands
 from sandbox.picture.places.things import Net, Person, Post, Shape, Size, Thing, goal, net_across, standing_table

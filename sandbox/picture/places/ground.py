@@ -23,9 +23,6 @@ OVERSAMPLING = 2
 #: Stripes stripes narrower than this, in px on 720 rows, are drawn twice as wide.
 LEAST_STRIPE = 12
 
-#: Width of a tennis court, and of the part on either side that is for doubles, in m (ITF rules, rule 1).
-COURT_WIDTH, TRAMLINES = 10.97, 1.37
-
 #: Points (x, z) of the ground in m: along the plane of play, and away from the eye.
 Line = Sequence[tuple[float, float]]
 #: From points of the ground in m to those of what is drawn, larger, in px.
@@ -158,26 +155,6 @@ def boards(colours: Mapping[str, Any], line: float = 0.05, **more: Any) -> Groun
     wide."""
     edges = [(colours["lit"], 2), (colours["cut"], 7)]
     return Ground(Planks(colours["wood"]), colours["beneath"], edges, line=(colours["line"], line), far=0.44, **more)
-
-
-def tennis_court(
-    length: float,
-    service: float,
-    around: Colour,
-    inside: Colour,
-    line: Colour,
-    edge: Colour,
-    soil: tuple[Colour, Colour, Colour],
-) -> Ground:
-    """A tennis court from x = 0 on, its near line in the plane of play, service lines ``service`` m from the net."""
-    width, tram, middle = COURT_WIDTH, TRAMLINES, 0.5 * length
-    outline = [(0.0, 0.0), (length, 0.0), (length, width), (0.0, width)]
-    singles = [[(0.0, z), (length, z)] for z in (tram, width - tram)]
-    across = [[(x, tram), (x, width - tram)] for x in (middle - service, middle + service)]
-    centre = [(middle - service, 0.5 * width), (middle + service, 0.5 * width)]
-    lines = [[*outline, outline[0]], *singles, *across, centre]
-    surface, areas = Stripes((around, around), 4.0), [(outline, inside)]
-    return Ground(surface, soil, edges=[(edge, 4)], areas=areas, lines=lines, line=(line, 0.06))
 
 
 @lru_cache(maxsize=4)

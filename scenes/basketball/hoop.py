@@ -1,25 +1,21 @@
-"""The court: its lines as points in m, along the plane of play and across it; stand, board, ring, and the net."""
+"""Stand, board, ring, and the net that hangs from it."""
 
 from __future__ import annotations
 
 from functools import lru_cache
-from math import asin, cos, exp, pi, sin, tau
+from math import cos, exp, pi, sin, tau
 
 import numpy as np
 
 from sandbox.engine.run import Run
 from sandbox.picture.palette import mix, palette, scene_colours
-from sandbox.picture.places import Line, Post, Shape, Thing
+from sandbox.picture.places import Post, Shape, Thing
 from sandbox.picture.views import Eye, Painter
 
 from .scene import Parameters, on_floor
 
 COLOURS, SHADOW = scene_colours(__file__)["hoop"], palette("card")["shadow"]
 
-#: NBA rules, in m: length and half width of the key, circle, three-point line: its radius, and from the middle
-#: where it is straight; from the middle to the side line, from the board to the end line, and from end to end.
-KEY_LENGTH, KEY_HALF_WIDTH, THROW_CIRCLE = 4.572, 2.438, 1.829
-ARC, CORNER, HALF_WIDTH, BEHIND_BOARD, LENGTH = 7.24, 6.71, 7.62, 1.22, 28.65
 #: Half the width of the board and of the square on it, and the square's height, in m.
 BOARD, SQUARE, SQUARE_HEIGHT = 0.915, 0.305, 0.46
 #: Strands around the ring, knots on each, and the width of the net's lower end over that of the ring.
@@ -27,24 +23,6 @@ STRANDS, KNOTS, NARROW = 11, 9, 0.56
 #: After the ball has left, the net swings at this rate (rad/s) and settles at this rate (1/s), until its swing
 #: has fallen to exp(-SETTLED).
 SWING, SETTLE, SETTLED = 11.0, 3.0, 5.0
-
-
-def key(board: float) -> Line:
-    """The corners of the painted area, whose long side is in the plane of play, with the face of the board at x."""
-    end, throw = board + BEHIND_BOARD, board - KEY_LENGTH
-    return [(throw, 0.0), (throw, KEY_HALF_WIDTH), (end, KEY_HALF_WIDTH), (end, 0.0)]
-
-
-def lines(board: float, ring: float) -> list[Line]:
-    """The lines behind the plane of play, which goes through the middle of board and ring: key, circle, three-point
-    line, end line and side line."""
-    end, throw, turns = board + BEHIND_BOARD, board - KEY_LENGTH, np.linspace(pi, pi - asin(CORNER / ARC), 40)
-    return [
-        key(board)[:3],
-        [(throw + THROW_CIRCLE * cos(turn), THROW_CIRCLE * sin(turn)) for turn in np.linspace(pi / 2, pi, 25)],
-        [*((ring + ARC * cos(turn), ARC * sin(turn)) for turn in turns), (end, CORNER)],
-        [(end, 0.0), (end, HALF_WIDTH), (end - LENGTH, HALF_WIDTH)],
-    ]
 
 
 def stand(parameters: Parameters) -> list[Thing]:
