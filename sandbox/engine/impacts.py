@@ -21,7 +21,7 @@ from sandbox.engine.surfaces import (
     speeds_where_touching,
     tilted,
 )
-from sandbox.engine.touch import TOUCHING_GAP
+from sandbox.engine.touch import TOUCHING_GAP, Obstacle
 from sandbox.engine.track import Pressing, Track
 from sandbox.physics.cushion import raised
 from sandbox.physics.integrators import State
@@ -175,17 +175,19 @@ class Impacts:
 
     def _with_surfaces(self, states: dict[int, State], soft: bool | None) -> Iterator[Contact]:
         """The contacts with soft or hard walls, or both, each from the states when it is asked for. Where two surfaces
-        join, a point of both counts once."""
+        join, a point of both counts once, for the surface whose side it is less far ``off``."""
         for index in states:
-            track, met = self._tracks[index], list[tuple[float, ...]]()
+            track, met = self._tracks[index], dict[tuple[float, ...], tuple[Obstacle, Meeting, int]]()
             asked = [each for each in track.obstacles if soft is None or self._soft(each.surface) is soft]
             for obstacle, found in surfaces_met(track.ball, asked, states[index], self.gap):
                 for number, point in enumerate(found.points):
                     place = *point, *(track.ball.radius * part for part in found.normal)
-                    if all(dist(place, other) > _SAME_POINT * track.ball.radius for other in met):
-                        met.append(place)
-                        contact = with_surface(index, track.ball, states[index], obstacle.surface, found, number)
-                        yield self._hopping(contact)
+                    near = (each for each in met if dist(place, each) <= _SAME_POINT * track.ball.radius)
+                    place = next(near, place)
+                    if place not in met or obstacle.off(*found.normal) < met[place][0].off(*met[place][1].normal):
+                        met[place] = obstacle, found, number
+            for obstacle, found, number in met.values():
+                yield self._hopping(with_surface(index, track.ball, states[index], obstacle.surface, found, number))
 
     def _soft(self, surface: Surface) -> bool:
         return self._all_soft or surface.nose_height is not None

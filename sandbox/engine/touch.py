@@ -185,6 +185,12 @@ class Obstacle:
         """Gap and normal of a ball centred at (x, y) to this feature."""
         return self.outline.side(x, y) if feature == SIDE else self.outline.corner(feature, x, y)
 
+    def off(self, nx: float, ny: float) -> float:
+        """How far a normal at its corner is off its side's. Where surfaces share a corner, the least far off acts: the
+        one that the ball is more nearly above, however they are listed."""
+        outline = self.outline
+        return round(abs(nx * outline.tx + ny * outline.ty), 9) if outline.length > 0.0 else 0.0
+
     def first_touch(self, arc: Arc) -> float | None:
         """The first u in [0, 1] of the arc at which the ball starts to touch, or None."""
         ax, ay, bx, by, reach, length, _, _ = self.outline

@@ -258,7 +258,8 @@ class Track:
             mode, direction = motion_on(ball, state, obstacle.surface, ahead, applied, slips)
             if mode != FLYING:
                 held.append(LastingContact(mode, obstacle, ahead, direction))
-        held.sort(key=lambda contact: contact.touching.curvature)  # the next piece's side before this one's corner
+        # the next piece's side before this one's corner; of two that share the corner the one that it is above
+        held.sort(key=lambda by: (by.touching.curvature, by.obstacle.off(by.touching.nx, by.touching.ny)))
         two = None
         for contact in held:
             (ax, ay, _), _, _ = contact.forces(ball, applied, state)

@@ -468,3 +468,26 @@ def test_some_of_the_slip_of_a_ball_that_grips_is_reversed(method: str, mirror: 
         lost = max(-friction * 9.0, min(0.55 * slip, friction * 9.0))
         assert mirror * vx == pytest.approx(speed - lost, abs=1e-9)
         assert mirror * after == pytest.approx(spin - lost / 0.55 / 0.03, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("angle", "speed", "spin", "first"),
+    [(1.8, 1.0, 20.0, "green"), (1.0, 2.0, -30.0, "green"), (0.6, 2.0, 40.0, "cup"), (-0.8, 1.5, 0.0, "cup")],
+)
+def test_a_lip_is_of_the_surface_that_the_ball_is_more_nearly_above_in_any_order(angle, speed, spin, first):
+    """Straight at the corner, from ``angle`` above the level: below 45 degrees it is the wall's."""
+    green, wall = Segment((-5.0, 0.0), (0.0, 0.0)), Segment((0.0, 0.0), (0.0, -0.1))
+    pieces = [Surface("green", green, 0.3, 0.5), Surface("cup", wall, 0.7, 0.1)]
+    (x, y), flying = (0.3 * cos(angle), 0.3 * sin(angle)), (-speed * cos(angle), -speed * sin(angle))
+    setup = Setup([ball((x, y), flying, spin, gravity=0.0)], pieces, duration=0.6)
+    one, other = (simulate(replace(setup, surfaces=each), resolve()) for each in (pieces, pieces[::-1]))
+    assert [event.partner for event in one.events] == [event.partner for event in other.events] == [first]
+    assert one.state("ball", 0.6) == other.state("ball", 0.6)
+
+
+def test_a_ball_that_rolls_over_a_lip_does_so_alike_in_any_order():
+    green, wall = Segment((-5.0, 0.0), (0.0, 0.0)), Segment((0.0, 0.0), (0.0, -0.1))
+    pieces = [Surface("cup", wall, 0.0, 0.9), Surface("green", green, 0.0, 0.05)]
+    setup = Setup([ball((-0.1, 0.05), (0.2, 0.0))], pieces, duration=1.0)
+    one, other = (simulate(replace(setup, surfaces=each), resolve()) for each in (pieces, pieces[::-1]))
+    assert one.state("ball", 1.0) == pytest.approx(other.state("ball", 1.0), abs=1e-12)
