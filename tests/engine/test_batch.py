@@ -672,6 +672,9 @@ def test_rows_are_the_arcs_they_were_made_from():
         middle = 0.5 * (arc.t0 + arc.t1)
         assert kept.state(middle) == arc.state(middle)
         assert kept.state(arc.t1) == arc.state(arc.t1)
+    assert [(t0, t1, list(x), list(y)) for t0, t1, x, y in rows.pieces()] == [
+        (t0, t1, list(x), list(y)) for t0, t1, x, y in Path(flights).pieces()
+    ]
     by_rows = Run(run.setup, run.accuracy, {"ball": rows}, run.events, run.numerics, run.duration, run.ended)
     by_list = Run(run.setup, run.accuracy, {"ball": Path(flights)}, run.events, run.numerics, run.duration, run.ended)
     for point, normal in (((0.0, 0.5), (0.0, 1.0)), ((1.5, 0.0), (-0.6, 0.8)), ((0.0, 0.5), (0.0, -1.0))):

@@ -136,6 +136,7 @@ def test_random_points_are_the_same_however_they_are_taken(drop):
         (("launch.height=1:2",), {}, "--over launch.height=1:2: a grid needs the number of points, 1:2:N"),
         (("launch.height=1:2:2", "launch.height=3,4"), {}, "swept over twice"),
         (("launch.height=1:2",), {"samples": -1}, "samples = -1, seed = 0: must not be less than 0"),
+        (("launch.height=1:2",), {"samples": 3, "seed": -1}, "samples = 3, seed = -1: must not be less than 0"),
         (("launch.height=1:2:1000000", "launch.speed=1:2:1000000"), {}, "too many"),
     ],
 )
@@ -363,6 +364,12 @@ def test_what_another_sweep_found_is_kept_and_the_same_rows_are_not(drop, tmp_pa
     assert (before.read_bytes(), done.before) == (found, before)
     assert f"the previous rows are in {before}" in done.as_text()
     assert path.read_bytes() == whole(other, tmp_path / "fresh.csv") != found
+
+
+def test_a_sweep_that_was_complete_is_not_said_to_be_written(tmp_path, capsys):
+    command = ["sweep", str(DROP), "--over", "launch.height=1,2", "--out", str(tmp_path / "rows.csv")]
+    said = [(main(command), "wrote" in capsys.readouterr().out) for _ in range(2)]
+    assert said == [(0, True), (0, False)]
 
 
 def test_all_that_rows_depend_on_makes_another_sweep(tmp_path, monkeypatch):
