@@ -46,13 +46,18 @@ def starts(balls: Sequence[Ball], obstacles: Mapping[float, Sequence[Obstacle]])
 def _overlaps(
     balls: Sequence[Ball], places: Sequence[Sequence[float]], obstacles: Mapping[float, Sequence[Obstacle]]
 ) -> Iterator[tuple[int, int | None, str, float, float, float, float]]:
-    """Each overlap of two balls, then of balls and surfaces, from the places when it is asked for: the balls, the name
-    of what the first overlaps, the sum of the radii and the depth in m, and the normal to the first."""
-    for i, ball in enumerate(balls):
-        for j, other in enumerate(balls[:i]):
-            found = meeting(ball, _placed(ball, places[i]), other, _placed(other, places[j]))
-            if found.gap < -TOUCHING_GAP:
-                yield i, j, other.name, ball.radius + other.radius, -found.gap, *found.normal
+    """Each overlap of two balls, all from the same places, then of balls and surfaces, from the places when it is asked
+    for: the balls, the name of what the first overlaps, the sum of the radii and the depth in m, and the normal to the
+    first."""
+    states = [_placed(*each) for each in zip(balls, places, strict=True)]
+    overlapping = [
+        (i, j, found)
+        for i, ball in enumerate(balls)
+        for j, other in enumerate(balls[:i])
+        if (found := meeting(ball, states[i], other, states[j])).gap < -TOUCHING_GAP
+    ]
+    for i, j, found in overlapping:
+        yield i, j, balls[j].name, balls[i].radius + balls[j].radius, -found.gap, *found.normal
     for i, ball in enumerate(balls):
         for obstacle, met in surfaces_met(ball, obstacles[ball.radius], _placed(ball, places[i]), -_ROUNDING):
             yield i, None, obstacle.surface.name, ball.radius, -met.gap, *met.normal

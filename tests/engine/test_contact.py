@@ -491,3 +491,11 @@ def test_a_ball_that_rolls_over_a_lip_does_so_alike_in_any_order():
     setup = Setup([ball((-0.1, 0.05), (0.2, 0.0))], pieces, duration=1.0)
     one, other = (simulate(replace(setup, surfaces=each), resolve()) for each in (pieces, pieces[::-1]))
     assert one.state("ball", 1.0) == pytest.approx(other.state("ball", 1.0), abs=1e-12)
+
+
+def test_a_rack_that_overlaps_is_pushed_apart_alike_in_any_order():
+    spots = [(0.0866 * row, 0.0999 * (k - 0.5 * row)) for row in range(4) for k in range(row + 1)]
+    rack = [ball(spot, gravity=0.0, name=str(k)) for k, spot in enumerate(spots)]
+    one, other = (simulate(Setup(balls, duration=0.01), resolve()) for balls in (rack, rack[::-1]))
+    for each in rack:
+        assert one.state(each.name, 0.0) == pytest.approx(other.state(each.name, 0.0), abs=1e-15)
