@@ -411,9 +411,10 @@ class View(Generic[P]):
         self.trails(painter, camera, t)
         sheet.surface.set_clip(None)
         larger = LARGER if len(self.balls) == 1 else 1.0
-        placed = self.place_balls(painter, camera, t, larger)
+        placed = self._placed(camera, t, larger)
         if self.ball in placed:
             self.vectors.draw(sheet, *placed[self.ball], t)
+        self.place_balls(painter, camera, t, larger)
         self.before(painter, camera, t)
         self.scale(sheet, camera)
         room = self._room(sheet, camera, t)
@@ -536,15 +537,12 @@ class View(Generic[P]):
         things = "bodies" if self.thing == "body" else f"{self.thing}s"
         return [f"a {self.thing} every {every:g} s", *([f"a bead where {things} would overlap"] if crowded else [])]
 
-    def place_balls(
-        self, painter: Painter, camera: Camera, t: float, larger: float = 1.0
-    ) -> dict[str, tuple[Point, float]]:
-        """All that are there at time t in s, over their shadows; where and with what radius, in px."""
+    def place_balls(self, painter: Painter, camera: Camera, t: float, larger: float = 1.0) -> None:
+        """All that are there at time t in s, over their shadows."""
         placed = self._placed(camera, t, larger)
         for draw in (self.shadow, self.draw_ball):
             for name, (at, radius) in placed.items():
                 draw(painter, camera, name, t, at, radius)
-        return placed
 
     def _strings(self, painter: Painter, camera: Camera, t: float) -> None:
         """Of the balls that hang."""
