@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import cos, sin
 from typing import Any
 
-from sandbox.physics.elementwise import hypot
+from sandbox.physics.elementwise import clip, hypot
 from sandbox.physics.forces import Wind, in_wind
 
 
@@ -42,5 +42,5 @@ class Follows:
     def __call__(self, t: Any, position: Any, velocity: Any, spin: Any) -> Any:
         speed = hypot(*velocity) + 1e-30
         off = (velocity[1] * cos(position.angle) - velocity[0] * sin(position.angle)) / speed
-        high = min(max((position[1] - self.lowest) / 0.2, 0.0), 1.0)
+        high = clip((position[1] - self.lowest) / 0.2, 0.0, 1.0)
         return high * self.inertia * (self.rate**2 * off - 2.0 * self.rate * spin)

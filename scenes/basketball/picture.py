@@ -224,13 +224,8 @@ class Picture(SideView[Parameters]):
         ball = entry(self.run, self.parameters)
         if ball is None:
             return
-        (px, py), unit, accent, side = (
-            self.near.pixel(ball.x, ball.y),
-            self.unit,
-            CARD["accent"],
-            -1 if ball.vx > 0 else 1,
-        )
-        radius = self.radius * self.near.scale
+        (px, py), unit, accent = self.near.pixel(ball.x, ball.y), self.unit, CARD["accent"]
+        side, radius = -1 if ball.vx > 0 else 1, self.radius * self.near.scale
         far, turn = radius + 26 * unit, np.linspace(0, radians(ball.descent), 25)
         across, down = side * cos(turn[-1] / 2), -sin(turn[-1] / 2)
         anchor = "midright" if side < 0 else "midleft"
