@@ -351,7 +351,7 @@ class View(Generic[P]):
     def notes(self, camera: Camera) -> list[str]:
         """What is not drawn as it is."""
         factor = self.least / (self.radius * camera.scale)
-        return [*self._stretched(camera), *self.remarks(camera), *self._larger(factor, times(factor)), *self._caveat]
+        return [*self._stretched(camera), *self.remarks(camera), *self._larger(factor), *self._caveat]
 
     def poster(self) -> pygame.Surface:
         """The whole run in one picture."""
@@ -410,18 +410,18 @@ class View(Generic[P]):
             ghost.draw_in_frame(sheet, self.traced(camera, ghost.points), self.spots(camera, ghost.at(t), 0.0)[0])
         self.trails(painter, camera, t)
         sheet.surface.set_clip(None)
-        larger = LARGER if len(self.balls) == 1 else 1.0
-        placed = self._placed(camera, t, larger)
+        placed = self._placed(camera, t, LARGER if len(self.balls) == 1 else 1.0)
         if self.ball in placed:
             self.vectors.draw(sheet, *placed[self.ball], t)
-        self.place_balls(painter, camera, t, larger)
+        self._draw_placed(painter, camera, t, placed)
         self.before(painter, camera, t)
         self.scale(sheet, camera)
         room = self._room(sheet, camera, t)
         over = t >= self.told
         headline, *notes = (self.run.scene.verdict(self.run),) if over else self.progress(t)
         notes += [*(f"compared with {ghost.label}" for ghost in self.ghosts), *self.aligned, *self._stretched(camera)]
-        notes += [*self._caveat, *self._larger(larger * self.least / (self.radius * camera.scale))]
+        factors = (radius / (self.radii[name] * camera.scale) for name, (_, radius) in placed.items())
+        notes += [*self._caveat, *self._larger(max(factors, default=1.0), said=False)]
         sheet.headline(headline, [note for note in notes if note], room)
         others = [(ghost.light, ghost.view.live(min(t, ghost.run.duration))) for ghost in self.ghosts]
         sheet.columns(self.card_row, self.live(t), others)
@@ -442,14 +442,14 @@ class View(Generic[P]):
         """To note how much larger heights are drawn than lengths."""
         return [f"{self.STRETCHED} drawn {camera.stretch:g} times as large as lengths"] if camera.stretch != 1 else []
 
-    def _larger(self, factor: float, so_much: str = "larger than") -> list[str]:
-        """To note how many times their size balls are drawn; in frames, where the camera may move, that they are."""
-        who, whose, are = (
-            (self.thing, "its", "it is") if len(self.balls) == 1 else (f"{self.THING}s", "their", "they are")
-        )
-        return (
-            [f"{who} drawn {so_much} {are if so_much == 'larger than' else f'{whose} size'}"] if factor > UNSAID else []
-        )
+    def _larger(self, factor: float, said: bool = True) -> list[str]:
+        """To note how many times their size balls are drawn; or, if that is not ``said``, that they are larger: in
+        frames the camera may move."""
+        alone = len(self.balls) == 1
+        how = f"{times(factor)} {'its' if alone else 'their'} size"
+        larger = f"larger than {'it is' if alone else 'they are'}"
+        who = self.thing if alone else f"{self.THING}s"
+        return [f"{who} drawn {how if said else larger}"] if factor > UNSAID else []
 
     def look_of(self, name: str) -> Look:
         """How a ball looks."""
@@ -537,9 +537,13 @@ class View(Generic[P]):
         things = "bodies" if self.thing == "body" else f"{self.thing}s"
         return [f"a {self.thing} every {every:g} s", *([f"a bead where {things} would overlap"] if crowded else [])]
 
-    def place_balls(self, painter: Painter, camera: Camera, t: float, larger: float = 1.0) -> None:
+    def place_balls(self, painter: Painter, camera: Camera, t: float) -> None:
         """All that are there at time t in s, over their shadows."""
-        placed = self._placed(camera, t, larger)
+        self._draw_placed(painter, camera, t, self._placed(camera, t, 1.0))
+
+    def _draw_placed(
+        self, painter: Painter, camera: Camera, t: float, placed: Mapping[str, tuple[Point, float]]
+    ) -> None:
         for draw in (self.shadow, self.draw_ball):
             for name, (at, radius) in placed.items():
                 draw(painter, camera, name, t, at, radius)
