@@ -25,11 +25,10 @@ from sandbox.window.game import WIDEST
 from sandbox.window.measure import Tape
 from sandbox.window.menu import Menu, thumbnail
 from sandbox.window.overlay import Board, Chart, Overlay, Row
-from sandbox.window.replay import run_of
 from sandbox.window.shots import Played, Shot, write_csv
 from sandbox.window.table import Table
 from sandbox.window.view import AHEAD, View
-from sandbox.window.worker import cost_and_errors
+from sandbox.window.worker import cost_and_errors, unpacked
 
 CARD = palette("card")
 #: How much larger than usual letters can be.
@@ -235,7 +234,7 @@ def _find_one(view: View, question: Question) -> None:
         if not found:
             game.tell(f"no shot at {question.name} was found by changing speed and angle")
             return
-        shots = [Shot(each.scene, run_of(each.scene, each.data), number=i) for i, each in enumerate(found, 1)]
+        shots = [Shot(each.scene, unpacked(each.scene, each.run), number=i) for i, each in enumerate(found, 1)]
 
         def marks() -> list[Mark]:
             stage = view.stage

@@ -15,7 +15,7 @@ from sandbox.sport.controls import Goal
 from sandbox.window.fan import spread_of
 from sandbox.window.handles import grips
 from sandbox.window.session import Session
-from sandbox.window.worker import computed
+from sandbox.window.worker import Packed, computed
 
 #: Where the scene says nothing else, speeds are tried up to so many times the current one, from a share of that; and
 #: angles in deg: upwards, or to either side of the current one.
@@ -35,7 +35,7 @@ class Found(NamedTuple):
     values: dict[str, Any]  # the changes that aim so
     margin: float  # how far off it may be, in standard deviations of a practised player
     said: str
-    data: dict[str, Any]  # of its run
+    run: Packed
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from concurrent.futures import Future
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from sandbox.errors import RunError
+from sandbox.errors import RequestError, RunError
 from sandbox.scene.modules import forget
 from sandbox.tracebacks import one_line_error
 from sandbox.window import replay
@@ -21,11 +21,10 @@ from sandbox.window.handles import Grip
 from sandbox.window.history import Changes, History
 from sandbox.window.memory import Memory
 from sandbox.window.playback import Playback
-from sandbox.window.replay import run_of
 from sandbox.window.session import Session
 from sandbox.window.shots import Played, Shot, Shots
 from sandbox.window.watch import Watch
-from sandbox.window.worker import computed, warm_up
+from sandbox.window.worker import Packed, computed, unpacked, warm_up
 from sandbox.workers import Processes, WorkerLost
 
 #: How long a message stays, in s.
@@ -64,7 +63,7 @@ class Game:
         self.session, self.worker, self.patience, self.helper = session, worker, patience, helper or worker
         self.running = True
         self.history = History(session.changes)
-        self.runs: Latest[tuple[dict[str, Any], float]] = Latest(worker.abandon, LONG)  # of worker.computed
+        self.runs: Latest[tuple[Packed, float]] = Latest(worker.abandon, LONG)  # of worker.computed
         self.aimed: Shot | None = None  # of the last run that did not fail
         self.shooting = False  # the shot is watched as soon as it is computed
         self.playback: Playback | None = None  # of the shot that is watched; None while aiming
@@ -249,19 +248,33 @@ class Game:
             return
         if self.runs.value is not None:
             scene, changes = self.runs.key
-            record, self.cost = self.runs.value
+            packed, self.cost = self.runs.value
             try:
-                self.aimed = shot = Shot(scene, run_of(scene, record), changes)
+                self.aimed = shot = Shot(scene, unpacked(scene, packed), changes)
             except Exception as error:
                 self.runs.error = error
         if self.runs.error is not None:
             self.shooting = False
+            if isinstance(self.runs.error, RequestError):
+                self._refuse(self.runs.error)
             return
         self.still = 0.0
         if self.before_save is not None and self.before_save.run.result == shot.run.result:
             self.before_save = None  # saving changed nothing
         if self.shooting and self.settled:
             self._keep(shot)
+
+    def _refuse(self, why: RequestError) -> None:
+        """Aim as in the last run if the scene cannot be built from these parameters, such as with balls that
+        overlap."""
+        good = self.aimed
+        if good is None or good.changes.source != self.session.source or not self.settled:
+            return
+        self.history.replace(good.changes)
+        if self._restore(good.changes):
+            self.tell(self.reason(why), bad=True)
+            if self.session.scene == good.scene:  # and no file was saved since
+                self.runs.key, self.runs.error = self.wanted, None
 
     def stop(self) -> bool:
         """Stop a long run; returns whether there was one."""
@@ -363,7 +376,7 @@ class Game:
         grip = grip or self.grip
         if grip is not None:
             values = grip.changes(place, step)
-            self._changing(lambda: self.session.change(values, built=True), frozenset(values))
+            self._changing(lambda: self.session.change(values), frozenset(values))
 
     def release(self) -> None:
         """The mouse lets go: a pull that is long enough is a shot."""
@@ -417,8 +430,8 @@ class Game:
     def pin(self, row: Played) -> None:
         """Keep the path of a shot, which is computed again if it was dropped; or keep it no longer."""
 
-        def then(result: tuple[dict[str, Any], float]) -> None:
-            row.shot = Shot(row.scene, run_of(row.scene, result[0]), row.changes, row.number)
+        def then(result: tuple[Packed, float]) -> None:
+            row.shot = Shot(row.scene, unpacked(row.scene, result[0]), row.changes, row.number)
 
         self.table.pin(row)
         if row.pinned and row.shot is None:
@@ -482,8 +495,8 @@ class Game:
     def compare(self, shot: Shot) -> None:
         """Compute a shot again, and report how far apart the two are."""
 
-        def then(result: tuple[dict[str, Any], float]) -> None:
-            self.tell(replay.compared(shot.run, run_of(shot.scene, result[0])))
+        def then(result: tuple[Packed, float]) -> None:
+            self.tell(replay.compared(shot.run, unpacked(shot.scene, result[0])))
 
         self.ask(self.helper.submit(computed, shot.scene), then)
 

@@ -48,6 +48,10 @@ class History:
         del self.steps[:-DEPTH]
         self.now = len(self.steps) - 1
 
+    def replace(self, changes: Changes) -> None:
+        """The current step came to these parameters instead."""
+        self.steps[self.now] = self.steps[self.now]._replace(changes=changes)
+
     def end(self) -> None:
         """What is done next is another step, even if it is of the same kind."""
         self.steps[self.now] = self.steps[self.now]._replace(what=None)

@@ -100,15 +100,12 @@ class Session:
     def _set(self, values: dict[str, Any], positions: frozenset[str]) -> None:
         self.scene, self.changes = self.with_changes(values), Changes(self.source, values, positions & values.keys())
 
-    def change(self, values: Mapping[str, Any], built: bool = False) -> None:
-        """Add these changes; ``built`` refuses those that give no scene, such as balls that overlap."""
+    def change(self, values: Mapping[str, Any]) -> None:
+        """Add these changes."""
         if any("[" in key for key in values):
             now = self.scene.parameters
             values = declared.without_indices(type(now), now.model_dump(), "", values, "the window's")
-        values = {**self.changes.values, **values}
-        if built:
-            self.with_changes(values).build()
-        self._set(values, self.changes.positions)
+        self._set({**self.changes.values, **values}, self.changes.positions)
 
     def reset(self, key: str | None = None) -> None:
         """Back to the file: one parameter, or all of them."""

@@ -17,6 +17,7 @@ from sandbox.engine.accuracy import LEVELS
 from sandbox.new import new_scene
 from sandbox.window.aim import nudged
 from sandbox.window.game import LATE, LONG, Game
+from sandbox.window.handles import grips
 from sandbox.window.history import DEPTH
 from sandbox.window.session import Session
 from sandbox.window.shots import PATHS
@@ -24,6 +25,18 @@ from sandbox.window.worker import computed
 from sandbox.workers import WorkerLost
 
 STUCK = "\n\ndef stuck(t, position, velocity, spin):\n    while velocity[0] > 9:\n        pass\n    return 0.0, 0.0\n"
+PLAIN = "\n\ndef stuck(t, position, velocity, spin):\n    return 0.0, 0.0\n"
+LAMBDA = "\n\nstuck = lambda t, position, velocity, spin: (0.0, 0.0)\n"
+COUNTED = """
+
+def counted(parameters, build=build):
+    with open(__file__ + ".built", "a") as file:
+        file.write("x")
+    return build(parameters)
+
+
+build = counted
+"""
 RAISES = "\n\ndef stuck(t, position, velocity, spin):\n    return 1 / (velocity[0] < 9), 0.0\n"
 
 
@@ -196,6 +209,49 @@ class TestARunThatNeverEnds:
         game.settle()
         assert game.failure is None
         assert game.shot.scene is game.session.scene
+
+
+@pytest.mark.parametrize(("force", "times"), [(PLAIN, 1), (LAMBDA, 2)])
+def test_a_setup_is_built_once_where_it_is_run(own, worker, force, times):
+    """Again in the window only if it cannot be pickled."""
+    game = own(force + COUNTED, worker)
+    game.settle()
+    builds = game.session.base.folder / "scene.py.built"
+    (fan,) = [grip for grip in grips(game.session) if "fan.place" in grip.keys]
+    for count, change in enumerate(
+        (
+            lambda: game.change({"launch.speed": 9.0}),
+            lambda: game.drag_to((fan.place[0] + 1.0, 0.0), 0.1, fan),
+            game.undo,
+            lambda: game.reset(),
+        ),
+        1,
+    ):
+        if count == 1:
+            builds.unlink()
+        change()
+        game.settle()
+        assert game.shot.scene is game.session.scene
+        assert builds.read_text("utf-8") == "x" * times * count
+    game.shoot()
+    assert len(builds.read_text("utf-8")) == 4 * times
+
+
+def test_what_the_scene_cannot_be_built_from_is_refused_and_no_step_of_undo(worker):
+    game = Game(Session("billiards/cut"), worker)
+    game.settle()
+    game.change({"cue.angle": 12.0})
+    game.settle()
+    shot = game.shot
+    for values in ({"cue.follow": 0.9}, {"balls[1].x": game.session.value("balls[0].x"), "balls[1].y": 0.0}):
+        game.change(values)
+        game.settle()
+        assert game.notices[-1][1]
+        assert game.failure is None
+        assert game.shot is shot
+        assert game.session.changes.values == {"cue.angle": 12.0}
+    game.undo()
+    assert game.session.changes.values == {}
 
 
 class TestUndo:
