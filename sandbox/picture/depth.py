@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -27,13 +27,6 @@ class Eye:
     def base(self) -> float:
         """The row in which the plane of play meets level ground, in px."""
         return self.camera.anchor[1]
-
-    def enlarged(self, x: float, factor: float) -> Eye:
-        """Sees what stands on the ground at x (m) in its place, so many times as large."""
-        camera = self.camera
-        return replace(
-            self, camera=replace(camera, at=(x, 0.0), anchor=camera.pixel(x, 0.0), scale=camera.scale * factor)
-        )
 
     def along(self, px: float, z: float) -> float:
         """Where along the plane of play, in m, what is seen in a column (px) and z m behind the plane stands."""

@@ -22,7 +22,7 @@ from sandbox.picture.path import FINEST, apart
 from sandbox.picture.places import Ground, Scenery, Thing
 from sandbox.picture.sheet import CARD, Entry, Sheet, SideRows
 from sandbox.picture.view import P, View
-from sandbox.sport.amounts import metres
+from sandbox.sport.amounts import metres, roughly
 
 #: The picture shows at least so many radii of the ball along the ground.
 LEAST_WIDTH = 60
@@ -241,6 +241,11 @@ class SideView(View[P]):
         low, high = (camera.world(px, 0)[0] for px in (rect.left + gap, rect.right - gap))
         kept = apart(camera.pixels(self.path.points), FINEST)
         return rect, camera, kept, camera.pixels(self.profile(low, high))
+
+    def remarks(self, camera: Camera) -> list[str]:
+        """How far away what is aimed at is, where that is not in sight."""
+        (x, _), what = self.datum
+        return [] if 0 <= camera.pixel(x, 0.0)[0] <= self.size[0] else [f"{what} is {roughly(abs(x))} away"]
 
     @cached_property
     def chase(self) -> Chase:

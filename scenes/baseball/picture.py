@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cached_property
 
 from sandbox.picture.palette import scene_colours
-from sandbox.picture.places import Landscape, Person, Post, Shape, Size, turf
+from sandbox.picture.places import Landscape, Person, Post, Shape, turf
 from sandbox.picture.views import Box, Camera, Length, Look, Place, Sheet, SideView, seams
 from sandbox.sport.amounts import twice
 from sandbox.sport.readings import passing
@@ -40,11 +40,9 @@ class Picture(SideView[Parameters]):
         track = [(foot - TRACK, 0.0), (foot, 0.0), (foot, DEEP), (foot - TRACK, DEEP)]
         ground = turf(FIELD, 8.0, 6, areas=[(dirt, FIELD["infield"]), (track, FIELD["track"])])
         corners = [(foot, 0.0, 0.0), (foot, high, 0.0), (foot, high, DEEP), (foot, 0.0, DEEP)]
-        batter = Size(0.0, 1.85, 30).of(Person(0.0, 1.85, COLOURS["batter"], "batting"))
+        wall, batter = Shape(corners, COLOURS["fence"]["wall"]), Person(0.0, 1.85, COLOURS["batter"], "batting")
         pole = Post([(foot, 0.0, 0.0), (foot, high + POLE, 0.0)], 0.1, COLOURS["fence"]["pole"])
-        return Place(
-            Landscape(**COLOURS["landscape"]), ground, [Shape(corners, COLOURS["fence"]["wall"]), pole, *batter]
-        )
+        return Place(Landscape(**COLOURS["landscape"]), ground, [wall, pole, batter])
 
     def annotate(self, sheet: Sheet, camera: Camera) -> None:
         fence, over = self.parameters.fence, self.run.result["over_fence"]

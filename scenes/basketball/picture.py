@@ -14,10 +14,10 @@ from sandbox.picture.marks import draw_trace, mark_impacts
 from sandbox.picture.painter import around_corners
 from sandbox.picture.palette import mix, palette, scene_colours
 from sandbox.picture.path import Mark
-from sandbox.picture.places import Hall, Person, Size, boards
+from sandbox.picture.places import Hall, Person, boards
 from sandbox.picture.places.courts import basketball_key, basketball_lines
 from sandbox.picture.views import Box, Camera, Entry, Eye, Length, Look, Painter, Place, Sheet, SideView, seams
-from sandbox.sport.amounts import metres, roughly, times
+from sandbox.sport.amounts import metres
 
 from . import hoop
 from .scene import Parameters, entry, on_floor
@@ -27,8 +27,6 @@ BALL, FLOOR = COLOURS["ball"], COLOURS["floor"]
 
 #: How far behind the board the stand reaches, and before the release the thrower, in m.
 STAND, THROWER = 2.5, 0.7
-#: Board, ring and stand are drawn larger where they would be less tall than this, px on 720 rows.
-LEAST_HEIGHT = 80
 #: The lens shows so much of the world, in m, on so many px (of 720 rows); its middle lies so far from the ring's, in m.
 SHOWN, SIDE, OFF_MIDDLE = 1.22, 286, (-0.02, 0.08)
 #: There is no lens if the whole would have to be drawn smaller than this for it, or if it were no larger than this.
@@ -81,11 +79,6 @@ class Picture(SideView[Parameters]):
         return hoop.HangingNet(self.run, self.parameters)
 
     @property
-    def hoop_size(self) -> Size:
-        """Of ring, board and stand."""
-        return Size(self.ring[0], max(self.ring[1], self.parameters.backboard.top), LEAST_HEIGHT)
-
-    @property
     def thrower(self) -> list[Person]:
         """The thrower, if a person can have thrown from there."""
         height = self.parameters.release.height
@@ -99,21 +92,15 @@ class Picture(SideView[Parameters]):
         face = self.parameters.board[0]
         lines = basketball_lines(face, self.ring[0])
         ground = boards(FLOOR, areas=[(basketball_key(face), FLOOR["key"])], lines=lines)
-        goal = self.hoop_size.of(*hoop.stand(self.parameters), *hoop.hoop(self.parameters))
-        return Place(Hall(**COLOURS["hall"]), ground, [*goal, *self.thrower])
+        things = [*hoop.stand(self.parameters), *hoop.hoop(self.parameters), *self.thrower]
+        return Place(Hall(**COLOURS["hall"]), ground, things)
 
     def behind(self, painter: Painter, camera: Camera, t: float) -> None:
-        self.net.draw(painter, self.hoop_size.eye(self.eye(camera)), False, t)
+        self.net.draw(painter, self.eye(camera), False, t)
 
     def before(self, painter: Painter, camera: Camera, t: float) -> None:
-        self.net.draw(painter, self.hoop_size.eye(self.eye(camera)), True, t)
+        self.net.draw(painter, self.eye(camera), True, t)
         super().before(painter, camera, t)
-
-    def remarks(self, camera: Camera) -> list[str]:
-        distance, factor = self.ring[0], self.hoop_size.factor(self.eye(camera))
-        if not 0 < camera.pixel(distance, 0)[0] < self.size[0]:
-            return [f"the ring is {roughly(distance)} away"]
-        return [f"ring and board drawn {times(factor)} their size"] if factor > 1 else []
 
     @property
     def company(self) -> Box:

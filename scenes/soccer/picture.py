@@ -9,10 +9,10 @@ import numpy as np
 
 from sandbox.engine.setup import Segment
 from sandbox.picture.palette import mix
-from sandbox.picture.places import Person, Shape, Size, Stands, goal, turf
+from sandbox.picture.places import Person, Shape, Stands, goal, turf
 from sandbox.picture.places.courts import PITCH_WIDTH, pitch_lines
 from sandbox.picture.views import Box, Camera, Length, Place, Sheet, SideView
-from sandbox.sport.amounts import metres, roughly, times
+from sandbox.sport.amounts import metres
 
 from .look import COLOURS, EARLIER, LINE, LOOK, STRIPE, TRACE
 from .scene import Parameters
@@ -27,8 +27,6 @@ GOAL_WIDTH, BOARD = 7.32, 8.0
 FAR = 0.38
 #: Players of the wall stand so far apart, in m; they are this tall unless they jump or the wall is low.
 PLAYERS, ABREAST, BEHIND, TALL, LEAST_TALL, HIGHEST = 4, 0.62, 0.5, 1.88, 1.55, 2.6
-#: Goal and players are drawn larger where a goal of this height (m) would be less tall than this, px on 720 rows.
-GOAL_HEIGHT, LEAST_HEIGHT = 2.44, 22
 
 
 class Picture(SideView[Parameters]):
@@ -70,9 +68,9 @@ class Picture(SideView[Parameters]):
         ground = turf(PITCH, STRIPE, 6, LINE, start=mouth.distance, lines=lines, far=FAR, haze=PITCH["far"])
         size = mouth.distance, mouth.depth, mouth.height, GOAL_WIDTH, mouth.post_radius
         standing = [
-            *_size_at(mouth.distance).of(*(goal(*size, **COLOURS["goal"]) if mouth.present else ())),
-            *_size_at(wall.distance).of(*(self._wall() if wall.present else ())),
-            *_size_at(0.0).of(Person(-0.62, 1.82, COLOURS["kicker"], "kicking")),
+            *(goal(*size, **COLOURS["goal"]) if mouth.present else ()),
+            *(self._wall() if wall.present else ()),
+            Person(-0.62, 1.82, COLOURS["kicker"], "kicking"),
         ]
         return Place(Stands(**COLOURS["stands"]), ground, [*self._boards(), *standing])
 
@@ -96,14 +94,6 @@ class Picture(SideView[Parameters]):
         spots = [(i, x) for i in reversed(range(PLAYERS)) for x in behind]
         return [Person(x, tall, darker[i], z=i * ABREAST, up=up, facing=-1) for i, x in spots]
 
-    def remarks(self, camera: Camera) -> list[str]:
-        wall, goal, distance = self.parameters.wall.present, self.parameters.goal.present, self.parameters.goal.distance
-        if not 0 < camera.pixel(distance, 0)[0] < self.size[0]:
-            return [f"the goal is {roughly(distance)} away"]
-        factor = _size_at(distance).factor(self.eye(camera))
-        who = "players and goal" if wall and goal else "goal" if goal else "players"
-        return [f"{who} drawn {times(factor)} {'its' if who == 'goal' else 'their'} size"] if factor > 1 else []
-
     def lengths(self) -> list[Length]:
         goal, wall = self.parameters.goal, self.parameters.wall
         things = [("goal", goal.present, goal.distance), ("wall", wall.present, wall.distance)]
@@ -120,8 +110,3 @@ class Picture(SideView[Parameters]):
         elif under is not None and -under > 2 * self.radius:
             bar, low = goal.height + 2 * goal.post_radius, goal.height - under - 2 * self.radius
             self.gap(sheet, camera, goal.distance, bar, low, "over the bar")
-
-
-def _size_at(x: float) -> Size:
-    """Of things that can be seen in the whole length of a pitch, too."""
-    return Size(x, GOAL_HEIGHT, LEAST_HEIGHT)

@@ -150,12 +150,11 @@ def test_a_ball_turns_counter_clockwise():
         assert (x - 40, y - 30) == pytest.approx((18.5 * side[0], 18.5 * side[1]), abs=1.0)
 
 
-def test_a_note_names_what_is_seen_to_be_larger():
-    """In the gale there is no wall, and the kicker is behind the path."""
-    picture = picture_of("soccer, in a gale")
-    picture.poster()
-    assert "goal drawn 1.1 times its size" in texts(picture)
-    assert "players" not in texts(picture)
+def test_a_note_says_how_far_away_is_what_is_not_in_sight():
+    for name, away in (("soccer, not struck", True), ("soccer", False)):
+        picture = picture_of(name)
+        picture.poster()
+        assert ("the goal is 22 m away" in texts(picture)) == away
 
 
 def test_the_lens_goes_where_it_would_hide_the_ring():

@@ -160,7 +160,7 @@ def test_a_place_is_data(name: str):
 def test_the_net_moves_with_a_swish_in_frames_and_in_the_window():
     picture = picture_of("basketball")
     inside = picture.net.entered + 0.5 * (picture.net.left - picture.net.entered)
-    eye, lines = picture.hoop_size.eye(picture.eye(picture.camera)), []
+    eye, lines = picture.eye(picture.camera), []
     painter = SimpleNamespace(lines=lambda found, *look: lines.append(found))
     for t in (0.0, 0.1, inside):
         picture.net.draw(painter, eye, True, t)

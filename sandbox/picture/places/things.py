@@ -18,8 +18,8 @@ from sandbox.picture.sheet import rows_of
 
 PERSON, SHADOW = palette("person"), palette("card")["shadow"]
 
-#: The least that is drawn of a net's mesh and of a post's width, px on 720 rows.
-LEAST_MESH, LEAST_POST = 4.0, 1.8
+#: The least that is drawn of a net's mesh, of a post's width and of a person's height, px on 720 rows.
+LEAST_MESH, LEAST_POST, LEAST_PERSON = 4.0, 1.8, 30.0
 #: How dark a net makes what is behind it, as a share of its opacity.
 SHADED = 0.3
 
@@ -131,48 +131,13 @@ class Person:
         return cls(x - ahead * tall, tall, colours, pose, up=max(0.0, high - up * tall))
 
     def draw(self, painter: Painter, eye: SideEye) -> None:
-        tall, ground = self.tall * eye.camera.scale * eye.share(self.z), eye.camera.at[1]
+        tall = max(self.tall * eye.camera.scale, LEAST_PERSON * eye.unit) * eye.share(self.z)
+        ground = eye.camera.at[1]
         painter.shadow(eye.point(self.x, ground, self.z), 0.24 * tall, 0.05 * tall, SHADOW, 0.42)
         x, foot = eye.point(self.x, ground + self.up, self.z)
         for part, width, points in pose_of(self.pose).strokes:
             drawn = [(x + self.facing * ahead * tall, foot - up * tall) for ahead, up in points]
             painter.line(drawn, width * tall, self.colours[part])
-
-
-@dataclass(frozen=True)
-class Size:
-    """Things at x (m) are drawn larger where ``height`` m of them would be less than ``least`` px on 720 rows."""
-
-    x: float
-    height: float
-    least: float
-
-    def factor(self, eye: SideEye) -> float:
-        """How many times their size they are drawn."""
-        return max(1.0, self.least * eye.unit / (self.height * eye.camera.scale))
-
-    def eye(self, eye: SideEye) -> SideEye:
-        """Sees them so large."""
-        return eye.enlarged(self.x, self.factor(eye))
-
-    def of(self, *things: Thing) -> list[Enlarged]:
-        """Things of this size."""
-        return [Enlarged(thing, self) for thing in things]
-
-
-@dataclass(frozen=True)
-class Enlarged:
-    """A thing that is drawn larger where it would be too small to see."""
-
-    thing: Thing
-    size: Size
-
-    @property
-    def near(self) -> bool:
-        return self.thing.near
-
-    def draw(self, painter: Painter, eye: SideEye) -> None:
-        self.thing.draw(painter, self.size.eye(eye))
 
 
 def goal(
