@@ -389,10 +389,11 @@ class Batch:
                 if (ended := self._ends & (self._mode == held.contact.mode)).any():
                     self._placed(ended, BECOMES[held.contact.mode])
         how = np.where(rows[T1] >= np.broadcast_to(self._now.duration, self._t.shape)[lanes], "duration", "")
+        how[hits] = ""
         if isinstance(self._now.until, Until):
             passed = self._until(shots).passed(tuple(rows[START]), tuple(rows[END]))
             how[(how == "") & ~np.isfinite(changes) & passed] = "until"
-        how[hits] = ""
+            hits = hits[how[hits] == ""]
         self._how[lanes] = how
         if len(hits):
             self._impact(lanes[hits])

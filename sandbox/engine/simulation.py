@@ -170,7 +170,10 @@ class Simulation:
                     "are very stiff: raise accuracy.tolerance, or shorten the duration"
                 )
             if kind == "touch":
-                self._collide(t, [i] if j < 0 else [i, j])
+                seeds = [i] if j < 0 else [i, j]
+                self._over = any(self._passed(t, index) for index in seeds)
+                if not self._over:
+                    self._collide(t, seeds)
             elif kind == "part" and t < duration:
                 self._collide(t, [i])  # with the walls it has entered during the contact
             elif kind == "catch":
@@ -185,15 +188,21 @@ class Simulation:
 
     def _end_arc(self, t: float, index: int, reason: str) -> None:
         """Handle the end of an arc."""
-        track, until = self._tracks[index], self._setup.until
+        track = self._tracks[index]
+        if reason == "":
+            self._over = self._passed(t, index)
         track.arrive(t, track.arc.state(track.arc.t1))
         track.conclude(reason)
         if reason == "":
-            self._over = isinstance(until, Until) and bool(until.passed(track.arc.start, track.state))
             self._plan(index, t)
         else:
             track.arc = still(t, t, track.state)
             self._collide(t, [index])
+
+    def _passed(self, t: float, index: int) -> bool:
+        """Whether the run ends with a ball's arc up to t."""
+        arc, until = self._tracks[index].arc, self._setup.until
+        return isinstance(until, Until) and bool(until.passed(arc.start, arc.state(t)))
 
     def _collide(self, t: float, seeds: Sequence[int]) -> None:
         """Everything that touches at this instant exchanges impulses at once, or is simulated through the contact."""

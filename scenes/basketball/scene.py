@@ -17,13 +17,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from math import inf
 from typing import Any
 
 from sandbox.engine.run import Event, Run
 from sandbox.engine.setup import Circle, Patch, Segment, Setup, Surface, Vector
 from sandbox.errors import RequestError
 from sandbox.parameters import Group, group, quantity, switch
-from sandbox.physics.elementwise import anywhere, smooth
+from sandbox.physics.elementwise import anywhere, choose, least, smooth
 from sandbox.physics.integrators import State
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spin, Spread
@@ -245,15 +246,43 @@ def beyond_middle(ball: Moment, it: Parameters) -> float:
 
 @once
 def touches(run: Run, parameters: Parameters) -> list[str]:
-    """The surfaces touched until the shot was decided: by leaving the ring below, or by reaching the floor."""
+    """The surfaces touched until the shot was decided: by leaving the ring below, by reaching the floor, or because the
+    ball stays between ring and board."""
     left = out(run, parameters)
-    decided = on_floor(run) if left is None else left
-    return [event.partner for event in run.events if event.kind in ("impact", "contact") and event.t <= decided]
+    over = on_floor(run) if left is None else left
+    if left is None and not any(event.partner == "floor" for event in run.events):
+        stays = decided(parameters).stays
+        over = next((arc.t0 for arc in run.arcs["ball"] if stays(arc.start)), over)
+    return [event.partner for event in run.events if event.kind in ("impact", "contact") and event.t <= over]
 
 
-def decided(parameters: Parameters) -> Passes:
-    """The ball is on the floor, or it has left the ring below."""
-    return Passes("floor", 1, *parameters.hoop.across(parameters.ball.radius))
+@dataclass(frozen=True)
+class Decided(Passes):
+    """The ball is on the floor, has left the ring below, or stays between ring and board: without wind its energy
+    ``E / m = g y + v^2 / 2 + k r^2 w^2 / 2``, k its moment of inertia over m r^2, never grows."""
+
+    pocket: tuple[float, float, float] = (0.0, 0.0, 0.0)  # left, right and bottom, in m
+    factors: tuple[float, float] = (0.0, 0.0)  # g in m/s^2, k r^2 in m^2
+    needed: float = 0.0  # E / m to get out, in J/kg
+
+    def stays(self, state: Any) -> Any:
+        """Whether it is between ring and board, and stays there."""
+        (x, y, vx, vy, spin), (left, right, bottom), (gravity, gyration) = state, self.pocket, self.factors
+        energy = gravity * y + 0.5 * (vx * vx + vy * vy + gyration * spin * spin)
+        return (x > left) & (x < right) & (y > bottom) & (energy < self.needed)
+
+    def passed(self, start: State, end: State) -> Any:
+        return super().passed(start, end) | self.stays(start)
+
+
+def decided(parameters: Parameters) -> Decided:
+    """When the shot is decided. In a wind, or with a way out below the board, no ball stays."""
+    ball, hoop, (back, level), wind = parameters.ball, parameters.hoop, parameters.hoop.rims[1], parameters.air.wind
+    face, bottom, _, top = parameters.board
+    barrier = parameters.gravity * (least(level + hoop.tube_radius, top) + ball.radius)
+    needed = choose((wind[0] == 0.0) & (wind[1] == 0.0) & (bottom <= level), barrier, -inf)
+    factors = parameters.gravity, ball.inertia_factor * ball.radius**2
+    return Decided("floor", 1, *hoop.across(ball.radius), (back, face, level), factors, needed)
 
 
 def word(run: Run, parameters: Parameters) -> str:

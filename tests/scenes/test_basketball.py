@@ -121,13 +121,15 @@ def test_made_from_below_and_down_again():
     assert too_weak["made"] is False
 
 
-def test_a_shot_is_decided_as_it_leaves_the_ring_below_however_it_came_there():
-    """Through the ring, slowed by the net, or back down from inside it: then a run asked for its facts ends."""
+def test_a_shot_is_decided_before_it_reaches_the_floor():
+    """Through the ring, slowed by the net, or back down from inside it; or because it stays between ring and board, to
+    come to rest there: then a run asked for its facts ends."""
     upwards = [
         ({"hoop.distance": 0.0, "release.height": 1.0, "launch.angle": 90.0, "launch.spin": 0.0}, speed)
         for speed in (7.0, 7.4, 7.6)
     ]
-    for changes, speed in [*upwards, ({}, 7.482), ({}, 7.5045)]:
+    stuck = [({}, speed) for speed in (7.970249, 7.9698058, 7.507273)]
+    for changes, speed in [*upwards, ({}, 7.482), ({}, 7.5045), *stuck]:
         scene = sandbox.load("basketball", changes)
         asked = scene.all_but_the_end
         run = next(runs(scene, ["launch.speed"], [(speed,)], asked=asked))
@@ -135,6 +137,7 @@ def test_a_shot_is_decided_as_it_leaves_the_ring_below_however_it_came_there():
         assert run.result == {key: full.result[key] for key in asked}
         assert run.state("ball", run.duration).y > 2.8
         assert run.ended == "until"
+        assert full.ended == ("rest" if (changes, speed) in stuck else "until")
 
 
 @pytest.mark.parametrize("speed", [7.3, 7.44, 7.45, 7.46, 7.5, 7.6])
