@@ -263,7 +263,7 @@ def _difference_below_tolerance(known: Record, actual: Record) -> str | None:
 
 
 def _fail(*lines: str) -> NoReturn:
-    pytest.fail(printable("\n".join(lines)), pytrace=False)
+    raise pytest.fail.Exception(printable("\n".join(lines)), pytrace=False) from None
 
 
 def _changed_drawing(expected: Image.Image | None, actual: Image.Image) -> str | None:

@@ -20,7 +20,9 @@ import math
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Sized
 from dataclasses import dataclass
+from itertools import takewhile
 from numbers import Real
+from operator import attrgetter
 from types import EllipsisType
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeVar, get_args, get_origin
 
@@ -298,11 +300,8 @@ def known_keys(schema: type[Group], values: Any = None, prefix: str = "") -> lis
 def _chosen(field: FieldInfo, inner: type[Group], table: Any) -> bool:
     """Whether the ``table`` of a file is for the group ``inner``, one of those that the field may have."""
     tag = field.discriminator
-    if not isinstance(tag, str):
-        return True
-    word = table.get(tag) if isinstance(table, Mapping) else None
-    word = word or getattr(field.default, tag, None)
-    return word is None or word in get_args(inner.model_fields[tag].annotation)
+    word = table.get(tag) if isinstance(tag, str) and isinstance(table, Mapping) else None
+    return word is None or word in get_args(inner.model_fields[str(tag)].annotation)
 
 
 def every_key(schema: type[Group], prefix: str = "") -> Iterator[str]:
@@ -328,16 +327,6 @@ def parse_assignment(text: str) -> tuple[str, Any]:
     if not equals or not all(part.strip() for part in key.split(".")):
         raise RequestError(f'--set {text}: write it as key.path=value, for example --set launch.speed="171 mph"')
     return key, toml_value(value)
-
-
-def nested(dotted: Mapping[str, Any]) -> dict[str, Any]:
-    """``{"launch.speed": 70}`` as ``{"launch": {"speed": 70}}``; later keys override earlier ones."""
-    tables: dict[str, Any] = {}
-    for key, value in dotted.items():
-        for part in reversed(key.split(".")):
-            value = {part.strip(): value}
-        tables = merged(tables, value)
-    return tables
 
 
 def merged(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
@@ -369,8 +358,9 @@ def validate(
 
     Raises RequestError with a line that names file (or ``changed_by``), key, value, bound and unit.
     """
-    changes = nested(without_indices(schema, values, source, changes or {}, changed_by))
-    combined = over(schema, over(schema, _defaults(schema), values), changes)
+    tables = over(schema, _defaults(schema), values)
+    changes = _nested(changes or {}, tables, changed_by)
+    combined = over(schema, tables, changes)
     try:
         return schema.model_validate(combined)
     except ValidationError as failure:
@@ -381,39 +371,50 @@ def validate(
     raise RequestError(first + more)
 
 
+def changed(parameters: Schema, changes: Mapping[str, Any], by: str = "override") -> Schema:
+    """The parameters with some of them changed, by key. Raises RequestError for an invalid value."""
+    return validate(type(parameters), parameters.model_dump(), "", changes, by)
+
+
+def without_indices(parameters: Group, changes: Mapping[str, Any], by: str = "override") -> dict[str, Any]:
+    """The same changes without indices in their keys: for ``air.wind[0]`` the whole list ``air.wind`` is given."""
+    after = changed(parameters, changes, by)
+    return {
+        key.partition("[")[0]: attrgetter(key.partition("[")[0])(after) if "[" in key else value
+        for key, value in changes.items()
+    }
+
+
 def _defaults(schema: type[Group]) -> dict[str, Any]:
-    """The keys of the groups that have a default: a file may leave some of them out."""
+    """What a file may leave out."""
     tables = {}
     for name, field in schema.model_fields.items():
         if isinstance(field.default, Group):
             tables[name] = field.default.model_dump()
-        elif field.is_required() and isinstance(field.annotation, type) and issubclass(field.annotation, Group):
+        elif not field.is_required():
+            tables[name] = field.default
+        elif isinstance(field.annotation, type) and issubclass(field.annotation, Group):
             tables[name] = _defaults(field.annotation)
-    return {name: table for name, table in tables.items() if table}
+    return {name: value for name, value in tables.items() if value != {}}
 
 
-def without_indices(
-    schema: type[Group], values: Mapping[str, Any], source: str, changes: Mapping[str, Any], changed_by: str
-) -> dict[str, Any]:
-    """The same changes without indices in their keys: for ``air.wind[0]`` the whole list ``air.wind`` is given.
-
-    ``schema``, ``values``, ``source`` and ``changed_by`` are those of ``validate``. Raises RequestError.
-    """
+def _nested(changes: Mapping[str, Any], tables: Mapping[str, Any], by: str) -> dict[str, Any]:
+    """``{"launch.speed": 70}`` as ``{"launch": {"speed": 70}}``; later keys override earlier ones. For ``air.wind[0]``
+    the whole list is given, with the other entries that it has in ``tables`` or by an earlier key."""
     found: dict[str, Any] = {}
     for key, value in changes.items():
-        _check_keys(value, f"{changed_by} {key}")
-        if isinstance(key, str) and "[" not in key:
-            found[key] = value
-            continue
-        steps = path_of(changed_by, key)
-        name = key.partition("[")[0]
-        path = steps[len(name.split(".")) :]
-        node: Any = validate(schema, values, source, found, changed_by)
-        if name in known_keys(schema, node.model_dump()):  # otherwise it is refused like any unknown key
-            for part in name.split("."):
-                node = getattr(node, part)
-            value = _placed(node, path, value, f"{changed_by} {key}")
-        found[name] = value
+        steps = path_of(by, key)
+        names = list(takewhile(lambda step: isinstance(step, str), steps))
+        _check_keys(value, f"{by} {key}")
+        if len(names) < len(steps):
+            node: Any = merged(tables, found)
+            for name in names:
+                node = node.get(name, _UNKNOWN) if isinstance(node, Mapping) else _UNKNOWN
+            if node is not _UNKNOWN:  # else it is refused like any unknown key
+                value = _placed(node, steps[len(names) :], value, f"{by} {key}")
+        for name in reversed(names):
+            value = {name: value}
+        found = merged(found, value)
     return found
 
 
@@ -426,6 +427,7 @@ def _check_keys(value: Any, what: str) -> None:
             _check_keys(inside, f"{what}.{key}")
 
 
+_UNKNOWN = object()
 _STEP = re.compile(r"([^.\[\]]+)|\[(\d+)\]")
 
 
@@ -445,7 +447,7 @@ def _placed(node: Any, path: Sequence[str | int], value: Any, what: str) -> Any:
         return value
     head, *rest = path
     if isinstance(head, str):
-        table = node.model_dump() if isinstance(node, Group) else {}
+        table = node.model_dump() if isinstance(node, Group) else node if isinstance(node, Mapping) else {}
         return {**table, head: _placed(table.get(head), rest, value, what)}
     if not isinstance(node, list | tuple):
         raise RequestError(f"{what}: is not a list, so it has no [{head}]")

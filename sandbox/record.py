@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from sandbox.files import json_ready
 from sandbox.text import shortened
@@ -28,7 +28,7 @@ NUDGE = 1e-12
 #: Longest text of a result in a message, in characters.
 LONGEST_WORD = 48
 
-COLUMNS, EVENT = ("t", "x", "y", "vx", "vy", "spin"), ("t", "kind", "ball", "partner", "speed")
+COLUMNS = ("t", "x", "y", "vx", "vy", "spin")
 UNITS = {"t": "s", "x": "m", "y": "m", "vx": "m/s", "vy": "m/s", "spin": "rad/s", "speed": "m/s"}
 
 Record = dict[str, Any]
@@ -87,14 +87,16 @@ def _lines(value: Any, deep: int) -> str:
     return f"{brackets[0]}\n{inner}\n{' ' * deep}{brackets[1]}" if inner else brackets
 
 
-def first_change(expected: Record, actual: Record, tolerance: float = TOLERANCE) -> tuple[float, str] | None:
+def first_change(expected: Record, actual: Record) -> tuple[float, str] | None:
     """Time in s and description of the first difference in how the balls moved; None if there is none."""
-    return min(changes(expected, actual, tolerance), default=None)
+    return min(changes(expected, actual), default=None)
 
 
 def changes(expected: Record, actual: Record, tolerance: float = TOLERANCE) -> list[tuple[float, str]]:
     """Time in s and description of the first difference of each ball, and of the first in the events; in order."""
-    return sorted([*_changed_states(expected, actual, tolerance), *_changed_events(expected, actual, tolerance)])
+    before, after = _courses(expected), _courses(actual)
+    found = (_first_change(before.get(name, []), after.get(name, []), tolerance) for name in before | after)
+    return sorted(change for change in found if change is not None)
 
 
 def changed_results(expected: Record, actual: Record, tolerance: float = TOLERANCE) -> list[str]:
@@ -120,47 +122,41 @@ def diverges(run: Run, until: float | None = None) -> float | None:
     return None if change is None else change[0]
 
 
-def _changed_states(expected: Record, actual: Record, tolerance: float) -> Iterator[tuple[float, str]]:
-    """For each ball the first number that differs."""
-    for ball, rows in expected["states"].items():
-        others = actual["states"].get(ball)
-        if others is None or len(others) != len(rows):
-            change = "is gone" if others is None else f"has {len(others)} states, had {len(rows)}"
-            yield 0.0, f"t = 0 s, {ball} {change}"
-            continue
-        for row, other in zip(rows, others, strict=True):
-            columns = zip(COLUMNS, row, other, strict=True)
-            found = next(((name, a, b) for name, a, b in columns if not _same(a, b, tolerance)), None)
-            if found is not None:
-                name, then, now = found
-                yield row[0], f"t = {row[0]:.3g} s, {ball}, {name} is {_amounts(now, then, UNITS[name])}"
-                break
-    yield from ((0.0, f"t = 0 s, {ball} is new") for ball in actual["states"] if ball not in expected["states"])
+class _Entry(NamedTuple):
+    """A state of a ball, or an event: when (s), what it is, and its numbers."""
+
+    t: float
+    what: str
+    numbers: Mapping[str, float]
 
 
-def _changed_events(expected: Record, actual: Record, tolerance: float) -> Iterator[tuple[float, str]]:
-    """The first event that differs, is missing or is new."""
-    before, after = expected["events"], actual["events"]
+def _courses(recorded: Record) -> dict[str, list[_Entry]]:
+    """The states of each ball by its name, and the events, by ""."""
+    states = {
+        ball: [_Entry(row[0], ball, dict(zip(COLUMNS, row, strict=True))) for row in rows]
+        for ball, rows in recorded["states"].items()
+    }
+    events = [
+        _Entry(t, f"{ball} {kind} {partner}".rstrip(), {"t": t, "speed": speed})
+        for t, kind, ball, partner, speed in recorded["events"]
+    ]
+    return {**states, "": events}
+
+
+def _first_change(before: list[_Entry], after: list[_Entry], tolerance: float) -> tuple[float, str] | None:
+    """The first entry that differs, is missing or is new."""
     for old, new in zip(before, after, strict=False):
-        if old[1:4] != new[1:4]:
-            t = min(old[0], new[0])
-            yield t, f"t = {t:.3g} s: {_event(new)}, was {_event(old)}"
-            return
-        for column, name in ((0, "t"), (4, "speed")):
-            if not _same(old[column], new[column], tolerance):
-                yield (
-                    min(old[0], new[0]),
-                    f"t = {old[0]:.3g} s, {_event(old)}, {name} is {_amounts(new[column], old[column], UNITS[name])}",
-                )
-                return
-    if len(before) != len(after):
-        extra = (before if len(before) > len(after) else after)[min(len(before), len(after))]
-        yield extra[0], f"t = {extra[0]:.3g} s: {_event(extra)} is {'gone' if len(before) > len(after) else 'new'}"
-
-
-def _event(row: Sequence[Any]) -> str:
-    _, kind, ball, partner, _ = row
-    return f"{ball} {kind} {partner}".rstrip()
+        t = min(old.t, new.t)
+        if old.what != new.what:
+            return t, f"t = {t:.3g} s: {new.what}, was {old.what}"
+        for name, then in old.numbers.items():
+            now = new.numbers[name]
+            if not _same(then, now, tolerance):
+                return t, f"t = {old.t:.3g} s, {old.what}, {name} is {_amounts(now, then, UNITS[name])}"
+    both = min(len(before), len(after))
+    for extra in (before[both:] or after[both:])[:1]:
+        return extra.t, f"t = {extra.t:.3g} s: {extra.what} is {'gone' if len(before) > both else 'new'}"
+    return None
 
 
 def _amounts(now: float, then: float, unit: str) -> str:

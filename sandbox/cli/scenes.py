@@ -78,6 +78,5 @@ def play(scene: str, changes: dict[str, Any], scene_of_replay: str | None) -> No
     if any("[" in key for key in changes):  # the window keeps changes by whole parameters
         from sandbox.parameters import without_indices
 
-        parameters = load(scene, {}).parameters
-        changes = without_indices(type(parameters), parameters.model_dump(), scene, changes, "--set")
+        changes = without_indices(load(scene, {}).parameters, changes, "--set")
     play_in_window(scene, changes, scene_of_replay)

@@ -110,8 +110,7 @@ def span(option: str, key: str, low: float, high: float) -> Span:
 def checked(scene: Scene, option: str, key: str, value: Any) -> Any:
     """The value that the scene's parameter takes for ``value``, in its declared unit. Raises RequestError."""
     path = path_of(option, key)
-    parameters = declared.validate(type(scene.parameters), scene.parameters.model_dump(), "", {key: value}, option)
-    found = at(parameters, path)
+    found = at(declared.changed(scene.parameters, {key: value}, option), path)
     if isinstance(found, Group):
         raise RequestError(f"{option} {key}: is a group of parameters, not a parameter")
     return found
@@ -200,10 +199,7 @@ class Varied:
         if name not in self._bases:
             if len(self._bases) >= _CACHED:
                 self._bases.clear()
-            parameters = self._scene.parameters
-            for key, value in changes.items():
-                parameters = declared.validate(type(parameters), parameters.model_dump(), "", {key: value}, "over")
-            self._bases[name] = parameters
+            self._bases[name] = declared.changed(self._scene.parameters, changes, "over")
         return self._bases[name]
 
 

@@ -69,8 +69,7 @@ class Scene:
 
     def changed(self, changes: Mapping[str, Any], by: str = "override") -> Scene:
         """The scene with some of its parameters changed, by dotted key. Raises RequestError for an invalid value."""
-        values = declared.validate(type(self.parameters), self.parameters.model_dump(), "", changes, by)
-        return replace(self, parameters=values)
+        return replace(self, parameters=declared.changed(self.parameters, changes, by))
 
     def picture_module(self) -> ModuleType:
         """The scene's ``picture.py``, or a simple one for a scene without; imported on first use, as it imports

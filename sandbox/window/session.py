@@ -103,8 +103,7 @@ class Session:
     def change(self, values: Mapping[str, Any]) -> None:
         """Add these changes."""
         if any("[" in key for key in values):
-            now = self.scene.parameters
-            values = declared.without_indices(type(now), now.model_dump(), "", values, "the window's")
+            values = declared.without_indices(self.scene.parameters, values, "the window's")
         self._set({**self.changes.values, **values}, self.changes.positions)
 
     def reset(self, key: str | None = None) -> None:
