@@ -487,12 +487,16 @@ def _explained(
 ) -> str:
     """One line for one error of pydantic's."""
     key, dotted = _path(error["loc"], values, missing=error["type"] == "missing")
+    value = error["input"]
+    if error["type"] == "union_tag_invalid":
+        word = error["ctx"]["discriminator"].strip("'")
+        key, dotted, value = f"{key}.{word}", (*dotted, word), value[word]
     prefix = f"{changed_by} " if _holds(changes, dotted) else f"{source}: " if source else ""
     if error["type"] == "extra_forbidden":
         return f"{prefix}{key}: unknown key{_suggestion('.'.join(dotted), schema, values)}"
     if error["type"] == "missing":
         return f"{prefix}{key}: missing"
-    return f"{prefix}{key} = {shown(error['input'])}: {_problem(error)}" if key else f"{prefix}{_problem(error)}"
+    return f"{prefix}{key} = {shown(value)}: {_problem(error)}" if key else f"{prefix}{_problem(error)}"
 
 
 def _path(loc: tuple[int | str, ...], values: Any, missing: bool) -> tuple[str, tuple[str, ...]]:
@@ -568,4 +572,4 @@ def _problem(error: Any) -> str:
         case "model_type" | "model_attributes_type" | "dict_type":
             return "must be a group of keys, not a single value"
         case _:
-            return error["msg"][:1].lower() + error["msg"][1:]
+            return re.sub(r"^\w+ should", "must", error["msg"])

@@ -58,6 +58,7 @@ def test_help(call, command: list[str]):
     assert out.startswith("Usage: sandbox")
     assert max(len(line) for line in out.splitlines()) <= 110
     assert command or call() == (0, out, "")
+    assert not re.search(r"[\w,]\.\.\.\n", out)  # a command's line that is cut off
 
 
 def test_list_shows_the_scene_files_of_the_folder(call, tmp_path: Path, monkeypatch):

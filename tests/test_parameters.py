@@ -32,6 +32,7 @@ from sandbox.parameters import (
     vector,
     vectors,
     walk,
+    word,
 )
 from sandbox.schema import json_schema
 from sandbox.toml import read_toml
@@ -71,7 +72,7 @@ class Air(Group):
 
 
 class Place(Group):
-    name: str
+    name: str = word("whose place it is")
     x: float = quantity(0.0, "m", low=0, high=1, meaning="along the table")
 
 
@@ -277,7 +278,8 @@ def test_a_bad_number_is_refused_with_file_key_value_bound_and_unit(value: Any, 
         # a value of the wrong kind
         ({"launch": 3}, "launch = 3: must be a group of keys, not a single value"),
         ({"ball": {"drag": 3}}, "ball.drag = 3: must be a group of keys"),
-        ({"ball": {"drag": {"model": "ideal"}}}, 'must be "none", "constant", "fitted" or "table"'),
+        ({"ball": {"drag": {"model": "ideal"}}}, 'ball.drag.model = "ideal": must be "none", "constant", "fitted" or'),
+        ({"balls": [{"name": ""}]}, 'balls[0].name = "": must have at least 1 character'),
         ({"ball": {"drag": {"velocity": "water"}}}, 'ball.drag.velocity = "water": must be "air" or "ground"'),
         ({"air": {"wind": 3}}, "air.wind = 3: must be a list of 2 numbers, each from -100 to 100 m/s"),
         ({"air": {"wind": [1]}}, "air.wind = [1]: must be a list of 2 numbers"),

@@ -32,11 +32,11 @@ def aim(
     as_json: bool,
     show: Path | None,
 ) -> None:
-    """Find the values that give a result: all of them in the range, each with its numerical error.
+    """Find all values in a range that give a result.
 
-    For a target that is true or false, or a word, it finds intervals: the widest first, with its middle, which is the
-    most forgiving value; by two parameters it finds regions, each with its most forgiving point. If there is no
-    solution it reports the nearest result, and the exit code is 0.
+    Each has its numerical error. For a target that is true or false, or a word, it finds intervals: the widest first,
+    with its middle, which is the most forgiving value; by two parameters it finds regions, each with its most forgiving
+    point. If there is no solution it reports the nearest result, and the exit code is 0.
 
     \b
     Examples:
@@ -116,10 +116,10 @@ def sweep(
     jobs: int | None,
     scheduler: str | None,
 ) -> None:
-    """Run a scene once for each point of a grid, or for random points, and write a row for each.
+    """Run a scene for each point of a grid, or for random points.
 
-    Ctrl-C keeps the rows that are done; the same command again resumes from there. If the file holds another sweep, it
-    is kept as F.csv~. A point that fails is a row with its error.
+    Each is a row of the file. Ctrl-C keeps the rows that are done; the same command again resumes from there. If the
+    file holds another sweep, it is kept as F.csv~. A point that fails is a row with its error.
 
     \b
     Examples:
@@ -177,9 +177,9 @@ def sweep(
 @json_option
 @click.option("--plot", metavar="F.png", type=Path, help="Draw error against speed, a curve for each method.")
 def trade(scene: str, changes: dict[str, Any], as_json: bool, plot: Path | None) -> None:
-    """Measure speed against accuracy for a scene: every method and level, and what each part of the model contributes.
+    """Measure speed against accuracy for a scene.
 
-    Takes half a minute on an idle machine.
+    Of every method and level; and what each part of the model contributes. Takes half a minute on an idle machine.
 
     \b
     Examples:
@@ -207,7 +207,9 @@ def trade(scene: str, changes: dict[str, Any], as_json: bool, plot: Path | None)
 @changes_options
 @json_option
 def stress(scene: str | None, changes: dict[str, Any], as_json: bool) -> None:
-    """Run a scene, or all of them, at extreme values with every method, and report what happened at each.
+    """Run a scene, or all of them, at extreme values.
+
+    With every method; the report says what happened at each.
 
     \b
     Examples:
@@ -233,7 +235,7 @@ def stress(scene: str | None, changes: dict[str, Any], as_json: bool) -> None:
 @changes_options
 @json_option
 def validate(scene: str | None, changes: dict[str, Any], as_json: bool) -> None:
-    """Compare results with published numbers and their sources, for a scene or for all of them.
+    """Compare results with published numbers and their sources.
 
     \b
     Examples:

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     "--fps",
     metavar="N",
     type=click.IntRange(1, 240),
-    help="Frames per second of the run, from 1 to 240.  [default: 60 for --frames and --video, else 25]",
+    help="Frames per second of the run.  [default: 60 for --frames and --video, else 25]",
 )
 @click.option(
     "--size",
@@ -53,7 +53,7 @@ def run(
     size: outputs.Size | None,
     **paths: Path | None,
 ) -> None:
-    """Run a scene once, without a window, to its end, and print its result card.
+    """Run a scene once, without a window, and print its results.
 
     \b
     Examples:

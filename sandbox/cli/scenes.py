@@ -14,7 +14,7 @@ from sandbox.cli.say import say
 @click.command("list")
 @click.argument("scene", metavar="[SCENE]", required=False, help="Only this scene and its presets.")
 def list_scenes(scene: str | None) -> None:
-    """List all scenes and presets, and the scenes and scene files in this folder."""
+    """List all scenes and presets, and what is in this folder."""
     from sandbox.lab.tables import table
     from sandbox.scene import listings, listings_in, listings_of, scene_files_in
 
@@ -26,7 +26,9 @@ def list_scenes(scene: str | None) -> None:
 @click.command()
 @scene_argument
 def schema(scene: str) -> None:
-    """Print the JSON schema of a scene's file: every key with its unit, bounds and meaning.
+    """Print the JSON schema of a scene's file.
+
+    It has every key with its unit, bounds and meaning.
 
     \b
     Example:
