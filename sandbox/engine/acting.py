@@ -9,7 +9,7 @@ from math import isfinite
 from typing import Any
 
 from sandbox.engine.setup import Ball
-from sandbox.engine.setup_errors import is_from_inside
+from sandbox.engine.setup_errors import failed, is_from_inside
 from sandbox.errors import RunError
 from sandbox.physics.integrators import Acceleration, Law, State
 from sandbox.physics.straight import straight
@@ -90,7 +90,7 @@ def refused(
 ) -> RunError:
     """An error that names the force or torque that does not return finite numbers in this state; or, if all do, says
     what is wrong ``otherwise``."""
-    return RunError(f"t = {t:.6g} s, ball {ball.name!r}: {_wrong_term(ball, t, state) or otherwise}")
+    return failed(t, ball.name, _wrong_term(ball, t, state) or otherwise)
 
 
 def acceleration(ball: Ball, t: Any, state: State) -> Acceleration:

@@ -29,7 +29,7 @@ from sandbox.engine.setup import Ball, Setup, Until
 from sandbox.engine.setup_errors import setup_errors_named
 from sandbox.engine.simulation import Left, Simulation
 from sandbox.engine.stacking import FEWEST, Stack, selector
-from sandbox.engine.step_control import LONGEST, StepControl, before_break, within
+from sandbox.engine.step_control import StepControl, allowed, shortest
 from sandbox.engine.surfaces import CLOSING, bounce_off, leaves_at, press, tilted
 from sandbox.engine.touch import SEAM, SIDE
 from sandbox.physics.impulse import after_impulse, surface_speeds
@@ -215,9 +215,8 @@ class Batch:
         if self._held:
             known = np.array(self._law(self._t, tuple(self._state)))
         before = tuple(self._state)
-        h = np.minimum(np.minimum(self._wanted, LONGEST), self._now.duration - self._t)
-        h = before_break(self._now.breaks, self._t, h)
-        h = np.where(self._again, self._wanted, within(self._now.patches, h, before, tuple(known)))
+        h = np.minimum(self._wanted, self._now.duration - self._t)
+        h = np.where(self._again, self._wanted, allowed(self._now, self._t, h, before, tuple(known)))
         fits, following, after, last = self._control.attempt(
             self._law, self._t, before, tuple(known), h, self._wanted, self._now.balls[0].radius
         )
@@ -225,7 +224,7 @@ class Batch:
         self._counts[STEPS, self._shot] += 1
         self._counts[REFINED, self._shot] += ~fits
         accepted = fits & self._now.bounds.hold(after)
-        stuck = ~accepted & (fits | (following < np.maximum(1e-15, 1e-15 * self._t)))
+        stuck = ~accepted & (fits | (following < shortest(self._t)))
         self._how[stuck] = "flight"  # which raises the error
         wanted, self._wanted = self._wanted, np.where(stuck, h, following)
         lanes = np.flatnonzero(accepted)

@@ -27,10 +27,10 @@ from sandbox.engine.one_point import one_point
 from sandbox.engine.real_space import RealSpace, rolls, speeds_at
 from sandbox.engine.run import Numerics
 from sandbox.engine.setup import Ball, Setup, Surface, outline_of
+from sandbox.engine.setup_errors import failed
 from sandbox.engine.surfaces import STILL, bounce_of_balls, bounce_off, press
 from sandbox.engine.touch import TOUCHING_GAP, Obstacle
 from sandbox.engine.track import Heaped, Track
-from sandbox.errors import RunError
 from sandbox.physics.integrators import Acceleration, State
 
 #: Gap, as a fraction of the smallest radius, up to which shapes are in contact in a heap: at rest they stay in touch.
@@ -265,10 +265,8 @@ class Heap:
         ball = self._tracks[index].ball
         passed = self._real.passed(arc.position(arc.t0), arc.position(arc.t1)) if ball.turns else None
         if passed is not None:
-            raise RunError(
-                f"t = {arc.t1:.6g} s, ball {ball.name!r}: it is so thin that others pressed it through "
-                f"{self._setup.surfaces[passed].name!r}; lower accuracy.step"
-            )
+            what = f"it is so thin that others pressed it through {self._setup.surfaces[passed].name!r}"
+            raise failed(arc.t1, ball.name, f"{what}; lower accuracy.step")
 
     def _lasting(self, share: float, forced: float) -> float:
         """A share of the time in s in which this acceleration (m/s^2) moves something by its own thickness."""

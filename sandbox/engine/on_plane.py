@@ -8,8 +8,8 @@ from math import hypot, inf, isfinite
 from sandbox.engine.arc import Arc, still
 from sandbox.engine.bernstein import downward_crossings
 from sandbox.engine.setup import Setup
+from sandbox.engine.setup_errors import failed
 from sandbox.engine.track import Track
-from sandbox.errors import RunError
 from sandbox.physics.plane import Phase, Plane, strip
 
 #: Longest step as a fraction of the time in which a body would stop: none steps over its rest.
@@ -61,10 +61,8 @@ class OnPlane(Track):
         self._numerics.steps += 1
         end = phase.after(h)
         if not all(map(isfinite, end)):
-            raise RunError(
-                f"t = {t:.6g} s, ball {self.ball.name!r}: its motion on the {law.name} cannot be computed; "
-                f"check its radius and speed, and the friction of the {law.name}"
-            )
+            remedy = f"check its radius and speed, and the friction of the {law.name}"
+            raise failed(t, self.ball.name, f"its motion on the {law.name} cannot be computed; {remedy}")
         x, y, vx, vy, spin, *rolling = state
         half = 0.5 * h
         accelerations = (phase.alpha_x, phase.alpha_y)

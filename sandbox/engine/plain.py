@@ -27,8 +27,10 @@ from sandbox.engine.path import Path
 from sandbox.engine.real_space import RealSpace, rolls, speeds_at
 from sandbox.engine.run import Numerics, Run
 from sandbox.engine.setup import Ball, Body, Setup, Surface
+from sandbox.engine.setup_errors import failed
 from sandbox.engine.shapes import Ellipse
 from sandbox.engine.step_control import JUMP, stiff
+from sandbox.engine.surfaces import leaves_at, press
 from sandbox.engine.touch import Outline
 from sandbox.errors import RequestError, RunError
 from sandbox.physics.integrators import Acceleration, State
@@ -65,7 +67,6 @@ class _Tracked:
     def __init__(self, ball: Ball, body: pymunk.Body, rolls: bool) -> None:
         self.ball = ball
         self.rolling_spin: tuple[float, ...] = ball.rolling_spin if rolls else ()  # rad/s
-        self.turns = ball.turns
         self.body = body
         self.law = law_of(ball)
         self.path: list[Arc] = []
@@ -79,13 +80,13 @@ class _Tracked:
 
     def state(self) -> State:
         body = self.body
-        more = (body.angle,) if self.turns else self.rolling_spin
+        more = (body.angle,) if self.ball.turns else self.rolling_spin
         return (*body.position, *body.velocity, body.angular_velocity, *more)
 
     def take(self, state: State) -> None:
         """Set the velocities and spins to those of this state."""
         self.body.velocity, self.body.angular_velocity = state[2:4], state[4]
-        self.rolling_spin = () if self.turns else state[5:]
+        self.rolling_spin = () if self.ball.turns else state[5:]
 
     def record(self, t: float) -> None:
         if t > self.since or not self.path:
@@ -209,7 +210,7 @@ class PlainSimulation:
         tracked, setup = self._tracked[body], self._setup
         state = tracked.state()
         x, y, vx, vy, spin = state[:5]
-        before = state if tracked.turns else state[:5]
+        before = state if tracked.ball.turns else state[:5]
         acceleration = tracked.law(self._t, before)
         self._refuse_leap(tracked, tracked.last[0][:2], (x, y))
         if tracked.touched != self._steps:
@@ -246,11 +247,10 @@ class PlainSimulation:
             self._note(Event(self._t, "impact", first.ball.name, contact.partner, contact.speed, *states[0][:2]))
         bounce, lasts, lowest = contact.bounce, False, 0.0
         if surface is not None:
-            ax, ay, _ = first.last[1]
-            press = max(0.0, -ax * nx - ay * ny)  # m/s^2
+            by = press(states[0], first.last[1], nx, ny, 0.0)
             # no faster than what weight alone adds in a step or two
-            lasts = abs(contact.speed) <= 2.0 * press * self._accuracy.step
-            lowest = (2.0 * press * surface.lowest_bounce) ** 0.5  # m/s, a bounce no faster than this is absorbed
+            lasts = abs(contact.speed) <= 2.0 * by * self._accuracy.step
+            lowest = leaves_at(by, surface.lowest_bounce)  # m/s, a bounce no faster than this is absorbed
         more = any((contact.sine, *bounce[2:], contact.speeds[2]))  # than Chipmunk has
         arbiter.process_collision = not more or lasts or contact.speed <= 0.0  # it is remembered
         if not arbiter.process_collision:
@@ -291,10 +291,7 @@ class PlainSimulation:
         gain = abs(state[2] - before[2]) + abs(state[3] - before[3])
         gains = gain > JUMP * (abs(state[2]) + abs(state[3]))
         if gains and before[2:4] != (0.0, 0.0) and stiff(before, state, known, acceleration, h, _REVERSAL):
-            raise RunError(
-                f"t = {self._t:.6g} s, ball {tracked.ball.name!r}: drag would reverse its velocity within a step of "
-                f"{h:.3g} s; {_REMEDY}"
-            )
+            raise self._too_coarse(tracked, "drag would reverse its velocity")
 
     def _refuse_leap(self, tracked: _Tracked, start: tuple[float, float], end: tuple[float, float]) -> None:
         """Raise RunError if the ball's centre passed through a surface in the last step."""
@@ -302,7 +299,8 @@ class PlainSimulation:
             return
         passed = self._real.passed(start, end)
         if passed is not None:
-            raise RunError(
-                f"t = {self._t:.6g} s, ball {tracked.ball.name!r}: went through {self._setup.surfaces[passed].name!r} "
-                f"within a step of {self._accuracy.step:.3g} s; {_REMEDY}"
-            )
+            raise self._too_coarse(tracked, f"went through {self._setup.surfaces[passed].name!r}")
+
+    def _too_coarse(self, tracked: _Tracked, what: str) -> RunError:
+        step = f"within a step of {self._accuracy.step:.3g} s"
+        return failed(self._t, tracked.ball.name, f"{what} {step}; {_REMEDY}")

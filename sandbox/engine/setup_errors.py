@@ -23,6 +23,11 @@ def asked(function: Callable[..., Any], form: str, *arguments: Any) -> Any:
         raise RunError(f"{form}: {error}") from None
 
 
+def failed(t: float, ball: str, what: str) -> RunError:
+    """An error of a run at time t in s, by the name of the ball."""
+    return RunError(f"t = {t:.6g} s, ball {ball!r}: {what}")
+
+
 def is_from_inside(error: Exception) -> bool:
     """Whether an error, caught where a function is called, comes from the function, not from the call."""
     return error.__traceback__ is not None and error.__traceback__.tb_next is not None

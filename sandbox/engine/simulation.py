@@ -24,6 +24,7 @@ from sandbox.engine.on_plane import OnPlane, slowest_hop
 from sandbox.engine.path import Path
 from sandbox.engine.run import Numerics, Run
 from sandbox.engine.setup import Setup, Surface, Until
+from sandbox.engine.setup_errors import failed
 from sandbox.engine.start import starts
 from sandbox.engine.touch import TOUCHING_GAP, Obstacle
 from sandbox.engine.track import Track
@@ -165,10 +166,8 @@ class Simulation:
             if at_once > _MOST_AT_ONCE or self._numerics.impacts > _MOST_IMPACTS:
                 raise self._stalled(t, i)
             if self._numerics.steps > MOST_STEPS:
-                raise RunError(
-                    f"t = {t:.6g} s, ball {track.ball.name!r}: {MOST_STEPS:,} steps without an end; its forces "
-                    "are very stiff: raise accuracy.tolerance, or shorten the duration"
-                )
+                what = "its forces are very stiff: raise accuracy.tolerance, or shorten the duration"
+                raise failed(t, track.ball.name, f"{MOST_STEPS:,} steps without an end; {what}")
             if kind == "touch":
                 seeds = [i] if j < 0 else [i, j]
                 self._over = any(self._passed(t, index) for index in seeds)

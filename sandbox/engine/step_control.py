@@ -3,13 +3,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from math import inf
 from typing import Any
 
 from sandbox.engine.accuracy import Accuracy
-from sandbox.engine.setup import Patch
-from sandbox.physics.elementwise import anywhere, choose, clip, most
+from sandbox.engine.setup import Setup
+from sandbox.physics.elementwise import anywhere, choose, clip, least, most
 from sandbox.physics.integrators import INTEGRATORS, Acceleration, Law, State
 
 #: Local error of a step relative to the tolerance at the end. Each impact on a round shape multiplies an error by ten
@@ -24,6 +23,9 @@ FIRST_STEP = 0.05  # s
 
 #: Longest step, so that forces that vary along the path are evaluated several times a second.
 LONGEST = 0.5  # s
+
+#: Shortest step, as a share of the time, of at least 1 s: shorter ones are rounding.
+_SHORTEST = 1e-15
 
 #: Ratio of the next step to the last: a safety factor, the bounds, and the ratio after an error that is not finite.
 SAFETY, SHORTER, LONGER, LOST = 0.9, 0.2, 5.0, 0.1
@@ -85,17 +87,18 @@ def size(error: State, radius: Any) -> Any:
     return off if len(error) == 5 else off + radius * (abs(spin) + abs(error[5]))
 
 
-def before_break(breaks: Iterable[Any], t: Any, h: Any) -> Any:
-    """A step from t (s) that ends at the first of the ``breaks`` in it."""
-    for at in breaks:
+def shortest(t: Any) -> Any:
+    """The shortest step in s from t."""
+    return _SHORTEST * most(t, 1.0)
+
+
+def allowed(setup: Setup, t: Any, h: Any, state: State, acceleration: Acceleration) -> Any:
+    """A step from t of h s or less: not across a break; and before each patch, or no longer than the patch allows."""
+    h = least(h, LONGEST)
+    for at in setup.breaks:
         room = at - t
         h = choose((room > _AT_BREAK) & (room < h), room, h)
-    return h
-
-
-def within(patches: Iterable[Patch], h: Any, state: State, acceleration: Acceleration) -> Any:
-    """A step that ends before each patch, or is no longer than the patch allows."""
-    for patch in patches:
+    for patch in setup.patches:
         (x, y, vx, vy), (ax, ay, _) = state[:4], acceleration
         while anywhere(h > patch.step):
             half = 0.5 * h

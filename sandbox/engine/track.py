@@ -16,7 +16,7 @@ from sandbox.engine.arc import Arc, crossing, still, through
 from sandbox.engine.lasting import BECOMES, FLYING, RESTING, LastingContact, motion_on, wedged
 from sandbox.engine.run import Numerics
 from sandbox.engine.setup import Ball, Setup
-from sandbox.engine.step_control import LONGEST, StepControl, before_break, within
+from sandbox.engine.step_control import StepControl, allowed, shortest
 from sandbox.engine.surfaces import PUSH, STILL, leaves_at, press
 from sandbox.engine.touch import TOUCHING_GAP, Near, Obstacle, flush, touched
 from sandbox.physics.integrators import Acceleration, Law, State
@@ -148,18 +148,17 @@ class Track:
             acceleration = law(t, state)
             self._numerics.force_evaluations += 1
         wanted = self.next_step
-        h = before_break(self._setup.breaks, t, min(wanted, LONGEST, until - t))
-        h = within(self._setup.patches, h, state, acceleration)
+        h = allowed(self._setup, t, min(wanted, until - t), state, acceleration)
         if contact is not None:
             h = min(h, contact.longest(state))
-        ball, control, shortest = self.ball, self._control, max(1e-15, 1e-15 * t)
+        ball, control = self.ball, self._control
         while True:
             fits, following, end, last = control.attempt(law, t, state, acceleration, h, wanted, ball.radius)
             self._numerics.steps += 1
             self._numerics.force_evaluations += control.evaluations
             if fits:
                 break
-            if following < shortest:
+            if following < shortest(t):
                 self._check(t + h, end)
                 raise refused(ball, t + h, end, _TOO_FAST.format(h))
             self._numerics.refined_steps += 1
