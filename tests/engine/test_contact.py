@@ -97,13 +97,14 @@ def test_two_fast_balls_meet_head_on():
 # -------------------------------------------------------------------------------------------------- corners and grazes
 
 
-def test_two_walls_at_once():
+@pytest.mark.parametrize("radius", [2e-4, 0.05, 0.9])
+def test_two_walls_at_once(radius):
     """Into a right-angled corner along the diagonal, e = 1, no friction: straight back."""
     walls = [
         Surface("floor", Segment((-5.0, 0.0), (5.0, 0.0)), 1.0, 0.0),
         Surface("wall", Segment((0.0, -5.0), (0.0, 5.0)), 1.0, 0.0),
     ]
-    run = simulate(Setup([ball((1.0, 1.0), (-2.0, -2.0), gravity=0)], walls, duration=1.0), resolve())
+    run = simulate(Setup([ball((1.0, 1.0), (-2.0, -2.0), radius=radius, gravity=0)], walls, duration=1.0), resolve())
     assert {event.partner for event in run.events} == {"floor", "wall"}
     assert len({event.t for event in run.events}) == 1
     assert run.state("ball", 1.0)[2:4] == pytest.approx((2.0, 2.0), abs=1e-9)

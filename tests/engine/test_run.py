@@ -10,6 +10,7 @@ import pytest
 import sandbox
 from sandbox.engine import simulate
 from sandbox.engine.accuracy import resolve
+from sandbox.engine.acting import acceleration
 from sandbox.engine.arc import through
 from sandbox.engine.ledger import ledger, warnings
 from sandbox.engine.run import Numerics
@@ -72,6 +73,13 @@ def test_velocity_is_the_slope_of_the_position(bouncing):
         early, late = bouncing.state("ball", t - 1e-6), bouncing.state("ball", t + 1e-6)
         assert (late[0] - early[0]) / 2e-6 == pytest.approx(bouncing.state("ball", t)[2], abs=1e-6)
         assert (late[1] - early[1]) / 2e-6 == pytest.approx(bouncing.state("ball", t)[3], abs=1e-6)
+
+
+def test_acceleration_along_an_arc_is_that_by_the_forces(bouncing):
+    (ball,), arcs = bouncing.setup.balls, bouncing.arcs["ball"]
+    for t in (0.1, 0.33, 0.71, 1.5):
+        ax, ay, _ = acceleration(ball, t, bouncing.state("ball", t))
+        assert arcs.at(t).acceleration(t) == pytest.approx((ax, ay), abs=1e-5)
 
 
 def test_angle_is_the_integral_of_the_spin(bouncing):
