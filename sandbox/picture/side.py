@@ -243,9 +243,10 @@ class SideView(View[P]):
         return rect, camera, kept, camera.pixels(self.profile(low, high))
 
     def remarks(self, camera: Camera) -> list[str]:
-        """How far away what is aimed at is, where that is not in sight."""
+        """How far away what is aimed at is, where that is not in sight; nothing of a start, which is at 0."""
         (x, _), what = self.datum
-        return [] if 0 <= camera.pixel(x, 0.0)[0] <= self.size[0] else [f"{what} is {roughly(abs(x))} away"]
+        seen = x == 0.0 or 0 <= camera.pixel(x, 0.0)[0] <= self.size[0]
+        return [] if seen else [f"{what} is {roughly(abs(x))} away"]
 
     @cached_property
     def chase(self) -> Chase:

@@ -62,8 +62,9 @@ class Latest(Generic[T]):
     """The result of work that is done again whenever what it is done for changes, one after the other."""
 
     def __init__(self, abandon: Callable[[Future[T]], object] | None = None, hung: float = inf) -> None:
-        """Work that takes longer than ``hung`` s is abandoned once it is wanted for something else."""
-        self.abandon, self.hung = abandon, hung
+        """Work that takes longer than ``hung`` s is abandoned once it is wanted for something else; after each time the
+        next may take twice as long, until some has ended: on a busy machine a new process needs that long to start."""
+        self.abandon, self.hung, self.abandoned = abandon, hung, 0
         self.key: Any = None  # what the value is of
         self.value: T | None = None  # None if there is none yet, or if the work failed
         self.error: BaseException | None = None
@@ -80,7 +81,7 @@ class Latest(Generic[T]):
         """Take the result if it is there within ``patience`` s (None: wait); returns whether there is a new one."""
         if self.work is None or not wait_for([self.work], patience).done:
             return False
-        work, self.work, self.key = self.work, None, self.work_for
+        work, self.work, self.key, self.abandoned = self.work, None, self.work_for, 0
         try:
             self.value, self.error = work.result(), None
         except BaseException as error:  # such as a process that was killed
@@ -89,7 +90,8 @@ class Latest(Generic[T]):
 
     def follow(self, key: Any, submit: Callable[[Any], Future[T]]) -> None:
         """Begin the work for ``key``, unless it is None or it was done for that, or other work has not ended yet."""
-        if key != self.work_for and self.takes > self.hung:
+        if key != self.work_for and self.takes > self.hung * 2**self.abandoned:
+            self.abandoned += 1
             self.give_up(None)
         if key is not None and key != self.key and self.work is None:
             self.work, self.work_for, self.began = submit(key), key, perf_counter()

@@ -81,7 +81,9 @@ class Game:
         self.memory.opened(session.source)
         self.jobs: list[tuple[Future[Any], Callable[[Any], object], str]] = []  # and what they are
         self.watch_files = Watch(session.files)
-        self._everywhere(warm_up, session.source)
+        if self.helper is not worker:
+            self.helper.submit(warm_up, session.source)
+        self._follow()
 
     # ---------------------------------------------------------------------------------------------------------- state
 
@@ -206,11 +208,6 @@ class Game:
         while not self.settled:
             self._compute(None)
 
-    def _everywhere(self, work: Callable[..., Any], *args: Any) -> None:
-        """Have it done in every process."""
-        for processes in {self.worker, self.helper}:
-            processes.submit(work, *args)
-
     def ask(self, result: Future[Any], then: Callable[[Any], object], said: str = "") -> None:
         """Do something with a result once it is there; until then the player is told what is being done."""
         self.jobs.append((result, then, said))
@@ -235,9 +232,13 @@ class Game:
     def _compute(self, patience: float | None) -> None:
         """Run the scene with the current parameters, and take the path that this frame shows."""
         self._take_run(0.0)
-        self.runs.follow(self.wanted, lambda key: self.worker.submit(computed, key[0]))
+        self._follow()
         if patience is None or (self.cost <= patience and self.aimed is not None):
             self._take_run(patience)
+
+    def _follow(self) -> None:
+        """Begin the run of the current parameters."""
+        self.runs.follow(self.wanted, lambda key: self.worker.submit(computed, key[0]))
 
     def _take_run(self, patience: float | None) -> None:
         """Make a shot of the run that has ended."""
@@ -482,7 +483,8 @@ class Game:
             self.unreadable = self.reason(error)
             return
         if code:
-            self._everywhere(forget, folder)
+            for processes in {self.worker, self.helper}:
+                processes.submit(forget, folder)
         self.unreadable = None
         if self.session.base.folder != folder:
             self._opened()

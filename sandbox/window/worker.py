@@ -21,9 +21,9 @@ Packed = bytes | dict[str, Any]
 
 
 def warm_up(source: str) -> None:
-    """Import what runs of the scene need; a scene that is invalid is reported where it is opened."""
+    """Import the scene; one that is invalid is reported where it is opened."""
     with suppress(Exception):
-        load(source).build()
+        load(source)
 
 
 def computed(scene: Scene) -> tuple[Packed, float]:

@@ -1,5 +1,7 @@
 """Pictures of kicks and throws of every kind: composed, legible, the ball always in sight and never too small."""
 
+from dataclasses import replace
+
 import numpy as np
 import pygame
 import pytest
@@ -155,6 +157,10 @@ def test_a_note_says_how_far_away_is_what_is_not_in_sight():
         picture = picture_of(name)
         picture.poster()
         assert ("the goal is 22 m away" in texts(picture)) == away
+    run = run_of("baseball", {})
+    picture = run.scene.picture(run, SIZES[0])
+    camera = replace(picture.camera, anchor=(-50.0, 300.0))
+    assert picture.remarks(camera) == []  # the start is where all is measured from
 
 
 def test_the_lens_goes_where_it_would_hide_the_ring():

@@ -16,6 +16,7 @@ import sandbox.window
 from sandbox.engine.accuracy import LEVELS
 from sandbox.new import new_scene
 from sandbox.window.aim import nudged
+from sandbox.window.background import Latest
 from sandbox.window.game import LATE, LONG, Game
 from sandbox.window.handles import grips
 from sandbox.window.history import DEPTH
@@ -182,6 +183,21 @@ class TestARunThatNeverEnds:
         stuck.settle()
         assert stuck.shot.scene is stuck.session.scene
 
+    def test_the_next_is_left_twice_as_long_until_one_ends(self):
+        """Or a new process, which has to import all again, would be stopped before its first run ends."""
+        abandoned: list[Future] = []
+        latest: Latest[None] = Latest(abandoned.append, hung=2.0)
+        for key, patience in ((1, 2.0), (2, 4.0), (3, 8.0), (5, 2.0)):
+            latest.follow(key, lambda key: Future())
+            before = len(abandoned)
+            for waited, stopped in ((0.9, before), (0.2, before + 1)):
+                latest.began -= waited * patience
+                latest.follow(key + 1, lambda key: Future())
+                assert len(abandoned) == stopped
+            if key == 3:
+                latest.work.set_result(None)
+                assert latest.take()
+
     def test_the_path_from_before_is_not_shown_as_if_it_were_the_one_that_takes_long(self, game):
         game.worker.never = True
         game.change({"launch.speed": 2.0})
@@ -217,6 +233,7 @@ def test_a_setup_is_built_once_where_it_is_run(own, worker, force, times):
     game = own(force + COUNTED, worker)
     game.settle()
     builds = game.session.base.folder / "scene.py.built"
+    assert len(builds.read_text("utf-8")) == 1 + times  # it is checked where it is opened
     (fan,) = [grip for grip in grips(game.session) if "fan.place" in grip.keys]
     for count, change in enumerate(
         (

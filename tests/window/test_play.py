@@ -6,16 +6,20 @@ import os
 import subprocess
 import sys
 from concurrent.futures import Future
+from itertools import pairwise
 
 import numpy as np
 import pygame
 import pytest
 
 import sandbox
-from sandbox.scene import listings
+from sandbox.scene import Scene, listings
 from sandbox.window.commands import TABLE
 from sandbox.window.playback import LONGEST_FRAME, STEP
 from sandbox.window.view import SMALLEST
+
+from .conftest import Player
+from .test_game import Here
 
 
 class Slow:
@@ -102,6 +106,27 @@ def test_a_click_is_no_shot_and_wheel_and_keys_turn_push_and_spin(player):
     before = value("launch.spin")
     player.send(pygame.MOUSEWHEEL, x=0, y=2, flipped=False)
     assert value("launch.spin") == pytest.approx(before + 200)
+
+
+@pytest.mark.parametrize("source", [listing.name for listing in listings() if "/" not in listing.name])
+def test_what_is_drawn_was_built_once(source, monkeypatch):
+    """For each set of parameters, however they were changed; and once more to check a file that is opened."""
+    built, build = [], Scene.build
+    monkeypatch.setattr(Scene, "build", lambda scene: built.append(scene.parameters) or build(scene))
+    player = Player(Here(), source, SMALLEST)
+    try:
+        assert len(built) == 2
+        player.key(pygame.K_UP)
+        for x, y in [spot.at for spot in player.view.spots][:1]:
+            player.press((round(x), round(y)))
+            player.move((round(x) + 9, round(y) + 7))
+            player.release((round(x) + 9, round(y) + 7))
+        player.key(pygame.K_z, pygame.KMOD_CTRL)
+        player.settle()
+        assert len(built) > 3
+        assert all(one != other for one, other in pairwise(built[1:]))
+    finally:
+        player.app.close()
 
 
 class TestWatching:

@@ -19,7 +19,7 @@ from sandbox.window.game import Game
 from sandbox.window.pointer import NOTCH
 from sandbox.window.session import Session
 from sandbox.window.stage import Stage
-from sandbox.window.view import View
+from sandbox.window.view import CARD, SMALLEST, View
 
 from .test_game import Here
 
@@ -260,6 +260,16 @@ def test_the_picture_stays_until_the_stage_next_to_the_panel_is_composed(player)
     while not player.view.has_panel:
         player.frames(1)
     assert (pygame.surfarray.array3d(player.screen)[:600, :600] == before).mean() > 0.9
+
+
+def test_until_then_it_fills_a_window_that_grows(player):
+    player = player("golf", SMALLEST)
+    player.view.patience, player.view.stages.work = 0.0, Future()
+    pygame.display.set_mode((960, 600), pygame.RESIZABLE)
+    player.view.resized()
+    player.frames(1)
+    ground = pygame.surfarray.array3d(player.screen)[-200:, :400]
+    assert (ground == CARD["background"]).all(axis=2).mean() < 0.5
 
 
 def test_nothing_is_drawn_while_nothing_changes(player):
