@@ -220,8 +220,8 @@ class Catch:
 
 
 class Patch(NamedTuple):
-    """A region where a force acts over a short distance, such as a net: no step through it is longer than ``step``,
-    so that none skips it."""
+    """A region at whose border a force begins, ends or has a kink, such as a net: steps end there, and none through it
+    is longer than ``step``, so that none skips it."""
 
     left: float  # m
     bottom: float  # m
@@ -233,6 +233,10 @@ class Patch(NamedTuple):
         """Whether a path inside the hull of these points could cross the region; coordinates in m."""
         beside = (least(*x) > self.right) | (most(*x) < self.left)
         return (beside | (least(*y) > self.top) | (most(*y) < self.bottom)) ^ True
+
+    def holds(self, x: Any, y: Any) -> Any:
+        """Whether a place in m is inside."""
+        return (self.left < x) & (x < self.right) & (self.bottom < y) & (y < self.top)
 
 
 @dataclass(frozen=True)

@@ -41,8 +41,12 @@ JUMP = 0.01
 #: A step that ends this near a break (s) has reached it.
 _AT_BREAK = 1e-12
 
-#: Avoids division by an error of zero (m).
-_NO_ERROR = 1e-300
+#: A border of a patch has been reached if it is nearer than this share of the patch's longest step: that much the
+#: predicted time may be wrong.
+_AT_BORDER = 0.02
+
+#: Avoids division by zero.
+_TINY = 1e-300
 
 
 class StepControl:
@@ -75,7 +79,7 @@ class StepControl:
             return too_long ^ True, choose(too_long, 0.5 * h, longer), end, last
         off = size(error, radius)
         fits = off <= self._local_error
-        change = clip(SAFETY * (self._local_error / (off + _NO_ERROR)) ** self._exponent, SHORTER, LONGER)
+        change = clip(SAFETY * (self._local_error / (off + _TINY)) ** self._exponent, SHORTER, LONGER)
         following = h * choose(off < inf, change, LOST)
         return fits, most(following, wanted * (fits & (h < wanted))), end, last
 
@@ -93,22 +97,38 @@ def shortest(t: Any) -> Any:
 
 
 def allowed(setup: Setup, t: Any, h: Any, state: State, acceleration: Acceleration) -> Any:
-    """A step from t of h s or less: not across a break; and before each patch, or no longer than the patch allows."""
+    """A step from t of h s or less: not across a break, or the border of a patch, where forces have kinks, and a step
+    would be refused, or lose its order; and inside a patch no longer than that allows."""
     h = least(h, LONGEST)
     for at in setup.breaks:
         room = at - t
         h = choose((room > _AT_BREAK) & (room < h), room, h)
+    (x, y, vx, vy), (ax, ay, _) = state[:4], acceleration
     for patch in setup.patches:
-        (x, y, vx, vy), (ax, ay, _) = state[:4], acceleration
-        while anywhere(h > patch.step):
-            half = 0.5 * h
-            xs = (x, x + half * vx, x + h * (vx + half * ax))  # control points of the predicted parabola
-            ys = (y, y + half * vy, y + h * (vy + half * ay))
-            crossed = patch.crossed(xs, ys) & (h > patch.step)
-            if not anywhere(crossed):
-                break
-            h = choose(crossed, choose(half > patch.step, half, patch.step), h)
+        half = 0.5 * h  # control points of the predicted parabola
+        near = patch.crossed((x, x + half * vx, x + h * (vx + half * ax)), (y, y + half * vy, y + h * (vy + half * ay)))
+        if not anywhere(near):
+            continue
+        for way, speed, change in (
+            (patch.left - x, vx, ax),
+            (patch.right - x, vx, ax),
+            (patch.bottom - y, vy, ay),
+            (patch.top - y, vy, ay),
+        ):
+            reached = _gone(way, speed, change)
+            h = choose(near & (reached > _AT_BORDER * patch.step) & (reached < h), reached, h)
+        half = 0.5 * h
+        inside = patch.holds(x + half * (vx + 0.5 * half * ax), y + half * (vy + 0.5 * half * ay))
+        h = choose(near & inside & (h > patch.step), patch.step, h)
     return h
+
+
+def _gone(way: Any, speed: Any, change: Any) -> Any:
+    """When it has first gone this way (m) at a constant acceleration, in s; not positive if it never does."""
+    square = speed * speed + 2.0 * way * change
+    towards = choose(way < 0.0, -1.0, 1.0) * speed
+    t = 2.0 * abs(way) / (towards + most(square, 0.0 * square) ** 0.5 + _TINY)
+    return choose(square < 0.0, -1.0, t)
 
 
 def stiff(

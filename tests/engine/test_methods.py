@@ -101,6 +101,29 @@ def test_no_step_skips_a_patch(turn: float):
         assert hypot(*run.state("ball", 0.1)[2:4]) == pytest.approx(faster, rel=1e-2)
 
 
+@pytest.mark.parametrize("way", [(1, 0), (-1, 0), (0, 1), (0, -1)])
+def test_steps_end_at_the_borders_of_patches(way: tuple[int, int]):
+    """Where a force begins, is greatest and ends, each with a kink: found by refusals, these would be 20 steps more."""
+    kinks = 1.0, 1.05, 1.1
+
+    def gone(x: float, y: float) -> float:
+        return x * way[0] + y * way[1]
+
+    def slowed(t, position, velocity, spin):
+        k = -20.0 * max(0.0, 0.05 - abs(gone(*position) - 1.05))
+        return k * velocity[0], k * velocity[1]
+
+    def around(near: float, far: float) -> Patch:
+        (left, right), (bottom, top) = (sorted((near * part, far * part)) if part else (-1.0, 1.0) for part in way)
+        return Patch(left, bottom, right, top, 0.02)
+
+    ball = Ball("ball", 0.5, 0.1, (0.0, 0.0), (8.0 * way[0], 8.0 * way[1]), forces=[slowed])
+    run = simulate(Setup([ball], duration=0.5, patches=[around(*kinks[:2]), around(*kinks[1:])]), resolve())
+    ends = [gone(*state[:2]) for _, state in run.ends("ball")]
+    assert all(min(abs(end - kink) for end in ends) < 1e-3 for kink in kinks)
+    assert run.numerics.refined_steps < 5
+
+
 def test_finer_means_half_the_step_for_each_order():
     third, fifth = chosen("bogacki-shampine").finer(), LEVELS["balanced"].finer()
     assert third.tolerance == pytest.approx(1e-4 / 8)
