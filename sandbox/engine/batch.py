@@ -122,8 +122,7 @@ class Batch:
         # of those in flight
         self._shot = np.arange(len(setups))
         self._t = np.zeros(len(setups))
-        ball = whole.balls[0]
-        start = (*ball.position, *ball.velocity, ball.spin)
+        start = whole.start_of(whole.balls[0])
         self._state = np.array([np.broadcast_to(part, len(setups)) for part in start], float)
         self._wanted = np.full(len(setups), self._control.first)  # s, the next step
         self._again = np.zeros(len(setups), dtype=bool)  # the last step was too long and is repeated

@@ -64,10 +64,10 @@ _REMEDY = 'lower accuracy.step, or use accuracy.method = "exact"'
 class _Tracked:
     """A ball's body, its recorded path, and what it touched."""
 
-    def __init__(self, ball: Ball, body: pymunk.Body, rolls: bool) -> None:
+    def __init__(self, ball: Ball, body: pymunk.Body, start: State) -> None:
         self.ball = ball
-        self.rolling_spin: tuple[float, ...] = ball.rolling_spin if rolls else ()  # rad/s
         self.body = body
+        self.take(start)
         self.law = law_of(ball)
         self.path: list[Arc] = []
         self.since = 0.0  # s, start of the current arc
@@ -86,7 +86,7 @@ class _Tracked:
     def take(self, state: State) -> None:
         """Set the velocities and spins to those of this state."""
         self.body.velocity, self.body.angular_velocity = state[2:4], state[4]
-        self.rolling_spin = () if self.ball.turns else state[5:]
+        self.rolling_spin: tuple[float, ...] = () if self.ball.turns else state[5:]  # rad/s
 
     def record(self, t: float) -> None:
         if t > self.since or not self.path:
@@ -118,7 +118,7 @@ class PlainSimulation:
         self._tracked: dict[Any, _Tracked] = {}
         for ball in setup.balls:
             body, _ = self._real.add(ball)
-            body.position, body.velocity, body.angular_velocity = ball.position, ball.velocity, ball.spin
+            body.position = ball.position
             if isinstance(ball, Body):
                 body.angle = ball.angle
                 resists = next((surface.name for surface in setup.surfaces if surface.rolling_resistance > 0.0), None)
@@ -128,7 +128,7 @@ class PlainSimulation:
                         f'rolling_resistance of {resists!r} to 0, or use accuracy.method = "exact"'
                     )
             body.velocity_func = self._real.guarded(self._move)
-            self._tracked[body] = _Tracked(ball, body, setup.plane is not None and setup.plane_of(ball.name).rolls)
+            self._tracked[body] = _Tracked(ball, body, setup.start_of(ball))
 
     def run(self) -> Run:
         started = perf_counter()
@@ -181,8 +181,7 @@ class PlainSimulation:
         """Remove a ball that is in a pocket; noticed at the next recording, so up to one interval late."""
         x, y = tracked.body.position
         for catch in self._setup.catches:
-            takes = not catch.only or tracked.ball.name in catch.only
-            if takes and Outline.of(catch.shape, 0.0).near(x, y).gap <= 0.0:
+            if catch.takes(tracked.ball.name) and Outline.of(catch.shape, 0.0).near(x, y).gap <= 0.0:
                 tracked.caught = True
                 self._real.space.remove(tracked.body, *tracked.body.shapes)
                 speed = tracked.body.velocity.length
@@ -247,7 +246,7 @@ class PlainSimulation:
             self._note(Event(self._t, "impact", first.ball.name, contact.partner, contact.speed, *states[0][:2]))
         bounce, lasts, lowest = contact.bounce, False, 0.0
         if surface is not None:
-            by = press(states[0], first.last[1], nx, ny, 0.0)
+            by = press(states[0], first.last[1], nx, ny, 0.0)  # m/s^2
             # no faster than what weight alone adds in a step or two
             lasts = abs(contact.speed) <= 2.0 * by * self._accuracy.step
             lowest = leaves_at(by, surface.lowest_bounce)  # m/s, a bounce no faster than this is absorbed

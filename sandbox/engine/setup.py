@@ -218,6 +218,10 @@ class Catch:
     def shape(self) -> Segment | Circle:
         return Circle(self.center, self.radius) if self.end is None else Segment(self.center, self.end, self.radius)
 
+    def takes(self, ball: str) -> bool:
+        """Whether it removes the ball of this name."""
+        return not self.only or ball in self.only
+
 
 class Patch(NamedTuple):
     """A region at whose border a force begins, ends or has a kink, such as a net: steps end there, and none through it
@@ -405,6 +409,11 @@ class Setup:
         """What a ball slides and rolls on, seen from above."""
         assert self.plane is not None
         return dict(self.planes).get(ball, self.plane)
+
+    def start_of(self, ball: Ball) -> State:
+        """The state of a ball at the start."""
+        rolls = self.plane is not None and self.plane_of(ball.name).rolls
+        return (*ball.position, *ball.velocity, ball.spin, *(ball.rolling_spin if rolls else ball.turned))
 
     def ends_with(self, events: Sequence[Event]) -> bool:
         """Whether the run is over with the last of these events."""

@@ -99,17 +99,15 @@ class Simulation:
         setup = self._setup
         obstacles: dict[float, list[Obstacle]] = {}
         skin = self._accuracy.skin
-        catches = [(Obstacle(Surface(c.name, c.shape, 0.0, 0.0), 0.0, skin), c.only) for c in setup.catches]
+        catches = [(each, Obstacle(Surface(each.name, each.shape, 0.0, 0.0), 0.0, skin)) for each in setup.catches]
         for radius in {ball.radius for ball in setup.balls}:
             obstacles[radius] = [Obstacle(surface, radius, skin) for surface in setup.surfaces]
         tracks: list[Track] = []
         for ball, (x, y) in zip(setup.balls, starts(setup.balls, obstacles), strict=True):
-            state: State = (x, y, *map(float, (*ball.velocity, ball.spin, *ball.turned)))
-            if setup.plane is not None and setup.plane_of(ball.name).rolls:
-                state = (*state, *map(float, ball.rolling_spin))
+            state: State = (x, y, *map(float, setup.start_of(ball)[2:]))
             kind = OnPlane if setup.plane is not None else Turning if ball.turns else Track
-            places = obstacles[ball.radius], [catch for catch, only in catches if not only or ball.name in only]
-            tracks.append(kind(ball, state, *places, setup, self._accuracy, self._numerics))
+            near = [place for catch, place in catches if catch.takes(ball.name)]
+            tracks.append(kind(ball, state, obstacles[ball.radius], near, setup, self._accuracy, self._numerics))
         return tracks
 
     def run(self) -> Run:
