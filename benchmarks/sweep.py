@@ -212,7 +212,7 @@ def in_the_window(repeats: int, quick: bool) -> list[dict[str, Any]]:
         how = (1.0, camera, quickly, shot.early, (1280, 720), ((0, 255, 0), (255, 255, 255)))
         times = []
         for _ in range(repeats):
-            with patch.object(fan, "SHOTS", shots), patch.object(fan, "_begun", None):
+            with patch.object(fan, "SHOTS", shots), patch.object(fan, "_begun", {}):
                 parts, left = [], True
                 while left:
                     spent, cloud = timed(fan.cloud, scene, *how)

@@ -6,7 +6,8 @@ driver), as without a GPU; frames are paced at 60 per second, and a frame's time
 "processor" is the window process' processor time for a frame, and "share" its fraction of 16.7 ms, which is repeatable
 on a busy machine, unlike the time; scenes run in another process, on the other core. While aiming, the mouse moves in
 every frame; "path" is the share of frames whose path belongs to the mouse position of the same frame, and not to an
-earlier one; "fans" is how many new fans are shown in a second while the mouse moves. Presets get a third of the frames
+earlier one; "fans" is how many new fans are shown in a second while the mouse moves, and "whole" the time by the clock
+in which the fan of an aim at rest is complete, from its first frame to its last shot. Presets get a third of the frames
 of scenes, and a line for the fan alone. The last line is the share of all frames in time.
 """
 
@@ -30,6 +31,7 @@ from sandbox.window.app import App
 from sandbox.window.background import steady
 from sandbox.window.game import Game
 from sandbox.window.session import Session
+from sandbox.window.view import AT_REST
 from sandbox.workers import Processes
 
 SIZE, FRAME = (1280, 720), 1 / 60  # px, s
@@ -68,6 +70,7 @@ def measure(source: str, frames: int, worker: Processes, helper: Processes) -> d
     assert game.shot is not None
     x, y = (round(value) for value in app.view.stage.ball_at(game.shot))
     angle = radians(game.session.value(game.session.controls.angle) or 0.0)
+    whole = whole_fan(app)
     post(pygame.MOUSEBUTTONDOWN, (x, y))
     app.tick(FRAME)
     steady()
@@ -79,7 +82,7 @@ def measure(source: str, frames: int, worker: Processes, helper: Processes) -> d
 
     found = {"aiming": summarised(timed(app, frames, pull))}
     app.view.on |= {"fan"}
-    found["with a fan"] = summarised(timed(app, frames, pull))
+    found["with a fan"] = summarised(timed(app, frames, pull)) | {"whole_s": whole}
     app.view.on = {"ghosts", "map"}
     found["with the map"] = summarised(timed(app, frames, pull))
     app.view.on = {"ghosts"}
@@ -92,6 +95,19 @@ def measure(source: str, frames: int, worker: Processes, helper: Processes) -> d
     found["paused"] = summarised(timed(app, frames // 2))
     app.close()
     return found
+
+
+def whole_fan(app: App) -> float:
+    """How long the window takes for the fan of an aim at rest, in s by the clock, in frames as a player has them."""
+    while app.game.still < AT_REST:
+        app.tick(FRAME)
+    app.view.on.add("fan")
+    started = perf_counter()
+    while (fan := app.view.clouds.value) is None or fan.left > 0:
+        for _ in timed(app, 1):
+            pass
+    app.view.on.remove("fan")
+    return perf_counter() - started
 
 
 def summarised(rows: Iterator[tuple[float, float, bool, bool]]) -> dict[str, float]:
@@ -133,6 +149,7 @@ def main() -> None:
         "in time": "{in_time:.0%}",
         "path": "{path:.0%}",
         "fans": "{fans:.1f} /s",
+        "whole": "{whole_s:.2f} s",
     }
     shown = [
         row

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from itertools import islice
 from math import log1p, sqrt
 from time import process_time
 from typing import Any, NamedTuple
@@ -19,14 +20,27 @@ from sandbox.sport.controls import Spread
 from sandbox.window.shots import Shot
 
 SHOTS = 100
-#: So many more are computed at least before a fan is shown, and no more after this time in s.
-FEWEST, QUICK = 8, 0.3
+#: So many more are computed at least before a fan is shown, and no more after this time in s; and after this one by a
+#: process that may have to compute the path at once.
+FEWEST, QUICK, BRIEF = 8, 0.3, 0.05
 #: Spread if the scene gives none: of the speed, as a share of it, and of the angle, in deg.
 SPEED, ANGLE = 0.01, 0.5
 #: Opacity of one path; and how far from the picture, in px, a path is still followed.
 FAINT, FAR = 0.3, 2000
 #: Size in px of the mark at the end of a path.
 END = 3
+
+
+#: Parameters that differ, and their standard deviations.
+_Spread = Mapping[str, tuple[declared.Parameter, float]]
+
+
+class Flown(NamedTuple):
+    """What a fan shows of a shot."""
+
+    path: np.ndarray  # m, shape (points, 2)
+    scored: bool
+    result: Mapping[str, Any]  # the facts that were asked for
 
 
 class Cloud(NamedTuple):
@@ -58,12 +72,10 @@ def within(parameter: declared.Parameter, values: np.ndarray) -> np.ndarray:
 
 
 class Fan:
-    """The shots of a fan, computed a few at a time. While the aim changes, and where they are computed one by one, as
-    balls on a table are, they have the accuracy of pictures."""
+    """The shots of a fan, computed a few at a time; ``backwards`` from the last to the first. While the aim changes,
+    and where they are computed one by one, as balls on a table are, they have the accuracy of pictures."""
 
-    def __init__(
-        self, scene: Scene, spread: Mapping[str, tuple[declared.Parameter, float]], asked: Sequence[str], quick: bool
-    ) -> None:
+    def __init__(self, scene: Scene, spread: _Spread, asked: Sequence[str], quick: bool, backwards: bool) -> None:
         self._of = scene.folder, scene.parameters, spread, asked, quick
         self.left = scene.controls.fan_shots or SHOTS
         draws = np.random.default_rng(1).standard_normal((self.left, len(spread)))
@@ -71,26 +83,48 @@ class Fan:
         points = np.column_stack(columns).tolist()
         if quick or not fly_together(scene, list(spread), points[0]):
             scene = scene.changed({"accuracy.level": "fast"})
-        self.shots: list[Shot] = []
-        self._scene, self._runs = scene, runs(scene, list(spread), points, asked=asked)
+        self.flown: list[Flown | None] = []  # None where it could not be computed
+        self._scene = scene
+        self._runs = runs(scene, list(spread), points[::-1] if backwards else points, asked=asked)
 
     def is_of(self, scene: Scene, *how: Any) -> bool:
         """Whether it is the fan of this scene with this spread and these facts."""
         return self._of == (scene.folder, scene.parameters, *how)
 
-    def go_on(self) -> None:
-        """Compute more shots."""
-        started, fewest = process_time(), self.left - FEWEST
-        for run in self._runs:
-            self.left -= 1
-            if not isinstance(run, Exception):
-                self.shots.append(Shot(self._scene, run))
-            if self.left <= fewest and process_time() - started > QUICK:
+    def go_on(self, most: int, fewest: int, seconds: float) -> None:
+        """Compute more shots, no more than ``most``, and no more after so many seconds than ``fewest``."""
+        started, shots = process_time(), list[Shot | None]()
+        for run in islice(self._runs, max(0, most)):
+            shots.append(None if isinstance(run, Exception) else Shot(self._scene, run))
+            if len(shots) >= fewest and process_time() - started > seconds:
                 break
+        self.left -= len(shots)
+        paths = iter(points([(shot.run, shot.ball) for shot in shots if shot]) if any(shots) else ())
+        self.flown += [Flown(next(paths)[:, 1:], shot.scored, shot.run.result) if shot else None for shot in shots]
 
 
-#: The fan that this process has begun.
-_begun: Fan | None = None
+#: The fans that this process has begun, forwards and backwards.
+_begun: dict[bool, Fan] = {}
+
+
+def _fan(scene: Scene, spread: _Spread, asked: Sequence[str], quick: bool = False, backwards: bool = False) -> Fan:
+    """The fan of a scene, with the shots that this process has computed so far."""
+    if backwards not in _begun or not _begun[backwards].is_of(scene, spread, asked, quick):
+        _begun[backwards] = Fan(scene, spread, asked, quick, backwards)
+    return _begun[backwards]
+
+
+def _asked(scene: Scene) -> list[str]:
+    """The facts that a fan shows."""
+    return [fact for fact in (scene.controls.scores, scene.controls.fan_fact) if fact]
+
+
+def others(scene: Scene, width: float, left: int) -> list[Flown | None]:
+    """What another process has computed so far, from its end, of the fan of which so many shots were ``left`` when it
+    was asked for more."""
+    fan = _fan(scene, spread_of(scene, width), _asked(scene), backwards=True)
+    fan.go_on(left, 1, BRIEF)
+    return fan.flown
 
 
 def cloud(
@@ -101,45 +135,42 @@ def cloud(
     early: str,
     size: tuple[int, int],
     colours: tuple[Colour, Colour],
+    elsewhere: Sequence[Flown | None] = (),
 ) -> Cloud:
     """The fan of a scene as a camera sees it, in the colours of shots that score and that do not; asked again, it has
-    more shots.
+    more shots. Those of its end may have been computed ``elsewhere``.
 
     A ``quick`` one, for an aim that changes, ends where the fact ``early`` is known, such as at the landing, if it is
     known only at the end which shots score.
     """
-    global _begun
     spread = spread_of(scene, width)
     if not spread:
         return Cloud((0, 0), (0, 0), b"", ("no fan: this shot does not begin as a player's does", ""), 0, 0, 0)
-    controls = scene.controls
-    asked = [fact for fact in (controls.scores, controls.fan_fact) if fact]
+    asked = _asked(scene)
     if quick and early and scene.settles(asked) is None:
         asked = [early]
-    if _begun is None or not _begun.is_of(scene, spread, asked, quick):
-        _begun = Fan(scene, spread, asked, quick)
-    _begun.go_on()
-    shots = _begun.shots
-    paths = points([(shot.run, shot.ball) for shot in shots]) if shots else []
-    lines = [np.clip(camera.pixels(path[:, 1:]), -FAR, max(size) + FAR) for path in paths]
+    fan = _fan(scene, spread, asked, quick)
+    fan.go_on(fan.left - len(elsewhere), FEWEST, QUICK)
+    shots = [shot for shot in (*fan.flown, *reversed(elsewhere[: fan.left])) if shot is not None]
+    lines = [np.clip(camera.pixels(shot.path), -FAR, max(size) + FAR) for shot in shots]
     good = density([line for line, shot in zip(lines, shots, strict=True) if shot.scored], size)
-    others = density([line for line, shot in zip(lines, shots, strict=True) if not shot.scored], size)
+    rest = density([line for line, shot in zip(lines, shots, strict=True) if not shot.scored], size)
     sigmas = [f"{key.rpartition('.')[2]} ± {short(sigma)} {p.unit or ''}" for key, (p, sigma) in spread.items()]
     said = _said(scene, asked, shots), ", ".join(map(str.rstrip, sigmas))
-    scored = sum(shot.scored for shot in shots)
-    return Cloud(*_drawn(good, others, colours), said, len(shots), scored, SHOTS if quick else _begun.left)
+    scored, left = sum(shot.scored for shot in shots), max(0, fan.left - len(elsewhere))
+    return Cloud(*_drawn(good, rest, colours), said, len(shots), scored, SHOTS if quick else left)
 
 
-def _said(scene: Scene, asked: Sequence[str], shots: Sequence[Shot]) -> str:
+def _said(scene: Scene, asked: Sequence[str], shots: Sequence[Flown]) -> str:
     """How many score, and the mean and spread of the last number that was asked for."""
     count = len(shots)
     text = f"{count} shots" if count else "no such shot could be computed"
-    if any(shot.run.result.get(scene.controls.scores) is not None for shot in shots):
+    if any(shot.result.get(scene.controls.scores) is not None for shot in shots):
         scored = sum(shot.scored for shot in shots)
         p = scored / count
         text = f"{scored} of {count} score: {100 * p:.0f} ± {max(1.0, 100 * sqrt(p * (1 - p) / count)):.0f} %"
     fact = scene.facts.get(asked[-1]) if asked else None
-    values = [shot.run.result[fact.key] for shot in shots] if fact is not None else []
+    values = [shot.result[fact.key] for shot in shots] if fact is not None else []
     values = [value for value in values if isinstance(value, float)]
     if fact is not None and len(values) > 1:
         text += f"; {fact.label} {np.mean(values):.1f} ± {np.std(values):.1f} {fact.unit}"

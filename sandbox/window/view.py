@@ -25,7 +25,7 @@ from sandbox.window.background import Background, Latest, Once
 from sandbox.window.bar import HEIGHT, Bar
 from sandbox.window.canvas import Canvas
 from sandbox.window.charts import Charts
-from sandbox.window.fan import Cloud, cloud
+from sandbox.window.fan import Cloud, Flown, cloud, others
 from sandbox.window.game import Game
 from sandbox.window.handles import Grip, grips
 from sandbox.window.measure import NEAR, Tape, draw_reading, reading, state_entries
@@ -91,6 +91,7 @@ class View:
         self.holds = False  # the camera, while something is dragged
         self.picked_keys: tuple[str, str] | None = None  # the keys of the handle that was picked by key
         self.clouds: Latest[Cloud] = Latest(game.helper.abandon, HUNG)  # the fan
+        self.elsewhere: Latest[list[Flown | None]] = Latest(game.worker.abandon, HUNG)  # shots of the fan
         self.maps: Latest[ScoreMap] = Latest(game.helper.abandon, HUNG)
         self.cards: dict[str, pygame.Rect] = {}  # those that can be clicked: the map's cells and the charts
         self.head = pygame.Rect(0, 0, 0, 0)  # where the headline is
@@ -309,7 +310,11 @@ class View:
                 game.memory.follow(hint)
         self._follow_stage()
         self.changed |= self.clouds.take()
-        self.clouds.follow(self._cloud_wanted(), self._ask_cloud)
+        self.elsewhere.take()
+        wanted = self._cloud_wanted()
+        self.clouds.follow(wanted, self._ask_cloud)
+        if wanted is not None and wanted[4] and game.helper is not game.worker:
+            self.elsewhere.follow((*wanted, len(self._from_elsewhere(wanted))), self._ask_others)
         self.changed |= self.maps.take()
         self.maps.follow(self._map_wanted(), lambda key: game.helper.submit(score_map, *key[1:]))
 
@@ -367,7 +372,18 @@ class View:
     def _ask_cloud(self, key: tuple[Any, ...]) -> Future[Cloud]:
         """Have a fan computed."""
         (shot, *how, _), colours = key, (CARD["good"], CARD["text"])
-        return self.game.helper.submit(cloud, shot.scene, *how, shot.early, self.area.size, colours)
+        known = self._from_elsewhere(key)
+        return self.game.helper.submit(cloud, shot.scene, *how, shot.early, self.area.size, colours, known)
+
+    def _ask_others(self, key: tuple[Any, ...]) -> Future[list[Flown | None]]:
+        """Have shots of a fan computed where otherwise the path is."""
+        shot, width, _, _, left, _ = key
+        return self.game.worker.submit(others, shot.scene, width, left)
+
+    def _from_elsewhere(self, key: tuple[Any, ...]) -> list[Flown | None]:
+        """The shots of a fan that were."""
+        known = self.elsewhere
+        return known.value if known.value is not None and not key[3] and known.key[:2] == key[:2] else []
 
     def _map_wanted(self) -> tuple[Any, ...] | None:
         """What a map is still to be computed of: the scene apart from the aim, which stays in its middle for as long as

@@ -6,7 +6,7 @@ import re
 from concurrent.futures import Future
 from itertools import combinations
 from math import hypot
-from time import perf_counter
+from time import perf_counter, sleep
 from unittest import mock
 
 import numpy as np
@@ -20,11 +20,12 @@ from sandbox.window import commands
 from sandbox.window.canvas import Canvas
 from sandbox.window.charts import Charts
 from sandbox.window.commands import GROUPS, HINTS, TABLE
-from sandbox.window.fan import FEWEST, SHOTS, cloud, density, short, spread_of
+from sandbox.window.fan import FEWEST, SHOTS, cloud, density, others, short, spread_of
 from sandbox.window.measure import reading
 from sandbox.window.score_map import COARSE, FINER, SCORED, score_map
 from sandbox.window.session import Session
 from sandbox.window.view import AHEAD, AT_REST, HUNG
+from sandbox.workers import Processes
 
 PUTT = "golf/putt"
 
@@ -87,7 +88,7 @@ class TestTheFan:
     def test_it_shows_its_first_shots_and_then_more_where_they_take_long(self, monkeypatch):
         session, camera = Session("billiards/cut"), Camera((0.0, 0.0), (300.0, 200.0), 150.0)
         monkeypatch.setattr("sandbox.window.fan.QUICK", 0.0)
-        monkeypatch.setattr("sandbox.window.fan._begun", None)
+        monkeypatch.setattr("sandbox.window.fan._begun", {})
         asked = 1.0, camera, False, "", (640, 360), ((0, 255, 0), (255, 255, 255))
         clouds = [cloud(session.scene, *asked) for _ in range(2)]
         other = cloud(session.scene.changed({"cue.speed": 2.0}), *asked)
@@ -95,6 +96,33 @@ class TestTheFan:
             (count, SHOTS - count) for count in (FEWEST, 2 * FEWEST, FEWEST)
         ]
         assert clouds[1].said[0].startswith(f"{clouds[1].scored} of {2 * FEWEST} score")
+
+    def test_two_processes_share_the_shots_of_one_that_takes_long(self, monkeypatch):
+        session, camera = Session("billiards/cut"), Camera((0.0, 0.0), (300.0, 200.0), 150.0)
+        monkeypatch.setattr("sandbox.window.fan.SHOTS", 12)
+        monkeypatch.setattr("sandbox.window.fan._begun", {})
+        asked = session.scene, 1.0, camera, False, "", (640, 360), ((0, 255, 0), (255, 255, 255))
+        alone = cloud(*asked)
+        monkeypatch.setattr("sandbox.window.fan._begun", {})
+        monkeypatch.setattr("sandbox.window.fan.QUICK", 0.0)
+        assert cloud(*asked).left == 12 - FEWEST
+        known = others(session.scene, 1.0, 12 - FEWEST)
+        assert 0 < len(known) <= 12 - FEWEST
+        while len(known) < 12 - FEWEST:
+            known = others(session.scene, 1.0, 12 - FEWEST - len(known))
+        assert cloud(*asked, known) == alone
+
+    def test_in_the_window_the_path_s_process_computes_some_of_one_that_takes_long(self, player):
+        player = player("billiards/nine-ball-break")
+        player.game.helper = Processes(1)
+        try:
+            player.key(pygame.K_f)
+            while not player.view.elsewhere.value:
+                player.frames()
+                sleep(0.01)
+            assert FEWEST <= player.view.clouds.value.shots < SHOTS
+        finally:
+            player.game.helper.close(abandon=True)
 
     def test_while_the_aim_changes_it_ends_where_something_is_known_and_at_rest_it_is_complete(self, player):
         player = player("golf")
