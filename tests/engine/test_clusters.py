@@ -120,7 +120,7 @@ TRIANGLE = [ball(row * APART * sqrt(3) / 2, (place - row / 2) * APART) for row i
         ([ball(0.0, 0.0), ball(APART, 0.0)], 30.0, (0.0, 0.0, 0.0), 0.5, 0.3),
         ([ball(place * APART, 0.0) for place in range(3)], 20.0, (0.0, 60.0, 0.0), 0.9, 0.1),
         (TRIANGLE[:3], 20.0, (0.0, 280.0, 50.0), 0.95, 0.05),
-        (TRIANGLE, 15.0, (0.0, 0.0, 0.0), 0.5, 0.3),
+        (TRIANGLE[:6], 15.0, (0.0, 0.0, 0.0), 0.5, 0.3),
         (rack(8.0, 1e-5)[1:], 5.0, (0.0, 100.0, 0.0), 0.9, 0.05),
         ([ball(0.0, 0.0), ball(APART, 0.0)], 28.0, (0.0, 280.0, 80.0), 0.95, friction_by_speed),
     ],

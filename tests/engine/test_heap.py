@@ -93,9 +93,9 @@ HEAPS = {
     "a column": ([ball(place, 0.0, R + 2.5 * R * place) for place in range(3)], BOX),
     "a pyramid": (pyramid(4), FLOOR),
     "3 into a bowl": (poured(3, 0.3), BOWL),
-    "12 into a bowl": (poured(12, 0.3), BOWL),
-    "20 into a box": (poured(20, 0.4), BOX),
-    "15 down a slope": (poured(15, 0.4, -0.5), SLOPE),
+    "8 into a bowl": (poured(8, 0.3), BOWL),
+    "12 into a box": (poured(12, 0.4), BOX),
+    "8 down a slope": (poured(8, 0.4, -0.5), SLOPE),
 }
 
 
@@ -158,7 +158,7 @@ def test_heaps_of_any_size_come_to_rest_alike(bodies):
             assert place == pytest.approx(whole.state(each.name, whole.duration)[:2], abs=3e-3 * R)
 
 
-@pytest.mark.parametrize("restitution", [0.0, 0.95, 1.0])
+@pytest.mark.parametrize("restitution", [0.0, 1.0])
 def test_a_heap_of_any_restitution_is_no_error(restitution):
     """With no loss between balls only the floor takes energy."""
     run = run_of([ball(place, 0.001 * place, R + 3 * R * place) for place in range(4)], BOX, 0.2, restitution)

@@ -24,7 +24,7 @@ FLOOR = Surface("floor", Segment((-50.0, 0.0), (50.0, 0.0)), 0.7, 0.4)
 CHOICES = {
     "bogacki-shampine": {"tolerance": 1e-4},
     "shu-osher": {"tolerance": 1e-3},
-    "ralston": {"step": 1 / 500},
+    "ralston": {"step": 1 / 300},
     "rk4": {"step": 1 / 240},
 }
 

@@ -12,7 +12,6 @@ from sandbox.picture.palette import scene_colours
 from tests.picture.legible import assert_legible
 from tests.scenes.play import run_of
 
-SIZES = [(640, 360), (1280, 720)]
 GOLF = {
     "drive": {},
     "putt": {"launch.speed": 2.05, "launch.angle": 0.0, "launch.spin": 0.0, "pin.distance": 3.0},
@@ -91,8 +90,14 @@ def drawn(monkeypatch):
     return balls
 
 
-@pytest.mark.parametrize("size", SIZES, ids=str)
-@pytest.mark.parametrize("name", SHOTS)
+#: Every shot small, where there is the least room; the usual one of each sport in the usual size.
+SIZED = [
+    *((name, (640, 360)) for name in SHOTS),
+    *((name, (1280, 720)) for name in ("golf, drive", "soccer", "curl", "basketball")),
+]
+
+
+@pytest.mark.parametrize(("name", "size"), SIZED, ids=str)
 def test_posters_and_frames_are_composed_and_the_ball_can_always_be_seen(name, size, drawn):
     picture = picture_of(name, size)
     low, high = 0.04 * np.array(size), 0.96 * np.array(size)
@@ -108,7 +113,7 @@ def test_posters_and_frames_are_composed_and_the_ball_can_always_be_seen(name, s
     assert 2 * last >= smallest
     assert ring == ("ball drawn" in texts(picture)) == (last > 1.05 * picture.radius * picture.camera.scale)
     assert all(2 * radius >= SMALLEST for _, radius, _ in along)
-    for share in np.linspace(0, 1, 5):
+    for share in (0.0, 0.4, 1.0):
         drawn.clear()
         assert picture.frame(share * picture.run.duration).get_size() == size
         assert_legible(picture.sheet)

@@ -11,7 +11,7 @@ from scenes.billiards import balls
 from tests.picture.legible import assert_legible
 from tests.scenes.play import run_of
 
-SIZES = [(640, 360), (1280, 720), (960, 672)]
+SIZES = [(640, 360), (960, 672)]
 ONE_BALL = {"rack": "none", "balls": [{"name": "cue", "x": -0.5, "y": 0.0}]}
 SHOTS = {
     "break": ("billiards", {}),
