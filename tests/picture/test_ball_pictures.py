@@ -163,7 +163,7 @@ def test_a_note_says_how_far_away_is_what_is_not_in_sight():
         picture.poster()
         assert ("the goal is 22 m away" in texts(picture)) == away
     run = run_of("baseball", {})
-    picture = run.scene.picture(run, SIZES[0])
+    picture = run.scene.picture(run, (640, 360))
     camera = replace(picture.camera, anchor=(-50.0, 300.0))
     assert picture.remarks(camera) == []  # the start is where all is measured from
 
