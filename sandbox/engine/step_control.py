@@ -109,26 +109,22 @@ def allowed(setup: Setup, t: Any, h: Any, state: State, acceleration: Accelerati
         near = patch.crossed((x, x + half * vx, x + h * (vx + half * ax)), (y, y + half * vy, y + h * (vy + half * ay)))
         if not anywhere(near):
             continue
-        for way, speed, change in (
-            (patch.left - x, vx, ax),
-            (patch.right - x, vx, ax),
-            (patch.bottom - y, vy, ay),
-            (patch.top - y, vy, ay),
+        for line, place, speed, change in (
+            (patch.left, x, vx, ax),
+            (patch.right, x, vx, ax),
+            (patch.bottom, y, vy, ay),
+            (patch.top, y, vy, ay),
         ):
-            reached = _gone(way, speed, change)
-            h = choose(near & (reached > _AT_BORDER * patch.step) & (reached < h), reached, h)
+            crosses = near & ((place < line) ^ (place + h * (speed + 0.5 * h * change) < line))
+            if anywhere(crosses):
+                way = choose(crosses, line - place, 0.0)
+                there = (speed * speed + 2.0 * way * change) ** 0.5
+                reached = 2.0 * abs(way) / (choose(place < line, speed, -speed) + there + _TINY)
+                h = choose(crosses & (reached > _AT_BORDER * patch.step), reached, h)
         half = 0.5 * h
         inside = patch.holds(x + half * (vx + 0.5 * half * ax), y + half * (vy + 0.5 * half * ay))
         h = choose(near & inside & (h > patch.step), patch.step, h)
     return h
-
-
-def _gone(way: Any, speed: Any, change: Any) -> Any:
-    """When it has first gone this way (m) at a constant acceleration, in s; not positive if it never does."""
-    square = speed * speed + 2.0 * way * change
-    towards = choose(way < 0.0, -1.0, 1.0) * speed
-    t = 2.0 * abs(way) / (towards + most(square, 0.0 * square) ** 0.5 + _TINY)
-    return choose(square < 0.0, -1.0, t)
 
 
 def stiff(

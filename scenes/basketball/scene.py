@@ -153,11 +153,10 @@ class NetDrag:
     def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
         x, y = position
         depth = self.middle[1] - y
-        inside = self.half_width - abs(x - self.middle[0])
-        if not anywhere((depth > 0.0) & (depth < self.length) & (inside > -self.EDGE)):
+        below, beside = least(depth, self.length - depth), self.half_width - abs(x - self.middle[0])
+        if not anywhere((below > 0.0) & (beside > -self.EDGE)):
             return 0.0, 0.0
-        within = depth / self.EDGE, (self.length - depth) / self.EDGE, 1.0 + inside / self.EDGE
-        hold = smooth(within[0]) * smooth(within[1]) * smooth(within[2])
+        hold = smooth(below / self.EDGE) * smooth(1.0 + beside / self.EDGE)
         k = -self.mass * self.damping * hold
         return self.HOLD * k * velocity[0], k * velocity[1]
 
