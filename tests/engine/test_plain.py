@@ -109,6 +109,12 @@ def test_how_far_it_is_can_be_followed(monkeypatch: pytest.MonkeyPatch):
     assert told[-1] == (pytest.approx(1.0, abs=0.01), 1.0)
 
 
+@pytest.mark.parametrize(("level", "rate"), [("fast", 60), ("balanced", 240), ("precise", 960)])
+def test_each_level_has_its_steps_a_second(level: str, rate: int):
+    thrown = Setup([Ball("ball", 1.0, 0.1, (0.0, 0.0), (1.0, 0.0))], duration=0.5)
+    assert simulate(thrown, resolve(level, method="plain")).numerics.pymunk_steps == rate / 2
+
+
 def test_a_run_says_how_it_was_stepped():
     assert resolve(method="plain").steps == "steps of 4.17 ms"
     assert resolve(integrator="heun", step=0.01).steps == "heun, steps of 10 ms"
