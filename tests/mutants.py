@@ -61,7 +61,7 @@ TESTS: dict[str, dict[str, str]] = {
         "simulation": "contact guards cloth exact heap bodies batch golden_runs",
         "stacking": "batch lab/runs",
         "start": "contact guards bodies",
-        "step_control": "methods run guards exact batch determinism",
+        "step_control": "methods run guards exact batch determinism physics/rocket",
         "surfaces": "contact guards plain cloth",
         "touch": "contact exact batch cloth",
         "track": "guards contact exact run bodies cloth clusters heap",

@@ -37,6 +37,11 @@ def test_a_force_that_is_not_finite_stops_the_run(accuracy, value):
         simulate(Setup([shot(late)], duration=1.0), accuracy)
 
 
+def test_so_does_one_that_is_not_finite_as_soon_as_it_flies():
+    with pytest.raises(RunError, match=r"t = \S+ s, ball 'cue'.*<lambda> .* returned \(nan,"):
+        simulate(Setup([shot(lambda t, p, v, s: (nan if t > 0.0 else 0.0, 0.0))], duration=1.0), resolve())
+
+
 @pytest.mark.parametrize("accuracy", [*EXACT[:3], PLAIN], ids=lambda a: f"{a.level}-{a.method}")
 def test_leaving_the_world_stops_the_run(accuracy):
     with pytest.raises(RunError, match=r"ball 'cue'.*(x = .* m is outside the world \(-3 to 3 m\)|outside the world)"):
