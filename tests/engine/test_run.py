@@ -15,6 +15,7 @@ from sandbox.engine.arc import through
 from sandbox.engine.ledger import ledger, warnings
 from sandbox.engine.run import Numerics
 from sandbox.engine.setup import Ball, Bounce, Segment, Setup, Surface
+from sandbox.physics.cloth import Cloth
 from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity, Magnus, SpinDecay
 from tests.engine import shots
@@ -66,6 +67,12 @@ def test_state_at_an_impact_is_the_one_after_and_before_gives_the_one_before(bou
     assert after[3] == pytest.approx(0.6 * event.speed, abs=1e-9)
     assert before[:2] == pytest.approx(after[:2], abs=1e-9)
     assert (event.x, event.y) == pytest.approx(after[:2], abs=1e-9)
+
+
+def test_states_before_and_after_are_told_alike_of_a_ball_that_rolls():
+    rolling = Ball("ball", 0.17, 0.028, (0.0, 0.0), (1.0, 0.0), 2.0, (0.0, 1.0 / 0.028))
+    run = simulate(Setup([rolling], duration=1.0, plane=Cloth()), resolve())
+    assert run.before("ball", 0.5) == run.state("ball", 0.5)
 
 
 def test_velocity_is_the_slope_of_the_position(bouncing):
