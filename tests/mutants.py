@@ -55,7 +55,7 @@ TESTS: dict[str, dict[str, str]] = {
         "pressed": "pressed clusters contact scenes/billiards",
         "real_space": "heap plain bodies",
         "rubbing": "clusters scenes/billiards",
-        "run": "run names batch cloth",
+        "run": "run names batch cloth bodies",
         "setup": "guards contact run batch bodies names cloth",
         "setup_errors": "guards",
         "simulation": "contact guards cloth exact heap bodies batch golden_runs",
