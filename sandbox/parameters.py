@@ -18,8 +18,9 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence, Sized
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Sized
 from dataclasses import dataclass
+from functools import partial
 from itertools import takewhile
 from numbers import Real
 from operator import attrgetter
@@ -62,19 +63,12 @@ class Quantity:
             return self._vector(value, self.length)
         if not _is_list(value):
             raise ValueError(f"must be a list such as [{[0.0] * self.length}, {[1.0] * self.length}]")
-        return [self._vector(item, self.length) for item in value]
+        return list(_each(value, partial(self._vector, length=self.length)))
 
     def _vector(self, value: Any, length: int) -> tuple[float, ...]:
         if not _is_list(value) or len(value) != length:
             raise ValueError(f"must be a list of {length} numbers, each {self.range}, such as {[0.0] * length}")
-        return tuple(self._entry(item) for item in value)
-
-    def _entry(self, item: Any) -> float:
-        """One number of a vector; its error names it, since the message shows the whole vector."""
-        try:
-            return self._number(item)
-        except ValueError as error:
-            raise ValueError(f"{shown(item)} {error}") from None
+        return tuple(_each(value, self._number))
 
     def _number(self, value: Any) -> float:
         if isinstance(value, str):
@@ -136,6 +130,18 @@ def vectors(
 
 def _is_list(value: Any) -> bool:
     return isinstance(value, Iterable) and isinstance(value, Sized) and not isinstance(value, str | bytes | Mapping)
+
+
+Read = TypeVar("Read")
+
+
+def _each(values: Iterable[Any], read: Callable[[Any], Read]) -> Iterator[Read]:
+    """Every item as it is read; an error names the item, since the message shows the whole list."""
+    for item in values:
+        try:
+            yield read(item)
+        except ValueError as error:
+            raise ValueError(f"{shown(item)}: {error}") from None
 
 
 def _declared(default: Any, meaning: str, kind: Quantity) -> Any:

@@ -61,7 +61,10 @@ def system_of(text: str) -> Mapping[str, Ladder]:
             raise RequestError(
                 f'--units {text}: must be us, si or a list of units such as ft,mph, not "{given.strip()}"'
             )
-    return {units.KIND_OF[name]: LADDERS.get(name, (Step(0, name, 2),)) for name in names}
+    found = {units.KIND_OF[name]: LADDERS.get(name, (Step(0, name, 2),)) for name in names}
+    if len(found) < len(names):
+        raise RequestError(f"--units {text}: two are of one kind; give one unit for each kind")
+    return found
 
 
 @contextmanager

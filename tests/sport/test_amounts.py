@@ -82,11 +82,12 @@ def test_chosen_units():
     with shown_in("ft, km/h"):
         assert [amount(252.3, "m"), amount(10.0, "m/s"), amount(1.0, "N")] == ["828 ft", "36 km/h", "1.00 N"]
     assert amount(8.3, "m") == "8.30 m"
-    with (
-        pytest.raises(RequestError, match='--units us,ft: must be us, si or a list of units such as ft,mph, not "us"'),
-        shown_in("us,ft"),
+    for wrong, told in (
+        ("us,ft", 'must be us, si or a list of units such as ft,mph, not "us"'),
+        ("ft,m", "two are of one kind; give one unit for each kind"),
     ):
-        pass
+        with pytest.raises(RequestError, match=f"--units {wrong}: {told}"), shown_in(wrong):
+            pass
 
 
 @pytest.mark.parametrize(
