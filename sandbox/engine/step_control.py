@@ -118,7 +118,7 @@ def allowed(setup: Setup, t: Any, h: Any, state: State, acceleration: Accelerati
             crosses = near & ((place < line) ^ (place + h * (speed + 0.5 * h * change) < line))
             if anywhere(crosses):
                 way = choose(crosses, line - place, 0.0)
-                there = (speed * speed + 2.0 * way * change) ** 0.5
+                there = most(speed * speed + 2.0 * way * change, 0.0) ** 0.5
                 reached = 2.0 * abs(way) / (choose(place < line, speed, -speed) + there + _TINY)
                 h = choose(crosses & (reached > _AT_BORDER * patch.step), reached, h)
         half = 0.5 * h

@@ -124,6 +124,17 @@ def test_steps_end_at_the_borders_of_patches(way: tuple[int, int]):
     assert run.numerics.refined_steps < 5
 
 
+def test_a_path_may_turn_back_at_the_border_of_a_patch():
+    """The step ends at its top, v / g after the start, where the speed is zero but for rounding."""
+    g = 9.81
+    for speed in (0.01 * k for k in range(1, 40)):
+        duration = speed / g
+        top = duration * (speed - 0.5 * duration * g)
+        ball = Ball("ball", 1.0, 0.1, (0.0, 0.0), (0.0, speed), forces=[Gravity(1.0, g)])
+        run = simulate(Setup([ball], duration=duration, patches=[Patch(-1.0, top, 1.0, 1.0, 1e-3)]), resolve())
+        assert run.state("ball", duration)[1:4] == pytest.approx((top, 0.0, 0.0), abs=1e-9)
+
+
 def test_finer_means_half_the_step_for_each_order():
     third, fifth = chosen("bogacki-shampine").finer(), LEVELS["balanced"].finer()
     assert third.tolerance == pytest.approx(1e-4 / 8)
