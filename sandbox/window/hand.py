@@ -83,7 +83,7 @@ def draw_handles(sheet: Canvas, found: Sequence[Spot], mouse: Place | None, held
                 sheet.painter.arrow(camera.anchor, at, 3.6 * unit, FORCE["wind"])
             sheet.painter.ring(at, 9 * unit, 5 * unit, CARD["background"], 0.8)
             sheet.painter.ring(at, 8 * unit, 2.2 * unit, CARD["accent"])
-            label(sheet, text, at, below=False)
+            label(sheet, text, at, below=at[1] > camera.pixel(*grip.place)[1])  # beside a ball, which stays in sight
 
 
 def label(sheet: Canvas, text: str, at: tuple[float, float], below: bool) -> None:

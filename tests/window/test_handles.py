@@ -124,6 +124,14 @@ def test_by_key_alone(player):
     assert value("launch.angle") > before[2]
 
 
+def test_what_is_said_of_a_handle_beside_the_ball_leaves_the_ball_in_sight(player, written):
+    player = player("tennis")
+    while "release.height" not in (player.view.picked_keys or ()):
+        player.key(pygame.K_k)
+    (where,) = [rect for text, rect in written[-200:] if "height 2.75 m" in text][-1:]
+    assert not where.inflate(16, 16).collidepoint(player.view.stage.ball_at(player.game.shot))
+
+
 @pytest.mark.parametrize(
     ("template", "key", "axis"), [("template", "fan.place", 0), ("template_above", "lane.block", 1)]
 )
