@@ -1,4 +1,4 @@
-"""The picture of a scene that has none of its own: surfaces, balls and their paths, as the setup has them."""
+"""The picture of a scene that has none of its own: surfaces, catches, balls and paths, as the setup has them."""
 
 from __future__ import annotations
 
@@ -30,12 +30,16 @@ class Picture(AboveView[Group]):
         return self.LOOK if len(self.balls) == 1 else SEVERAL[self.balls.index(name) % len(SEVERAL)]
 
     def backdrop(self, painter: Painter, camera: Camera) -> None:
-        """A light ground, and every surface as a line or a disc."""
+        """A light ground, and as a line or a disc every surface and, paler, what takes balls."""
         painter.surface.blit(gradient(self.size, COLOURS["ground"]), (0, 0))
         near = pygame.FRect((0, 0), self.size).inflate(100, 100)
-        for shape in (surface.shape for surface in self.run.setup.surfaces):
+        setup = self.run.setup
+        for shape, colour in (
+            *((catch.shape, COLOURS["catch"]) for catch in setup.catches),
+            *((surface.shape, COLOURS["surface"]) for surface in setup.surfaces),
+        ):
             thick = max(shape.radius * camera.scale, 1.5 * self.unit)
             if isinstance(shape, Circle):
-                painter.disc(camera.pixel(*shape.center), thick, COLOURS["surface"])
+                painter.disc(camera.pixel(*shape.center), thick, colour)
             elif seen := near.clipline(camera.pixel(*shape.a), camera.pixel(*shape.b)):
-                painter.line(seen, 2 * thick, COLOURS["surface"])
+                painter.line(seen, 2 * thick, colour)

@@ -69,7 +69,7 @@ class Fact:
             return self._number(value, error, also)
         if isinstance(value, Mapping):
             return ", ".join(f"{name} ({what})" for name, what in value.items())
-        return value if isinstance(value, str) else ", ".join(map(str, value))
+        return value if isinstance(value, str) else ", ".join(map(self.text, value))
 
     def _number(self, value: float, error: float | None, also: bool) -> str:
         size = abs(value) if self.sides else value

@@ -49,6 +49,14 @@ def test_everything_is_in_the_picture(bare, name: str):
     assert (half != pygame.surfarray.array3d(poster)).any()
 
 
+def test_what_takes_balls_is_seen(bare):
+    run = sandbox.simulate(bare("billiards"))
+    picture = run.scene.picture(run, SIZE)
+    ground = colour(picture.stage(), picture.camera.pixel(0.0, 0.3))
+    for catch in run.setup.catches:
+        assert colour(picture.stage(), picture.camera.pixel(*catch.center)) != pytest.approx(ground, abs=20)
+
+
 @pytest.mark.parametrize("name", ["basketball", "billiards"])
 def test_another_run_is_drawn_beside_this_one(bare, name: str):
     scene = bare(name)

@@ -20,6 +20,7 @@ from sandbox.sport.amounts import (
     times,
     twice,
 )
+from sandbox.sport.facts import Fact
 
 
 @given(st.floats(1e-9, 1e12), st.sampled_from([-1.0, 1.0]), st.integers(1, 5))
@@ -88,6 +89,13 @@ def test_chosen_units():
     ):
         with pytest.raises(RequestError, match=f"--units {wrong}: {told}"), shown_in(wrong):
             pass
+
+
+def test_a_fact_of_several_numbers_says_each_as_it_says_one():
+    fact = Fact("heights", "heights", "m", lambda run, parameters: None)
+    assert fact.text([1.806986702774693, 0.25, 4.9e-17]) == ", ".join(map(amount, (1.807, 0.25, 0.0), "mmm"))
+    assert fact.text(("left", True)) == "left, yes"
+    assert fact.text([]) == ""
 
 
 @pytest.mark.parametrize(
