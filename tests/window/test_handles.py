@@ -36,7 +36,7 @@ def drag(player, key: str, by: tuple[int, int], let_go: bool = True) -> None:
 
 @pytest.mark.parametrize("source", SCENES)
 def test_what_is_dragged_is_where_the_mouse_is_and_can_be_undone(player, source):
-    player = player(source)
+    player = player(source, (640, 400))
     game, view = player.game, player.view
     places = {key for grip, *_ in view.spots for key in grip.keys if key and grip.keys != WIND_KEYS}
     assert places, "a scene has something to drag"
