@@ -106,12 +106,16 @@ class Session:
             values = declared.without_indices(self.scene.parameters, values, "the window's")
         self._set({**self.changes.values, **values}, self.changes.positions)
 
+    def _take_back(self, keys: Collection[str]) -> None:
+        kept = {key: value for key, value in self.changes.values.items() if key not in keys}
+        self._set(kept, self.changes.positions)
+
     def reset(self, key: str | None = None) -> None:
         """Back to the file: one parameter, or all of them."""
         if key is not None and "[" in key:
             self.change({key: self.base_value(key)})
         else:
-            self._set({} if key is None else without(self.changes.values, {key}), self.changes.positions)
+            self._take_back(self.changes.values if key is None else {key})
 
     def restore(self, changes: Changes) -> None:
         """Return to these changes, maybe of another scene file."""
@@ -127,7 +131,7 @@ class Session:
 
     def begin_again(self) -> None:
         """Take back what ``start_from`` changed."""
-        self._set(without(self.changes.values, self.changes.positions), frozenset())
+        self._take_back(self.changes.positions)
 
     def reload(self, code: bool = False) -> None:
         """Read the scene file again, and with ``code`` the scene's modules too. Changes are kept if it is still the
@@ -153,8 +157,3 @@ class Session:
     def command(self) -> str:
         """The command line that runs this."""
         return command_line(self.source, self.changes.values)
-
-
-def without(values: Mapping[str, Any], keys: Collection[str]) -> dict[str, Any]:
-    """The values at other keys."""
-    return {key: value for key, value in values.items() if key not in keys}

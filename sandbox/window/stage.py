@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import pairwise
 from math import dist
 
 import numpy as np
 import pygame
 
 from sandbox.picture.camera import Camera
-from sandbox.picture.painter import blank
+from sandbox.picture.painter import Painter, blank
 from sandbox.picture.palette import Colour, mix, palette
 from sandbox.picture.path import simplify
 from sandbox.picture.sheet import Sheet
@@ -179,8 +178,7 @@ def draw_line(surface: pygame.Surface, points: np.ndarray, width: float, colour:
     pygame's own smooth lines are ``width`` px wide only where they are horizontal or vertical.
     """
     if width < 2.5:
-        for a, b in pairwise(points):
-            pygame.draw.aaline(surface, colour, a, b, round(width))
+        Painter(surface).thread(points, width, colour)
         return
     steps = np.diff(points, axis=0)
     lengths = np.maximum(np.hypot(*steps.T), 1e-9)

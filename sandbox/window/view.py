@@ -461,7 +461,7 @@ class View:
         else:
             sheet.surface.fill(CARD["background"])
             if self._picture is not None:
-                larger = max(1.0, *(px / before for px, before in zip(sheet.size, self._picture.size, strict=True)))
+                larger = max(px / before for px, before in zip(sheet.size, self._picture.size, strict=True))
                 sheet.surface.blit(pygame.transform.smoothscale_by(self._picture, larger), (0, 0))
             if self.undrawable is not None or no_path:
                 sheet.veil(150)
