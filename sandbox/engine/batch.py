@@ -141,7 +141,7 @@ class Batch:
         started = perf_counter()
         with np.errstate(all="ignore"):
             some = np.arange(0, len(self._shot), max(1, len(self._shot) // _WATCHED))
-            self._check_forces(some, np.array(self._acceleration(self._now.balls[0], self._t, tuple(self._state))))
+            self._check_forces(some, self._acceleration(self._now.balls[0], self._t, tuple(self._state)))
             self._begin()
             rounds = pieces = 0
             while len(self._shot) >= FEWEST and pieces < MOST_PIECES:
@@ -166,17 +166,17 @@ class Batch:
 
     # ------------------------------------------------------------------ forces
 
-    def _acceleration(self, ball: Ball, t: np.ndarray, state: State) -> Acceleration:
+    def _acceleration(self, ball: Ball, t: np.ndarray, state: State) -> np.ndarray:
+        """As rows: ax, ay, alpha. Raises _OnlyFloats for what is not a real number of each shot, or of all."""
         for array in (t := t.view(), *state):
             array.flags.writeable = False  # ``vx -= wind`` in a force leaves a float as it was, but not an array
+        found = np.empty((3, len(t)))
         try:
-            found = acceleration(ball, t, state)
-            if any(map(np.iscomplexobj, found)):
-                raise TypeError("complex numbers")
-            ax, ay, alpha = (part if np.shape(part) == t.shape else np.full(t.shape, part) for part in found)
-        except FAILURES as error:  # such as arrays of the wrong shape
+            for row, part in zip(found, acceleration(ball, t, state), strict=True):
+                np.copyto(row, part)
+        except FAILURES as error:  # such as complex numbers, or arrays of the wrong shape
             raise _OnlyFloats from error
-        return ax, ay, alpha
+        return found
 
     def _check_forces(self, lanes: np.ndarray, together: np.ndarray) -> None:
         """Raise _OnlyFloats if the accelerations of these lanes, computed with arrays, differ from those computed with
@@ -203,7 +203,7 @@ class Batch:
         self._drop()
 
     def _advance_all(self, watched: int) -> None:
-        known = np.array(self._acceleration(self._now.balls[0], self._t, tuple(self._state)))
+        known = self._acceleration(self._now.balls[0], self._t, tuple(self._state))
         self._check_forces(np.array([watched]), known)
         self._settle(known)
         known = known[:, self._drop()]
@@ -255,10 +255,7 @@ class Batch:
 
     def _law(self, t: np.ndarray, state: State) -> Acceleration:
         """The acceleration of shots in flight and in contact."""
-        applied = self._acceleration(self._now.balls[0], t, state)
-        if not self._held:
-            return applied
-        found = np.array(applied)
+        found = self._acceleration(self._now.balls[0], t, state)
         for at, ball, contact in self._held:
             found[:, at] = contact.forces(ball, tuple(found[:, at]), tuple(part[at] for part in state))[0]
         return tuple(found)
@@ -272,7 +269,7 @@ class Batch:
             here = rows[:, place[lanes]]
             x, y, vx, vy, spin = (here[part] for part in CURVES)
             end = tuple(here[END])
-            applied = self._acceleration(ball, here[T1], end)
+            applied = tuple(self._acceleration(ball, here[T1], end))
             _, normal, spare = contact.forces(ball, applied, end)
             progress = contact.progress(ball, (x, y, vx, vy, elevated(spin, len(vx) - 1)))
             u, unclear = first_downward_crossing(progress)
