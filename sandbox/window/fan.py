@@ -81,7 +81,8 @@ class Fan:
         draws = np.random.default_rng(1).standard_normal((self.left, len(spread)))
         columns = [within(p, p.value + sigma * draw) for (p, sigma), draw in zip(spread.values(), draws.T, strict=True)]
         points = np.column_stack(columns).tolist()
-        if quick or not fly_together(scene, list(spread), points[0]):
+        self.together = not quick and fly_together(scene, list(spread), points[0])
+        if not self.together:
             scene = scene.changed({"accuracy.level": "fast"})
         self.flown: list[Flown | None] = []  # None where it could not be computed
         self._scene = scene
@@ -121,9 +122,10 @@ def _asked(scene: Scene) -> list[str]:
 
 def others(scene: Scene, width: float, left: int) -> list[Flown | None]:
     """What another process has computed so far, from its end, of the fan of which so many shots were ``left`` when it
-    was asked for more."""
+    was asked for more; nothing of one that is computed together."""
     fan = _fan(scene, spread_of(scene, width), _asked(scene), backwards=True)
-    fan.go_on(left, 1, BRIEF)
+    if not fan.together:
+        fan.go_on(left, 1, BRIEF)
     return fan.flown
 
 

@@ -480,7 +480,7 @@ class Game:
         try:
             self.session.reload(code)
         except Exception as error:
-            self.unreadable = self.reason(error)
+            self.unreadable, self.message = self.reason(error), None
             return
         if code:
             for processes in {self.worker, self.helper}:

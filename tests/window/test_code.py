@@ -57,8 +57,10 @@ class TestSaving:
         own.settle()
         assert own.game.failure is None
         edit(own, name, "\nimport (\nfrom ", "\nfrom ")
-        assert not any(bad for _, bad in own.game.notices)
+        assert [bad for _, bad in own.game.notices] == [False]  # that it was read again
         assert own.game.session.scene.module is not before
+        edit(own, name, "\nfrom ", "\nimport (\nfrom ")
+        assert [bad for _, bad in own.game.notices] == [True]
 
 
 class TestReplays:

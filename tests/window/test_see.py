@@ -106,6 +106,7 @@ class TestTheFan:
         monkeypatch.setattr("sandbox.window.fan._begun", {})
         monkeypatch.setattr("sandbox.window.fan.QUICK", 0.0)
         assert cloud(*asked).left == 12 - FEWEST
+        assert others(Session("basketball").scene, 1.0, SHOTS - FEWEST) == []  # which is computed at once
         known = others(session.scene, 1.0, 12 - FEWEST)
         assert 0 < len(known) <= 12 - FEWEST
         while len(known) < 12 - FEWEST:
