@@ -18,6 +18,7 @@ from sandbox.picture.palette import Colour, palette
 from sandbox.picture.places.plan import BREADTH, Person, Plan, draw_moving, drawn, dusk, enlarged
 from sandbox.picture.sheet import Sheet
 from sandbox.picture.view import P, View
+from sandbox.sport.amounts import times
 
 CARD = palette("card")
 
@@ -90,11 +91,20 @@ class AboveView(View[P]):
             below = at[0] + SHADOW[0] * radius, at[1] + SHADOW[1] * radius
             painter.shadow(below, 1.05 * radius, 0.95 * radius, CARD["shadow"], 0.55)
 
+    @property
+    def people(self) -> list[Person]:
+        """Those who stand still."""
+        return [part for part in self.plan if isinstance(part, Person)]
+
+    def remarks(self, camera: Camera) -> list[str]:
+        factor = enlarged(camera, self.unit)
+        return [f"players drawn {times(factor)} their size"] if self.people and factor > 1 else []
+
     def dimensions(self, sheet: Sheet, camera: Camera) -> None:
         """None; but no label goes to the headline or on the card, nor on a ball or a person."""
-        people = [part for part in self.plan if isinstance(part, Person)]
         reach = 0.8 * BREADTH * enlarged(camera, self.unit) * camera.scale
-        self.keep_off(sheet, camera, sheet.top_row, [(person.place(camera, self.unit), reach) for person in people])
+        places = [(person.place(camera, self.unit), reach) for person in self.people]
+        self.keep_off(sheet, camera, sheet.top_row, places)
 
     def keep_off(self, sheet: Sheet, camera: Camera, top: int, spots: Sequence[tuple[Point, float]] = ()) -> None:
         """No label goes over the row ``top`` or on the card, nor on a ball or within so many px of these spots."""

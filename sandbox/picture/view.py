@@ -39,8 +39,6 @@ TRACES, RIM = palette("trace")["colours"], palette("trace")["rim"]
 NEAR = 12.0
 #: In frames the ball is at least so much larger than it has to be to be seen.
 LARGER = 1.3
-#: The balls along the path are spread over at least this share of it.
-LEAST_SPAN = 0.25
 #: A run that is shorter, in s, is told in ms.
 INSTANT = 0.1
 #: A ball that is larger by less than this factor is not said to be.
@@ -98,6 +96,8 @@ class View(Generic[P]):
     SPINS: ClassVar[tuple[str, str]] = ("topspin", "backspin")
     #: s of path that the trail behind the ball shows.
     TRAIL: ClassVar[float] = 0.5
+    #: The balls along the path are spread over at least this share of it.
+    LEAST_SPAN: ClassVar[float] = 0.25
     #: Impacts are marked that are at least so hard, in m/s, and as a share of the hardest.
     LEAST_IMPACT: ClassVar[float] = 0.3
     SOFT: ClassVar[float] = 0.03
@@ -142,7 +142,7 @@ class View(Generic[P]):
     def span(self) -> float:
         """The time in s over which the balls along the path are spread: until the first touch, unless that is soon."""
         touches = (event.t for event in self.run.events if self.ball in (event.ball, event.partner))
-        return max(min(next(touches, self.told), self.told), LEAST_SPAN * self.told)
+        return max(min(next(touches, self.told), self.told), self.LEAST_SPAN * self.told)
 
     @property
     def moment(self) -> float:
@@ -168,17 +168,18 @@ class View(Generic[P]):
         return f"{1e3 * t:.2f} ms" if self.run.duration < INSTANT else f"{t:.2f} s"
 
     def live(self, t: float) -> list[Entry]:
-        """What a frame's card says at time t in s."""
+        """What a frame's card says at time t in s; a ball that was caught does nothing any more."""
         _, _, vx, vy, spin = self.run.state(self.ball, t)
         speed = hypot(vx, vy)
-        return [
-            ("time", self.clock(t)),
-            *self.position(t),
-            ("speed", amount(speed, "m/s", 1)),
+        does: list[Entry] = [
+            ("speed", amount(speed, "m/s")),
             ("direction", self.heading_text(degrees(atan2(vy, vx))) if speed > 0.01 else "–"),
             *self.vectors.entries(t),
-            ("spin", self.spin_text(spin)),
+            ("side spin" if self.rolls(self.ball) else "spin", self.spin_text(spin)),
         ]
+        if self.ball not in self.present(t):
+            does = [(label, "–") for label, *_ in does]
+        return [("time", self.clock(t)), *self.position(t), *does]
 
     def heading_text(self, angle: float) -> str:
         """A direction in deg, counter-clockwise from straight ahead, for people."""

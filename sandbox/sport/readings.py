@@ -79,6 +79,17 @@ def before(run: Run, t: float, ball: str = "ball") -> Moment:
     return Moment(t, *run.before(ball, t))
 
 
+def down_to(run: Run, place: Vector) -> Moment | None:
+    """The ball as it first falls to the height of a place (m), or just before it touches something, if that is
+    earlier; None if neither happens."""
+    touched = first_touch(run)
+    falls = run.crossings("ball", place, (0.0, 1.0))
+    down = next((Moment(t, *state) for t, state in falls), None)
+    if touched is None or (down is not None and down.t <= touched.t):
+        return down
+    return before(run, touched.t)
+
+
 def passing(run: Run, x: float, ball: str = "ball") -> Moment | None:
     """A ball as it first passes x (m) on its way forward."""
     return next((Moment(t, *state) for t, state in run.crossings(ball, (x, 0.0), (-1.0, 0.0))), None)

@@ -16,7 +16,7 @@ from sandbox.picture.palette import mix, palette, scene_colours
 from sandbox.picture.path import Mark
 from sandbox.picture.places import Hall, Person, boards
 from sandbox.picture.places.courts import basketball_key, basketball_lines
-from sandbox.picture.views import Box, Camera, Entry, Eye, Length, Look, Painter, Place, Sheet, SideView, seams
+from sandbox.picture.views import Box, Camera, Eye, Length, Look, Painter, Place, Sheet, SideView, seams
 from sandbox.sport.amounts import metres
 
 from . import hoop
@@ -39,8 +39,7 @@ class Picture(SideView[Parameters]):
     LOOK = Look(BALL["colour"], seams(BALL["seam"]))
     TRACE, EARLIER = COLOURS["trace"], COLOURS["earlier"]
     FAINT = mix(TRACE, COLOURS["hall"]["wall"][1], 0.45)
-    LENGTHS = 1
-    SECOND_UNIT = "ft"
+    LENGTHS, SECOND_UNIT, FROM = 1, "ft", "from the hand"
     LEVEL, ASIDE = 128, 0.25
 
     @cached_property
@@ -60,12 +59,6 @@ class Picture(SideView[Parameters]):
     @property
     def moment(self) -> float:
         return self.net.fullest
-
-    def progress(self, t: float) -> tuple[str, str]:
-        return metres(self.run.state(self.ball, t)[1]), "above the floor"
-
-    def position(self, t: float) -> list[Entry]:
-        return [("to the ring", metres(self.ring[0] - self.run.state(self.ball, t)[0]))]
 
     # The place
 
@@ -117,11 +110,7 @@ class Picture(SideView[Parameters]):
         return [Length(f"{metres(distance)} to the ring, {metres(height)} up", 0.0, distance)]
 
     def annotate(self, sheet: Sheet, camera: Camera) -> None:
-        """The path of the ball after the floor, fading."""
-        moments = np.linspace(self.told, min(self.run.duration, self.told + 0.45), 30)
-        points = camera.pixels(np.array([self.run.state(self.ball, t)[:2] for t in moments]))
-        if np.ptp(points, axis=0).max() > 2:
-            sheet.painter.fading(points[::-1], 4 * self.unit, self.TRACE, 0.6)
+        """Nothing, but no label goes where the lens is."""
         if self.beside:
             sheet.labels.take(self.lens)
 

@@ -30,7 +30,7 @@ from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact, once
 from sandbox.sport.flight import Flight
-from sandbox.sport.readings import LAUNCH, Moment, Passes, apex, at, before
+from sandbox.sport.readings import LAUNCH, Moment, Passes, apex, at, down_to
 from sandbox.sport.solids import Extent, Solid, below, check_apart, disc, level, rectangle
 
 
@@ -234,12 +234,8 @@ def inside(state: State, parameters: Parameters) -> bool:
 @once
 def entry(run: Run, parameters: Parameters) -> Moment | None:
     """The ball as it first falls to the ring's height, or first touches something there if that is earlier."""
-    down = next((Moment(t, *state) for t, state in falls_to(run, parameters)), None)
-    first = next((event.t for event in run.events if event.partner != "floor"), None)
-    floor = on_floor(run)
-    if first is not None and first <= floor and (down is None or first < down.t):
-        down = before(run, first)
-    return down if down is not None and down.t <= floor else None
+    ball = down_to(run, parameters.hoop.middle)
+    return ball if ball is not None and ball.t < on_floor(run) else None
 
 
 def beyond_middle(ball: Moment, it: Parameters) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from math import floor, hypot
+from math import floor
 
 import numpy as np
 import pygame
@@ -118,8 +118,7 @@ class Picture(AboveView[Parameters]):
                 painter.line(self.traced(camera, self.paths[name].points), 0.9 * unit, COLOURS["ivory"])
         if self.ball not in self._movers:
             return []
-        steps = np.any(np.diff(self.path.points, axis=0) != 0.0, axis=1)
-        end = float(self.path.samples[1:][steps, 0][-1])  # s, when it comes to rest
+        end = max(arc.t1 for arc in self.run.arcs[self.ball] if not arc.rests)  # s, when it comes to rest
         every = nice(end / DOTS)
         for i in range(1, floor(end / every) + 1):
             at = camera.pixel(*self.run.state(self.ball, i * every)[:2])
@@ -191,20 +190,11 @@ class Picture(AboveView[Parameters]):
                 told, first = f"meets the {first} at {self.run.closing_speed(event):.1f} m/s", None
         return told[0].upper() + told[1:], ""
 
-    def live(self, t: float) -> list[Entry]:
-        """What a frame's card says at time t in s."""
-        present = self.present(t)
-        speeds = {name: hypot(*self.run.state(name, t)[2:4]) for name in present}
-        there = self.ball in present
+    def position(self, t: float) -> list[Entry]:
+        """How many balls are moving, and how many cushions the struck one has met."""
+        moving = sum(any(self.run.state(name, t)[2:4]) for name in self.present(t))
         rails = sum(name.endswith(" cushion") for name, event in met(self.run, self.ball) if event.t <= t)
-        return [
-            ("time", f"{t:.2f} s"),
-            ("speed", f"{speeds[self.ball]:.2f} m/s" if there else "–"),
-            ("side spin", self.spin_text(self.run.state(self.ball, t)[4]) if there else "–"),
-            ("moving", str(sum(speed > 0 for speed in speeds.values()))),
-            ("cushions", str(rails)),
-            *(self.vectors.entries(t) if there else [("cloth", "–")]),
-        ]
+        return [("moving", str(moving)), ("cushions", str(rails))]
 
 
 def _snooker_markings(x: float, y: float) -> Plan:

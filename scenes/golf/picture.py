@@ -47,27 +47,17 @@ class Picture(SideView[Parameters]):
     STRETCHES = 2.0
     LEAST_PATH = 0.2
     LEAST_IMPACT, SOFT = 1.0, 0.25
-    TRAIL = 1.4
+    TRAIL, LEAST_SPAN = 1.4, 0.4
     LEVEL, ASIDE = 58, 0.5
 
-    @property
-    def on_dark(self) -> bool:
-        return self.moon
-
     @cached_property
-    def moon(self) -> bool:
+    def on_dark(self) -> bool:
+        """On the Moon, whose sky is black."""
         return self.parameters.air.density == 0.0 and self.parameters.gravity < LEAST_GRAVITY
 
     @property
     def datum(self) -> tuple[tuple[float, float], str]:
         return (self.pin, 0.0), "the pin"
-
-    @cached_property
-    def span(self) -> float:
-        """The flight, where there is one to be seen."""
-        result, camera = self.run.result, self.camera
-        seen = result["apex"] * camera.scale * camera.stretch > 60 * self.unit
-        return result["flight_time"] if result["flight_time"] and seen else self.run.duration
 
     @property
     def target(self) -> Box:
@@ -87,7 +77,7 @@ class Picture(SideView[Parameters]):
     @property
     def colours(self) -> dict[str, Any]:
         """Those of the course."""
-        found: dict[str, Any] = COLOURS["moon" if self.moon else "earth"]
+        found: dict[str, Any] = COLOURS["moon" if self.on_dark else "earth"]
         return found
 
     @cached_property

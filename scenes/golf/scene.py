@@ -28,7 +28,7 @@ from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Goal, Handle, Spin, Spread
 from sandbox.sport.facts import Fact, once
 from sandbox.sport.flight import Flight, Sphere, height_on
-from sandbox.sport.readings import LAUNCH, LAUNCH_SPIN, Moment, at, before
+from sandbox.sport.readings import LAUNCH, LAUNCH_SPIN, Moment, at, down_to
 
 from .course import FAR, Ground, Pin, surfaces
 
@@ -135,11 +135,7 @@ def goals(parameters: Parameters) -> list[Goal]:
 @once
 def landing(run: Run, parameters: Parameters) -> Moment | None:
     """The ball as it returns to launch height, or lands on higher ground before that: carry is how far that is."""
-    touched = next((event.t for event in run.events if event.kind != "leave"), inf)
-    back = next(iter(run.crossings("ball", run.setup.balls[0].position, (0.0, 1.0))), None)
-    if touched < (inf if back is None else back[0]):
-        return before(run, touched)
-    return None if back is None else Moment(back[0], *back[1])
+    return down_to(run, run.setup.balls[0].position)
 
 
 def flew(run: Run, parameters: Parameters) -> bool:

@@ -13,11 +13,12 @@ from sandbox.picture.places import goal as goal_at
 from sandbox.picture.places import plan
 from sandbox.picture.places.courts import PENALTY_SPOT, pitch_lines
 from sandbox.picture.views import AboveView, Box, Camera, Entry, Painter, Sheet
-from sandbox.sport.amounts import metres, times
+from sandbox.sport.amounts import metres
 from sandbox.sport.readings import first_touch
 
-from ..soccer.look import EARLIER, LINE, LOOK, STRIPE, TRACE
-from .scene import BOARDS_ASIDE, BOARDS_BEHIND, BOARDS_BEYOND, Parameters
+from ..soccer.picture import LINE, STRIPE
+from ..soccer.picture import Picture as FromTheSide
+from .scene import BOARDS_ASIDE, BOARDS_BEHIND, BOARDS_BEYOND, SIDES, Parameters
 
 CARD, COLOURS = palette("card"), scene_colours(__file__)
 WALL, KICKER, KEEPER = (plan.Kit(shirt=shirt, **COLOURS["person"]) for shirt in COLOURS["shirts"])
@@ -26,17 +27,16 @@ WALL, KICKER, KEEPER = (plan.Kit(shirt=shirt, **COLOURS["person"]) for shirt in 
 BOARD, BOARD_LENGTH, FAR = 0.4, 6.0, 1000.0
 #: Height of the goal, how far behind the ball the kicker stands, and room for him and beside each post, in m.
 HEIGHT, BEHIND, ROOM, ASIDE = 2.44, 0.75, 1.3, 0.4
-#: The poster follows a ball that was stopped for so long, in s; the time between balls is chosen for the flight, or for
-#: this share of the whole path.
-AFTERMATH, LEAST_SPAN = 0.6, 0.6
+#: The poster follows a ball that was stopped for so long, in s.
+AFTERMATH = 0.6
 
 
 class Picture(AboveView[Parameters]):
     """One kick, seen by a camera that stays near the ball."""
 
-    LOOK, TRACE, EARLIER = LOOK, TRACE, EARLIER
+    LOOK, TRACE, EARLIER = FromTheSide.LOOK, FromTheSide.TRACE, FromTheSide.EARLIER
     FAINT = mix(TRACE, COLOURS["grass"][0], 0.3)
-    TRAIL, NEAREST, DUSK = 0.4, 34.0, COLOURS["dusk"]
+    TRAIL, LEAST_SPAN, NEAREST, DUSK = 0.4, 0.6, 34.0, COLOURS["dusk"]
 
     @property
     def balls(self) -> list[str]:
@@ -46,10 +46,6 @@ class Picture(AboveView[Parameters]):
     def told(self) -> float:
         touched, end = first_touch(self.run), self.run.duration
         return end if self.run.result["goal"] or touched is None else min(end, touched.t + AFTERMATH)
-
-    @cached_property
-    def span(self) -> float:
-        return max(self.run.result["flight_time"] or 0.0, LEAST_SPAN * self.told)
 
     @property
     def moment(self) -> float:
@@ -94,10 +90,6 @@ class Picture(AboveView[Parameters]):
         half, back = goal.width / 2 + ASIDE, goal.distance + goal.depth
         corners = [(-ROOM, 0.0), (back, goal.offset - half), (back, goal.offset + half)]
         return np.concatenate([self.points, corners, [self.straight] if self.straight else np.empty((0, 2))])
-
-    def remarks(self, camera: Camera) -> list[str]:
-        factor = plan.enlarged(camera, self.unit)
-        return [f"players drawn {times(factor)} their size"] if factor > 1 else []
 
     def behind(self, painter: Painter, camera: Camera, t: float) -> None:
         """Where the ball would have gone without spin, and the keeper."""
@@ -155,7 +147,7 @@ class Picture(AboveView[Parameters]):
         way = 1.0 if end < start else -1.0
         turns = [-way * turn for turn in (pi / 2, 1.0, 2.1, 0.0, pi)]
         spots = around((x, start), [far * unit for far in (12, 20, 32)], turns)
-        sheet.chip(f"{metres(abs(deviation))} to the {_side(deviation)}", spots, accent)
+        sheet.chip(f"{metres(abs(deviation))} to the {SIDES[deviation >= 0.0]}", spots, accent)
         anchor = "midtop" if way > 0 else "midbottom"
         beside = [(*(line[i] + (0, way * far * unit)), anchor) for i in (49, 40, 59, 30) for far in (10, 16, 24)]
         sheet.label("without spin", "small", beside, sheet.ink)
@@ -170,11 +162,7 @@ class Picture(AboveView[Parameters]):
         """How far the ball is off its straight line."""
         (x, y, *_), angle = self.run.state("ball", t), radians(self.parameters.launch.angle)
         aside = y * cos(angle) - x * sin(angle)
-        return [("off the straight", f"{metres(abs(aside))} {_side(aside)}" if abs(aside) >= 0.005 else "–")]
+        return [("off the straight", f"{metres(abs(aside))} {SIDES[aside >= 0.0]}" if abs(aside) >= 0.005 else "–")]
 
     def heading_text(self, angle: float) -> str:
-        return f"{abs(angle):.0f}° {_side(angle)}"
-
-
-def _side(amount: float) -> str:
-    return "right" if amount < 0.0 else "left"
+        return f"{abs(angle):.0f}° {SIDES[angle >= 0.0]}"

@@ -188,19 +188,19 @@ def word(run: Run, parameters: Parameters) -> str:
     return "short" if passing(run, parameters.goal.distance) is None else "wide"
 
 
-ASIDE = ("right", "left")
+SIDES = ("right", "left")
 
 FACTS = (
     Fact("goal", "", "", scored),
     Fact("verdict", "", "", word),
-    Fact("deviation", "bend", "m", at(at_goal, deviation), sides=ASIDE),
+    Fact("deviation", "bend", "m", at(at_goal, deviation), sides=SIDES),
     Fact("inside_post", "nearer post", "m", at(at_goal, inside_post), sides=("outside", "inside")),
     Fact("speed_at_goal", "speed at goal", "m/s", at(at_goal, "speed"), also="km/h"),
     Fact("flight_time", "flight time", "s", flight_time),
     BALL_SPEED,
-    replace(LAUNCH_ANGLE, sides=ASIDE),
-    replace(LAUNCH_SPIN, sides=ASIDE),
-    Fact("offset_at_goal", "from the middle", "m", at(at_goal, lambda ball, it: ball.y - it.goal.offset), sides=ASIDE),
+    replace(LAUNCH_ANGLE, sides=SIDES),
+    replace(LAUNCH_SPIN, sides=SIDES),
+    Fact("offset_at_goal", "from the middle", "m", at(at_goal, lambda ball, it: ball.y - it.goal.offset), sides=SIDES),
     ENDED,
 )
 
@@ -212,7 +212,7 @@ def verdict(run: Run, parameters: Parameters) -> str:
         if inside is None:
             return "Goal"
         if bend is not None and abs(bend) >= 0.05:
-            return f"Goal, bent {roughly(abs(bend))} to the {ASIDE[bend > 0.0]}"
+            return f"Goal, bent {roughly(abs(bend))} to the {SIDES[bend > 0.0]}"
         return f"Goal, {roughly(max(0.0, inside))} inside the post"
     if said == "wide" and inside is not None:
         return f"Wide by {roughly(max(0.0, -inside - parameters.ball.radius))}"

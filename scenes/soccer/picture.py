@@ -8,17 +8,19 @@ from itertools import pairwise
 import numpy as np
 
 from sandbox.engine.setup import Segment
-from sandbox.picture.palette import mix
+from sandbox.picture.palette import mix, scene_colours
 from sandbox.picture.places import Person, Shape, Stands, goal, turf
 from sandbox.picture.places.courts import PITCH_WIDTH, pitch_lines
-from sandbox.picture.views import Box, Camera, Length, Place, Sheet, SideView
+from sandbox.picture.views import Box, Camera, Length, Look, Place, Sheet, SideView, patches
 from sandbox.sport.amounts import metres
 
-from .look import COLOURS, EARLIER, LINE, LOOK, STRIPE, TRACE
-from .scene import Parameters
+from .scene import Parameters, scored
 
-PITCH, BOARDS = COLOURS["pitch"], COLOURS["stands"]["boards"]
+COLOURS = scene_colours(__file__)
+BALL, PITCH, BOARDS = COLOURS["ball"], COLOURS["pitch"], COLOURS["stands"]["boards"]
 
+#: Widths in m: of a stripe, as wide as the goal area is deep, and of a line, the most that the Laws of the Game allow.
+STRIPE, LINE = 5.5, 0.12
 #: Room for the kicker behind the ball, and least height that is shown, in m.
 KICKER, LEAST_TOP = 1.5, 2.7
 #: The goal, whose near post is in the plane of play, is so wide (Laws of the Game, law 1), and boards so long, in m.
@@ -32,7 +34,8 @@ PLAYERS, ABREAST, BEHIND, TALL, LEAST_TALL, HIGHEST = 4, 0.62, 0.5, 1.88, 1.55, 
 class Picture(SideView[Parameters]):
     """One kick."""
 
-    LOOK, TRACE, EARLIER = LOOK, TRACE, EARLIER
+    LOOK = Look(BALL["colour"], patches(BALL["patch"]))
+    TRACE, EARLIER = COLOURS["trace"], COLOURS["earlier"]
     FAINT = mix(TRACE, PITCH["grass"][0], 0.4)
     TRAIL = 0.6
     LEAST_IMPACT = 1.5
@@ -42,11 +45,9 @@ class Picture(SideView[Parameters]):
     @cached_property
     def told(self) -> float:
         """A ball in the goal has come to the ground, any other has stopped."""
-        if not self.run.result["goal"]:
-            return self.run.duration
-        flight = self.run.result["flight_time"]
-        down = (e.t for e in self.run.events if e.kind == "impact" and e.partner == "ground" and e.t > flight)
-        return next(down, self.run.duration)
+        run, goal = self.run, scored(self.run, self.parameters)
+        down = (event.t for event in run.events if event.kind == "impact" and event.partner == "ground")
+        return run.duration if goal is None else next((t for t in down if t > goal), run.duration)
 
     @property
     def datum(self) -> tuple[tuple[float, float], str]:
