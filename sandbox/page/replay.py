@@ -56,7 +56,6 @@ def page_of(run: Run, ghosts: Mapping[str, Run] | None = None) -> str:
     views = list(_views(run, ghosts))
     wide, narrow = (layout.pop("poster") for _, layout in views)
     view = views[0][0]
-    _, notes, _ = view.heading
     events = run.events[:MOST_EVENTS]
     others = {ghost.label: css(ghost.light) for ghost in view.ghosts}
     labelled = [dict(scene.rows(run)), *(dict(ghost.run.scene.rows(ghost.run)) for ghost in view.ghosts)]
@@ -78,7 +77,7 @@ def page_of(run: Run, ghosts: Mapping[str, Run] | None = None) -> str:
         "run.html",
         title=html(f"{scene.title}: {verdict}"),
         verdict=html(verdict),
-        notes=html("   ·   ".join(notes)),
+        notes=html("   ·   ".join(view.heading.notes)),
         ground="dark" if view.on_dark else "light",
         picture=html(f"{scene.title}: {verdict}. The path of the {view.THING}; the numbers are in the table below."),
         poster=wide,
@@ -124,9 +123,9 @@ def _views(run: Run, ghosts: Mapping[str, Run] | None) -> Iterator[tuple[View[An
 
 
 def _layout(view: View[Any]) -> dict[str, Any]:
-    layers = [np.array(to_image(layer)) for layer in view.layers()]
+    whole = {name: np.array(to_image(view.sheet.surface)) for name in view.layers()}
     tall = round(view.card_row - 2 * view.sheet.gap)  # the card is below
-    place, paths, along, drawn, over = (layer[:tall] for layer in layers)
+    place, paths, along, drawn, over = (whole[name][:tall] for name in ("place", "paths", "along", "balls", "over"))
     camera = view.camera
     poster = Image.fromarray(over)
     poster.thumbnail(POSTER)
@@ -140,7 +139,7 @@ def _layout(view: View[Any]) -> dict[str, Any]:
         "unit": view.unit,
         "least": view.least,
         "lift": too_large if isinstance(view, SideView) and not isinf(view.STRETCHES) else None,
-        "room": view.heading[2],
+        "room": view.heading.room,
         "poster": picture(poster),
         "place": picture(Image.fromarray(place)),
         "along": picture(what_changed(paths, along), exact=True),

@@ -110,7 +110,7 @@ class AboveView(View[P]):
         """No label goes over the row ``top`` or on the card, nor on a ball or within so many px of these spots."""
         sheet.labels.take(pygame.Rect(0, 0, self.size[0], top))
         sheet.labels.take(pygame.Rect(0, round(self.card_row), *self.size))
-        for (x, y), half in [*self._placed(camera, self.told, 1.0).values(), *spots]:
+        for (x, y), half in [*self._placed(camera, self.told).values(), *spots]:
             sheet.labels.take(pygame.Rect(round(x - half), round(y - half), round(2 * half), round(2 * half)))
 
     def scale(self, sheet: Sheet, camera: Camera) -> None:

@@ -135,10 +135,15 @@ class LongView(AboveView[P]):
         for name, path in self.paths.items():
             some = path.points[path.samples[:, 0] <= until]
             if len(some) and np.ptp(some, axis=0).max() > LEAST_WAY:
-                points = local.pixels(np.vstack([some, self.run.state(name, min(until, path.until))[:2]]))
-                inside.line(points, (3.4 if name == self.ball else 2.2) * self.unit, self.colour_of(name), 0.8)
+                points = np.vstack([some, self.run.state(name, min(until, path.until))[:2]])
+                inside.line(
+                    self.traced(local, points),
+                    (3.4 if name == self.ball else 2.2) * self.unit,
+                    self.colour_of(name),
+                    0.8,
+                )
         for ghost in self.ghosts:
-            inside.line(local.pixels(ghost.points), 2.4 * self.unit, ghost.colour, 0.8)
+            inside.line(self.traced(local, ghost.points), 2.4 * self.unit, ghost.colour, 0.8)
         self.place_balls(inside, local, t)
         pygame.draw.rect(painter.surface, CARD["quiet"], around, max(1, round(self.unit)))
 
@@ -159,7 +164,7 @@ class LongView(AboveView[P]):
         """Impacts that are in the near part, with their speeds."""
         near = self.near_camera
         marks = [mark for mark in self.impacts(near) if self.lens.collidepoint(near.pixel(*mark.at))]
-        mark_impacts(sheet, near, marks, last=self._placed(near, self.told, 1.0).get(self.ball))
+        mark_impacts(sheet, near, marks, last=self._placed(near, self.told).get(self.ball))
 
     def scale(self, sheet: Sheet, camera: Camera) -> None:
         """A scale bar under the strip."""

@@ -221,7 +221,7 @@ class SideView(View[P]):
             painter.thread(points[apart(points, FINEST)], 1, ghost.light)
         path, past = seen.pixels(self.path.points[kept]), self.path.samples[kept, 0] <= t
         at = seen.pixel(*self.run.state(self.ball, t)[:2])
-        painter.thread(path, 1, CARD["quiet"])
+        painter.line(path, 1.0, CARD["quiet"])  # it is kept: in every frame the same
         painter.thread([*path[past], at], max(1, round(1.6 * unit)) + 1, self.TRACE)
         self.on_map(painter, seen)
         painter.disc(at, max(2.5, 4 * unit), CARD["accent"])

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property, wraps
 from math import atan2, ceil, degrees, dist, hypot, pi
-from typing import Any, ClassVar, Generic, TypeVar
+from typing import Any, ClassVar, Generic, NamedTuple, TypeVar
 
 import numpy as np
 import pygame
@@ -54,6 +54,18 @@ BEAD, LARGEST_BEAD = 0.5, 3.0
 STRING = 1.5
 
 P = TypeVar("P", bound=Group)
+
+
+#: Draws what belongs to a ball by its name at a time in s, where it is and as large, in px.
+Draw = Callable[[Painter, Camera, str, float, Point, float], None]
+
+
+class Heading(NamedTuple):
+    """What is written over a picture, notes under the headline, in so much ``room`` (px)."""
+
+    text: str
+    notes: Sequence[str]
+    room: float
 
 
 def _function(member: Any) -> Any:
@@ -351,82 +363,72 @@ class View(Generic[P]):
 
     def notes(self, camera: Camera) -> list[str]:
         """What is not drawn as it is."""
-        factor = self.least / (self.radius * camera.scale)
-        return [*self._stretched(camera), *self.remarks(camera), *self._larger(factor), *self._caveat]
+        return [*self._stretched(camera), *self.remarks(camera), *self._larger(camera), *self._caveat]
 
     def poster(self) -> pygame.Surface:
         """The whole run in one picture."""
-        for _ in self.layers():
-            pass
-        sheet = self.sheet
-        sheet.headline(*self.heading)
+        sheet = self._drawn(None)
         rows = [(ghost.light, ghost.run.scene.rows(ghost.run)) for ghost in self.ghosts]
         sheet.columns(self.card_row, self.run.scene.rows(self.run), rows)
         for ghost in self.ghosts:
             ghost.name(sheet, self.traced(self.camera, ghost.points), self.trace)
         return sheet.surface
 
-    def layers(self) -> Iterator[pygame.Surface]:
-        """The poster without its text and other runs' names, as it is after each layer: the place, the paths, the balls
-        along them, the balls, and what stands before them. Then ``heading`` is known: the headline, notes on what is
-        drawn, and the room for them in px."""
-        sheet = self.sheet = Sheet(self.size, self.on_dark)
-        camera, painter = self.camera, sheet.painter
-        self.backdrop(painter, camera)
-        self.behind(painter, camera, self.moment)
-        yield sheet.surface
-        self._strings(painter, camera, self.told)
-        traces = {name: self.traced(camera, path.points) for name, path in self.paths.items()}
-        self.trace = traces.pop(self.ball)
-        for ghost in self.ghosts:
-            ghost.draw(sheet, self.traced(camera, ghost.points))
-        for name, points in traces.items():
-            draw_trace(sheet, points, self.colour_of(name), self.OTHERS)
-        draw_trace(sheet, self.trace, self.colour_of(self.ball))
-        yield sheet.surface
-        every = self.strobe(sheet, camera)
-        yield sheet.surface
-        self.place_balls(painter, camera, self.told)
-        yield sheet.surface
-        self.before(painter, camera, self.moment)
-        self.dimensions(sheet, camera)
-        self.measure(sheet, camera)
-        self.annotate(sheet, camera)
-        mark_impacts(sheet, camera, self.impacts(camera), last=self._placed(camera, self.told, 1.0).get(self.ball))
-        room = self._room(sheet, camera, None)
-        notes = [*(ghost.note for ghost in self.ghosts), *self.aligned, *every[:1], *self.notes(camera), *every[1:]]
-        self.heading = self.run.scene.verdict(self.run), notes, room  # px
-        yield sheet.surface
-
     def frame(self, t: float) -> pygame.Surface:
         """The scene at time t in s."""
         t = min(max(t, 0.0), self.run.duration)
-        sheet = self.sheet = Sheet(self.size, self.on_dark)
-        camera, painter = self.view(t), sheet.painter
-        sheet.surface.blit(self._still(camera), (0, 0))
-        self.behind(painter, camera, t)
-        self._strings(painter, camera, t)
-        sheet.surface.set_clip((0, sheet.top_row, *self.size))
-        for ghost in self.ghosts:
-            ghost.draw_in_frame(sheet, self.traced(camera, ghost.points), self.spots(camera, ghost.at(t), 0.0)[0])
-        self.trails(painter, camera, t)
-        sheet.surface.set_clip(None)
-        placed = self._placed(camera, t, LARGER if len(self.balls) == 1 else 1.0)
-        if self.ball in placed:
-            self.vectors.draw(sheet, *placed[self.ball], t)
-        self._draw_placed(painter, camera, t, placed)
-        self.before(painter, camera, t)
-        self.scale(sheet, camera)
-        room = self._room(sheet, camera, t)
-        over = t >= self.told
-        headline, *notes = (self.run.scene.verdict(self.run),) if over else self.progress(t)
-        notes += [*(f"compared with {ghost.label}" for ghost in self.ghosts), *self.aligned, *self._stretched(camera)]
-        factors = (radius / (self.radii[name] * camera.scale) for name, (_, radius) in placed.items())
-        notes += [*self._caveat, *self._larger(max(factors, default=1.0), said=False)]
-        sheet.headline(headline, [note for note in notes if note], room)
-        others = [(ghost.light, ghost.view.live(min(t, ghost.run.duration))) for ghost in self.ghosts]
-        sheet.columns(self.card_row, self.live(t), others)
+        sheet = self._drawn(t)
+        rows = [(ghost.light, ghost.view.live(min(t, ghost.run.duration))) for ghost in self.ghosts]
+        sheet.columns(self.card_row, self.live(t), rows)
         return sheet.surface
+
+    def _drawn(self, t: float | None) -> Sheet:
+        """All but the card."""
+        for _ in self.layers(t):
+            pass
+        self.sheet.headline(*self.heading)
+        return self.sheet
+
+    def layers(self, t: float | None = None) -> Iterator[str]:
+        """Draw the poster, or the scene at time t in s, on ``sheet``, from the lowest layer to the highest; the name of
+        each is said when it is drawn. Then all is there but text, and ``heading`` is known."""
+        camera = self.camera if t is None else self.view(t)
+        sheet = self.sheet = Sheet(self.size, self.on_dark, self._still(camera).copy())
+        painter = sheet.painter
+        moment, now = (self.moment, self.told) if t is None else (t, t)
+        placed = self._placed(camera, now, in_frame=t is not None)
+        self.behind(painter, camera, moment)
+        yield "place"
+        self._strings(painter, camera, now)
+        self._draw_each(self.shadow, painter, camera, now, placed)
+        yield "shadows"
+        self._traces(sheet, camera) if t is None else self._trails(sheet, camera, t)
+        yield "paths"
+        every = self.strobe(sheet, camera) if t is None else []
+        if t is not None and self.ball in placed:
+            self.vectors.draw(sheet, *placed[self.ball], t)
+        yield "along"
+        self._draw_each(self.draw_ball, painter, camera, now, placed)
+        yield "balls"
+        self.before(painter, camera, moment)
+        if t is None:
+            self.dimensions(sheet, camera)
+            self.measure(sheet, camera)
+            self.annotate(sheet, camera)
+            mark_impacts(sheet, camera, self.impacts(camera), last=placed.get(self.ball))
+        else:
+            self.scale(sheet, camera)
+        room = self._room(sheet, camera, t)
+        yield "over"
+        if t is None:
+            headline, compared = self.run.scene.verdict(self.run), [ghost.note for ghost in self.ghosts]
+            notes = [*compared, *self.aligned, *every[:1], *self.notes(camera), *every[1:]]
+        else:
+            headline, note = (self.run.scene.verdict(self.run), "") if t >= self.told else self.progress(t)
+            compared = [f"compared with {ghost.label}" for ghost in self.ghosts]
+            larger = self._larger(camera, in_frame=True)
+            notes = [note, *compared, *self.aligned, *self._stretched(camera), *self._caveat, *larger]
+        self.heading = Heading(headline, [note for note in notes if note], room)
 
     # Parts of the two
 
@@ -443,14 +445,16 @@ class View(Generic[P]):
         """To note how much larger heights are drawn than lengths."""
         return [f"{self.STRETCHED} drawn {camera.stretch:g} times as large as lengths"] if camera.stretch != 1 else []
 
-    def _larger(self, factor: float, said: bool = True) -> list[str]:
-        """To note how many times their size balls are drawn; or, if that is not ``said``, that they are larger: in
-        frames the camera may move."""
-        alone = len(self.balls) == 1
-        how = f"{times(factor)} {'its' if alone else 'their'} size"
-        larger = f"larger than {'it is' if alone else 'they are'}"
-        who = self.thing if alone else f"{self.THING}s"
-        return [f"{who} drawn {how if said else larger}"] if factor > UNSAID else []
+    def _larger(self, camera: Camera, in_frame: bool = False) -> list[str]:
+        """To note how many times their size balls are drawn; in frames, whose camera may move, that they are larger."""
+        factor, alone = self._least(in_frame) / (self.radius * camera.scale), len(self.balls) == 1
+        whose, are = ("its", "it is") if alone else ("their", "they are")
+        how = f"larger than {are}" if in_frame else f"{times(factor)} {whose} size"
+        return [f"{self.thing if alone else f'{self.THING}s'} drawn {how}"] if factor > UNSAID else []
+
+    def _least(self, in_frame: bool) -> float:
+        """The least radius of a ball in px: of one alone, larger in frames."""
+        return self.least * (LARGER if in_frame and len(self.balls) == 1 else 1.0)
 
     def look_of(self, name: str) -> Look:
         """How a ball looks."""
@@ -540,14 +544,25 @@ class View(Generic[P]):
 
     def place_balls(self, painter: Painter, camera: Camera, t: float) -> None:
         """All that are there at time t in s, over their shadows."""
-        self._draw_placed(painter, camera, t, self._placed(camera, t, 1.0))
-
-    def _draw_placed(
-        self, painter: Painter, camera: Camera, t: float, placed: Mapping[str, tuple[Point, float]]
-    ) -> None:
+        placed = self._placed(camera, t)
         for draw in (self.shadow, self.draw_ball):
-            for name, (at, radius) in placed.items():
-                draw(painter, camera, name, t, at, radius)
+            self._draw_each(draw, painter, camera, t, placed)
+
+    def _draw_each(
+        self, draw: Draw, painter: Painter, camera: Camera, t: float, placed: Mapping[str, tuple[Point, float]]
+    ) -> None:
+        for name, (at, radius) in placed.items():
+            draw(painter, camera, name, t, at, radius)
+
+    def _traces(self, sheet: Sheet, camera: Camera) -> None:
+        """All paths, other runs' below; that of the ball that is played is kept as ``trace``, in px."""
+        traces = {name: self.traced(camera, path.points) for name, path in self.paths.items()}
+        self.trace = traces.pop(self.ball)
+        for ghost in self.ghosts:
+            ghost.draw(sheet, self.traced(camera, ghost.points))
+        for name, points in traces.items():
+            draw_trace(sheet, points, self.colour_of(name), self.OTHERS)
+        draw_trace(sheet, self.trace, self.colour_of(self.ball))
 
     def _strings(self, painter: Painter, camera: Camera, t: float) -> None:
         """Of the balls that hang."""
@@ -555,13 +570,19 @@ class View(Generic[P]):
             ends = [camera.pixel(x, y), camera.pixel(*self.run.state(name, t)[:2])]
             painter.line(ends, STRING * self.unit, self.STRING)
 
-    def trails(self, painter: Painter, camera: Camera, t: float) -> None:
-        """Where the balls have been: a thin line, and a thick one of late."""
+    def _trails(self, sheet: Sheet, camera: Camera, t: float) -> None:
+        """Where the balls have been: a thin line, and a thick one of late; and where those of other runs are. All under
+        the headline."""
+        painter = sheet.painter
+        sheet.surface.set_clip((0, sheet.top_row, *self.size))
+        for ghost in self.ghosts:
+            ghost.draw_in_frame(sheet, self.traced(camera, ghost.points), self.spots(camera, ghost.at(t), 0.0)[0])
         for name, (moments, places) in self._tracks.items():
             if t <= self.told:
                 been = np.vstack([places[: np.searchsorted(moments, t)], self.run.state(name, t)[:2]])
                 painter.thread(self.spots(camera, been, 0.0), self.unit, self.faint_of(name))
             self.trail(painter, camera, name, t)
+        sheet.surface.set_clip(None)
 
     def trail(self, painter: Painter, camera: Camera, name: str, t: float) -> None:
         """Where a ball has been of late, at time t in s."""
@@ -581,11 +602,11 @@ class View(Generic[P]):
             found[name] = path.samples[some, 0], path.points[some]
         return found
 
-    def _placed(self, camera: Camera, t: float, larger: float) -> dict[str, tuple[Point, float]]:
+    def _placed(self, camera: Camera, t: float, in_frame: bool = False) -> dict[str, tuple[Point, float]]:
         """Of each ball that is there at time t in s, where it is drawn and with what radius, in px."""
-        placed = {}
+        placed, least = {}, self._least(in_frame)
         for name in self.present(t):
-            radius = max(self.radii[name] * camera.scale, larger * self.least)
+            radius = max(self.radii[name] * camera.scale, least)
             x, y = self.spots(camera, np.array([self.run.state(name, t)[:2]]), radius)[0]
             placed[name] = (float(x), float(y)), radius
         return placed

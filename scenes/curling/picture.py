@@ -63,4 +63,4 @@ class Picture(LongView[Parameters]):
         sweep, points = self.parameters.sweep, self.path.points
         swept = points[(points[:, 0] > sweep.start) & (points[:, 0] < sweep.end)]
         if len(swept) > 1:
-            painter.line(camera.pixels(swept), BROOM * camera.scale, COLOURS["swept"], 0.6)
+            painter.line(self.traced(camera, swept), BROOM * camera.scale, COLOURS["swept"], 0.6)

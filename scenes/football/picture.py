@@ -20,6 +20,7 @@ class Picture(SideView[Parameters]):
     LOOK = Look(COLOURS["ball"])
     TRACE, EARLIER = COLOURS["trace"], COLOURS["earlier"]
     LENGTHS, FROM = 1, "from the kick"
+    near_view = 46.0  # m: so that the uprights end below the headline
 
     @property
     def company(self) -> Box:
