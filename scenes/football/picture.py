@@ -20,7 +20,12 @@ class Picture(SideView[Parameters]):
     LOOK = Look(COLOURS["ball"])
     TRACE, EARLIER = COLOURS["trace"], COLOURS["earlier"]
     LENGTHS, FROM = 1, "from the kick"
-    near_view = 46.0  # m: so that the uprights end below the headline
+
+    @property
+    def near_view(self) -> float:
+        """So much that the uprights, of which the nearer one looks larger, end below the headline."""
+        rows, tall = self.sheet.side_rows(len(self.ghosts), 0), 1.1 * (self.parameters.goal.height + UPRIGHT)
+        return tall * self.size[0] / (rows.base - rows.top)
 
     @property
     def company(self) -> Box:

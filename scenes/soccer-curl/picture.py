@@ -161,7 +161,7 @@ class Picture(AboveView[Parameters]):
     def position(self, t: float) -> list[Entry]:
         """How far the ball is off its straight line."""
         (x, y, *_), angle = self.run.state("ball", t), radians(self.parameters.launch.angle)
-        aside = y * cos(angle) - x * sin(angle)
+        aside = float(y * cos(angle) - x * sin(angle))
         return [("off the straight", f"{metres(abs(aside))} {SIDES[aside >= 0.0]}" if abs(aside) >= 0.005 else "–")]
 
     def heading_text(self, angle: float) -> str:
