@@ -40,12 +40,6 @@ class Eye:
         """How far behind the plane of play, in m, things look so much smaller."""
         return self.distance * (1 / share - 1)
 
-    def point(self, x: float, y: float, z: float = 0.0) -> tuple[float, float]:
-        """World point in m to picture point in px."""
-        px, py = self.camera.pixel(x, y)
-        share = self.share(z)
-        return self.centre + (px - self.centre) * share, self.level + (py - self.level) * share
-
     def scale_at(self, points: np.ndarray) -> float:
         """How large things at these points (m, shape (n, 3)) are, in px/m."""
         return self.camera.scale * float(np.mean([self.share(z) for *_, z in points.tolist()]))

@@ -69,7 +69,6 @@ class Path:
 
     def __init__(self, run: Run, name: str = "ball", until: float | None = None):
         self.run, self.name = run, name
-        self.radius: float = next(ball.radius for ball in run.setup.balls if ball.name == name)
         self.until = run.duration if until is None else until
         every, found = max(SAMPLING, run.duration / MOST_SAMPLES), list[tuple[float, float, float]]()  # t, x, y
         for arc in (arc for arc in run.arcs[name] if arc.t0 < min(arc.t1, self.until)):

@@ -132,9 +132,9 @@ class Person:
 
     def draw(self, painter: Painter, eye: SideEye) -> None:
         tall = max(self.tall * eye.camera.scale, LEAST_PERSON * eye.unit) * eye.share(self.z)
-        ground = eye.camera.at[1]
-        painter.shadow(eye.point(self.x, ground, self.z), 0.24 * tall, 0.05 * tall, SHADOW, 0.42)
-        x, foot = eye.point(self.x, ground + self.up, self.z)
+        place = np.array([(self.x, eye.camera.at[1] + up, self.z) for up in (0.0, self.up)])
+        ground, (x, foot) = eye.points(place).tolist()
+        painter.shadow(ground, 0.24 * tall, 0.05 * tall, SHADOW, 0.42)
         for part, width, points in pose_of(self.pose).strokes:
             drawn = [(x + self.facing * ahead * tall, foot - up * tall) for ahead, up in points]
             painter.line(drawn, width * tall, self.colours[part])
