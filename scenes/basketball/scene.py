@@ -166,8 +166,7 @@ def build(parameters: Parameters) -> Setup:
     hoop, net, mass = parameters.hoop, parameters.net, parameters.ball.mass
     drag = [NetDrag(mass, net.damping, hoop.middle, 0.5 * hoop.inner_diameter, net.length)] if net.slows else []
     shot = parameters.launched((0.0, parameters.release.height), *drag)
-    patches = [patch for force in drag for patch in force.patches]
-    return Setup([shot], court(parameters), LONGEST, is_tired, patches=patches)
+    return Setup([shot], court(parameters), LONGEST, is_tired, patches=[patch for it in drag for patch in it.patches])
 
 
 def is_tired(event: Event) -> bool:
@@ -184,8 +183,7 @@ def court(parameters: Parameters) -> list[Surface]:
     ring = ("hoop.distance", "hoop.height", "hoop.tube_radius")
     tubes = [disc("the ring", ring, *rim, hoop.tube_radius) for rim in (front, back)]
     glass = Extent("the board", ("backboard.gap", "backboard.bottom", "backboard.top"), *parameters.board)
-    hand = ("release.height", "ball.radius")
-    ball = disc("the ball", hand, 0.0, parameters.release.height, parameters.ball.radius)
+    ball = disc("the ball", ("release.height", "ball.radius"), 0.0, parameters.release.height, parameters.ball.radius)
     for others in ((tubes[0], glass), (tubes[1], glass), (tubes[0], below("the floor"))):
         check_apart(parameters, ball, *others)
     return [
@@ -204,8 +202,7 @@ def on_floor(run: Run) -> float:
 
 def falls_to(run: Run, parameters: Parameters, below: float = 0.0) -> Iterator[tuple[float, State]]:
     """Each time and state at which the ball's centre falls to the ring's height, or so many m below it."""
-    hoop = parameters.hoop
-    return run.crossings("ball", (hoop.distance, hoop.height - below), (0.0, 1.0))
+    return run.crossings("ball", parameters.hoop.across(below)[0], (0.0, 1.0))
 
 
 @once
