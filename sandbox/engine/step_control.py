@@ -115,16 +115,25 @@ def allowed(setup: Setup, t: Any, h: Any, state: State, acceleration: Accelerati
             (patch.bottom, y, vy, ay),
             (patch.top, y, vy, ay),
         ):
-            crosses = near & ((place < line) ^ (place + h * (speed + 0.5 * h * change) < line))
-            if anywhere(crosses):
-                way = choose(crosses, line - place, 0.0)
-                there = most(speed * speed + 2.0 * way * change, 0.0) ** 0.5
-                reached = 2.0 * abs(way) / (choose(place < line, speed, -speed) + there + _TINY)
-                h = choose(crosses & (reached > _AT_BORDER * patch.step), reached, h)
+            turns = speed * (speed + h * change) < 0.0
+            passes = near & (turns | ((place < line) ^ (place + h * (speed + 0.5 * h * change) < line)))
+            if anywhere(passes):
+                reached = _gone(line - place, speed, change, _AT_BORDER * patch.step)
+                h = choose(passes & (reached < h), reached, h)
         half = 0.5 * h
         inside = patch.holds(x + half * (vx + 0.5 * half * ax), y + half * (vy + 0.5 * half * ay))
         h = choose(near & inside & (h > patch.step), patch.step, h)
     return h
+
+
+def _gone(way: Any, speed: Any, change: Any, soonest: Any) -> Any:
+    """When it has gone this way (m) at a constant acceleration, in s: the first time after the ``soonest``, inf if it
+    never has."""
+    square = speed * speed + 2.0 * way * change
+    both = speed + choose(speed < 0.0, -1.0, 1.0) * most(square, 0.0) ** 0.5
+    first, second = 2.0 * way / (both + _TINY), -both / (change + _TINY)
+    first, second = (choose(t > soonest, t, inf) for t in (first, second))
+    return choose(square < 0.0, inf, least(first, second))
 
 
 def stiff(

@@ -135,6 +135,19 @@ def test_a_path_may_turn_back_at_the_border_of_a_patch():
         assert run.state("ball", duration)[1:4] == pytest.approx((top, 0.0, 0.0), abs=1e-9)
 
 
+@pytest.mark.parametrize("speed", [7.285, 7.644, 6.93, 5.6])
+def test_no_step_skips_a_patch_that_a_path_only_reaches_into(speed: float):
+    """A ball that rises d into a force F comes back, after twice (v - u) / g + u / (g + F / m) with u^2 = 2 g d, as
+    fast as it rose."""
+    g, mass, push, deep = 9.81, 1.0, 45.0, 0.024
+    border, there = speed * speed / (2 * g) - deep, (2 * g * deep) ** 0.5
+    net = lambda t, position, velocity, spin: (0.0, -push if position[1] > border else 0.0)  # noqa: E731
+    ball = Ball("ball", mass, 0.1, (0.0, 0.0), (0.0, speed), forces=[Gravity(mass, g), net])
+    back = 2 * ((speed - there) / g + there / (g + push / mass))
+    setup = Setup([ball], duration=back, patches=[Patch(-1.0, border, 1.0, border + 2.0, 1 / 240)])
+    assert simulate(setup, resolve()).state("ball", back)[1:4] == pytest.approx((0.0, 0.0, -speed), abs=5e-3)
+
+
 def test_finer_means_half_the_step_for_each_order():
     third, fifth = chosen("bogacki-shampine").finer(), LEVELS["balanced"].finer()
     assert third.tolerance == pytest.approx(1e-4 / 8)
