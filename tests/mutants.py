@@ -47,7 +47,7 @@ TESTS: dict[str, dict[str, str]] = {
         "impacts": "contact cloth clusters bodies",
         "impulses": "contact cloth batch bodies",
         "lasting": "contact exact run",
-        "ledger": "run cloth guards",
+        "ledger": "run cloth guards physics/rocket",
         "on_plane": "cloth ice plain",
         "outlines": "batch",
         "path": "run batch cloth",
