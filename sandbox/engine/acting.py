@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import is_dataclass
 from functools import cache
+from itertools import chain
 from math import isfinite
 from typing import Any
 
 from sandbox.engine.setup import Ball
 from sandbox.engine.setup_errors import failed, is_from_inside
 from sandbox.errors import RunError
-from sandbox.physics.integrators import Acceleration, Law, State
+from sandbox.physics.integrators import Acceleration, Integrator, Law, Method, State, Written, names_of
 from sandbox.physics.straight import straight
 
 #: Everyday names of causes.
@@ -33,51 +34,68 @@ def _place(state: State) -> tuple[Any, ...]:
     return position
 
 
-#: A law as straight Python.
-_LAW = """
-  mass, inertia = ball.mass, ball.inertia
-  def law(t, state):
-    {place}
-    try:
-      {terms}
-      fx, fy, turning = {sums}
-    except (TypeError, ValueError, OverflowError) as error:
-      if is_from_inside(error):
-        raise
-      raise refused(ball, t, state) from None
-    if not isinstance(fx + fy + turning, float) and isinstance(spin, float):
-      raise refused(ball, t, state)
-    return fx / (mass{left}), fy / (mass{left}), turning / (inertia{left})
-  return law
-"""
-
-
 def law_of(ball: Ball) -> Law:
     """The acceleration of a ball in flight from its forces and torques, in m/s^2 and rad/s^2, by time and state.
 
     It raises RunError if one of them returns anything but real numbers, or arrays for many shots.
     """
-    written = _written_out(len(ball.forces), len(ball.torques), ball.turns, ball.loss is not None)
-    law: Law = written(ball, *map(_quick, (*ball.forces, *ball.torques)))
+    law: Law = _law(*_kind(ball))(*_given(ball))
     return law
 
 
+def step_of(ball: Ball, integrator: Integrator) -> Method:
+    """One step of a ball in flight under that law."""
+    return integrator.written(_written(*_kind(ball)), ball.turns)(*_given(ball))
+
+
+def _kind(ball: Ball) -> tuple[int, int, bool, bool]:
+    """What its law, as written, depends on."""
+    return len(ball.forces), len(ball.torques), ball.turns, ball.loss is not None
+
+
+def _given(ball: Ball) -> Iterator[Any]:
+    return chain((ball, is_from_inside, _place, refused), map(_quick, ball.forces), map(_quick, ball.torques))
+
+
 @cache
-def _written_out(forces: int, torques: int, turns: bool, loses: bool) -> Any:
-    """What makes the law of a ball with so many forces and torques, which ``turns`` or ``loses`` mass."""
-    on_the_way = "x, y, vx, vy, spin = state; position, velocity = (x, y), (vx, vy)"
+def _law(*kind: Any) -> Any:
+    """What makes the law of such a ball."""
+    law, names = _written(*kind), ", ".join(names_of(kind[2]))
+    lines = [line.format(n="", state=names) for line in law.lines]
+    body = [f"{names} = state", "try:", *(f"  {line}" for line in lines), *law.otherwise, "return ax, ay, alpha"]
+    makes = [*law.before, "def law(at, state):", *(f"  {line}" for line in body), "return law"]
+    return straight(f"law_of({law.given})", makes, __file__)
+
+
+@cache
+def _written(forces: int, torques: int, turns: bool, loses: bool) -> Written:
+    """The law of a ball with so many forces and torques, which ``turns`` or ``loses`` mass."""
+    terms = [(f"force{n}", f"fx{n}, fy{n}") for n in range(forces)]
+    terms += [(f"torque{n}", f"turning{n}") for n in range(torques)]
     parts = {"fx": forces, "fy": forces, "turning": torques}
-    terms = [f"fx{n}, fy{n} = force{n}(t, position, velocity, spin)" for n in range(forces)]
-    terms += [f"turning{n} = torque{n}(t, position, velocity, spin)" for n in range(torques)]
-    law = _LAW.format(
-        place="position, velocity, spin = place(state), state[2:4], state[4]" if turns else on_the_way,
-        terms="; ".join(terms) or "pass",
-        sums=", ".join(" + ".join(["0.0", *(f"{part}{n}" for n in range(count))]) for part, count in parts.items()),
-        left=" * ball.left(t)" if loses else "",
+    sums = [" + ".join(["0.0", *(f"{part}{n}" for n in range(count))]) for part, count in parts.items()]
+    place = "place(({state}))" if turns else "(x{n}, y{n})"
+    now = "(*position, *velocity, spin, position.angle)" if turns else "(*position, *velocity, spin)"
+    left = " * ball.left(at)" if loses else ""
+    return Written(
+        ", ".join(("ball", "is_from_inside", "place", "refused", *(name for name, _ in terms))),
+        ("mass, inertia = ball.mass, ball.inertia",),
+        (
+            f"position, velocity, spin = {place}, (vx{{n}}, vy{{n}}), spin{{n}}",
+            *(f"{made} = {name}(at, position, velocity, spin)" for name, made in terms),
+            f"fx, fy, turning = {', '.join(sums)}",
+            "if not isinstance(fx + fy + turning, float) and isinstance(spin, float):",
+            f"  raise refused(ball, at, {now})",
+            f"ax{{n}}, ay{{n}}, alpha{{n}} = fx / (mass{left}), fy / (mass{left}), turning / (inertia{left})",
+        ),
+        (
+            "except (TypeError, ValueError, OverflowError) as error:",
+            "  if is_from_inside(error):",
+            "    raise",
+            f"  raise refused(ball, at, {now}) from None",
+        ),
+        turning=torques > 0,
     )
-    names = [*(f"force{n}" for n in range(forces)), *(f"torque{n}" for n in range(torques))]
-    used = {"is_from_inside": is_from_inside, "place": _place, "refused": refused}
-    return straight(f"law_of(ball, {', '.join(names)})", law.splitlines(), __file__, used)
 
 
 def _quick(term: Any) -> Any:

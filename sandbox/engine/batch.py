@@ -108,6 +108,7 @@ class Batch:
         self.setups = setups
         self._accuracy = accuracy
         self._control = StepControl(accuracy)
+        self._step = self._control.integrator.step_of(self._law)
         whole = setups.whole
         self._select = selector(whole)
         self._until = selector(whole.until)
@@ -217,7 +218,7 @@ class Batch:
         h = np.minimum(self._wanted, self._now.duration - self._t)
         h = np.where(self._again, self._wanted, allowed(self._now, self._t, h, before, tuple(known)))
         fits, following, after, last = self._control.attempt(
-            self._law, self._t, before, tuple(known), h, self._wanted, self._now.balls[0].radius
+            self._step, self._t, before, tuple(known), h, self._wanted, self._now.balls[0].radius
         )
         self._again = ~fits
         self._counts[STEPS, self._shot] += 1

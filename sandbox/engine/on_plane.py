@@ -49,7 +49,7 @@ class OnPlane(Track):
             out = _leaves(arc, low, high)
             return arc if out is None else self._in_closed_form(law, phase, t, out * h), ""
         stops_in = hypot(*state[2:4]) / (hypot(phase.ax, phase.ay) or 1.0)
-        arc = self._integrate(t, min(until, t + _LONGEST * stops_in), phase.law)
+        arc = self._under(phase.law, t, min(until, t + _LONGEST * stops_in))
         out, spun = _leaves(arc, low, high), next(downward_crossings([state[4] * spin for spin in arc.curves[4]]), None)
         u = min((u for u in (out, spun) if u is not None), default=inf)
         self._ends_spin = spun == u

@@ -9,7 +9,7 @@ from typing import Any
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.setup import Setup
 from sandbox.physics.elementwise import anywhere, choose, clip, least, most
-from sandbox.physics.integrators import INTEGRATORS, Acceleration, Law, State
+from sandbox.physics.integrators import INTEGRATORS, Acceleration, Method, State
 
 #: Local error of a step relative to the tolerance at the end. Each impact on a round shape multiplies an error by ten
 #: or more, so the flight must be much more accurate; this value is enough for shots with several rim contacts.
@@ -52,10 +52,8 @@ _TINY = 1e-300
 class StepControl:
     """The steps of one method at one accuracy, controlled by its order and its error estimate, if any."""
 
-    def __init__(self, accuracy: Accuracy, turns: bool = False) -> None:
-        """``turns`` if the state has an angle."""
-        method = INTEGRATORS[accuracy.integrator]
-        self._make_step = method.step_of(turns)
+    def __init__(self, accuracy: Accuracy) -> None:
+        method = self.integrator = INTEGRATORS[accuracy.integrator]
         self._exponent = 1.0 / method.order
         self._local_error = accuracy.tolerance * LOCAL_SHARE  # m
         self._step = accuracy.step  # s
@@ -63,16 +61,14 @@ class StepControl:
         self.first = FIRST_STEP if method.controls_error else accuracy.step  # s
 
     def attempt(
-        self, law: Law, t: Any, state: State, acceleration: Acceleration, h: Any, wanted: Any, radius: Any
+        self, step: Method, t: Any, state: State, acceleration: Acceleration, h: Any, wanted: Any, radius: Any
     ) -> tuple[Any, Any, State, Acceleration]:
-        """A step of ``h`` s, which may be a part of the ``wanted`` step, from a state with this acceleration.
+        """One ``step`` of ``h`` s, which may be a part of the ``wanted`` step, from a state with this acceleration.
 
         Returns whether it is accepted, the step in s to try next, after it or in its place, and the state and the
         acceleration at its end.
         """
-        end, last, error = self._make_step(law, t, state, acceleration, h)
-        if last is None:
-            last = law(t + h, end)
+        end, last, error = step(t, state, acceleration, h)
         if error is None:
             too_long = stiff(state, end, acceleration, last, h)
             longer = choose(h >= wanted, clip(2.0 * h, 0.0, self._step), wanted)

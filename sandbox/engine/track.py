@@ -11,7 +11,7 @@ from math import hypot
 from typing import NamedTuple
 
 from sandbox.engine.accuracy import Accuracy
-from sandbox.engine.acting import law_of, refused
+from sandbox.engine.acting import law_of, refused, step_of
 from sandbox.engine.arc import Arc, crossing, still, through
 from sandbox.engine.lasting import BECOMES, FLYING, RESTING, LastingContact, motion_on, wedged
 from sandbox.engine.run import Numerics
@@ -19,7 +19,7 @@ from sandbox.engine.setup import Ball, Setup
 from sandbox.engine.step_control import StepControl, allowed, shortest
 from sandbox.engine.surfaces import PUSH, STILL, leaves_at, press
 from sandbox.engine.touch import TOUCHING_GAP, Near, Obstacle, flush, touched
-from sandbox.physics.integrators import Acceleration, Law, State
+from sandbox.physics.integrators import Acceleration, Law, Method, State
 
 #: Difference in m/s and rad/s below which it is rounding.
 _SAME = 1e-9
@@ -71,7 +71,8 @@ class Track:
         self._accuracy = accuracy
         self._numerics = numerics
         self._law = law_of(ball)
-        self._control = StepControl(accuracy, turns=ball.turns)
+        self._control = StepControl(accuracy)
+        self._step = step_of(ball, self._control.integrator)
         self._known: tuple[State, Acceleration] = ((), (0.0, 0.0, 0.0))  # the end of the last step: the next start
         self._slips = False  # it has just lost its grip
         self.next_step = self._control.first  # s, to try
@@ -135,13 +136,17 @@ class Track:
         """
         contact, ball = self.contact, self.ball
         if contact is None:
-            return self._integrate(t, until, self._law), ""
+            return self._integrate(t, until, self._law, self._step), ""
         if contact.mode == RESTING:
             return still(t, until, self.state, contact), ""
-        arc = self._integrate(t, until, lambda at, state: contact.forces(ball, self._law(at, state), state)[0])
+        arc = self._under(lambda at, state: contact.forces(ball, self._law(at, state), state)[0], t, until)
         return self._cut_where_contact_changes(arc, contact)
 
-    def _integrate(self, t: float, until: float, law: Law) -> Arc:
+    def _under(self, law: Law, t: float, until: float) -> Arc:
+        """A step under a law that is not the ball's own."""
+        return self._integrate(t, until, law, self._control.integrator.step_of(law, self.ball.turns))
+
+    def _integrate(self, t: float, until: float, law: Law, step: Method) -> Arc:
         state, contact = self.state, self.contact
         known, acceleration = self._known
         if known is not state:
@@ -153,7 +158,7 @@ class Track:
             h = min(h, contact.longest(state))
         ball, control = self.ball, self._control
         while True:
-            fits, following, end, last = control.attempt(law, t, state, acceleration, h, wanted, ball.radius)
+            fits, following, end, last = control.attempt(step, t, state, acceleration, h, wanted, ball.radius)
             self._numerics.steps += 1
             self._numerics.force_evaluations += control.evaluations
             if fits:

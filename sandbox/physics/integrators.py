@@ -19,12 +19,28 @@ Acceleration = tuple[Any, Any, Any]
 Law = Callable[[Any, State], Acceleration]
 
 
-#: The state after one step, the acceleration there if the method evaluates it, and an embedded pair's estimate of the
-#: local error.
-Step = tuple[State, Acceleration | None, State | None]
+#: The state after one step, the acceleration there, and an embedded pair's estimate of the local error.
+Step = tuple[State, Acceleration, State | None]
 
-#: ``method(law, t, state, acceleration, dt)`` makes one step.
-Method = Callable[[Law, Any, State, Acceleration, Any], Step]
+#: ``method(t, state, acceleration, dt)`` makes one step.
+Method = Callable[[Any, State, Acceleration, Any], Step]
+
+
+class Written(NamedTuple):
+    """A law as lines of Python, which a step repeats in each of its stages: no stage calls a function to call others.
+
+    The lines make ``ax{n}, ay{n}, alpha{n}`` at the time ``at`` from ``{state}``, that is ``x{n}, y{n}, vx{n}, ...``
+    """
+
+    given: str  # names of what the law needs, as the parameters of what makes its step
+    before: tuple[str, ...]  # what is known of all stages
+    lines: tuple[str, ...]
+    otherwise: tuple[str, ...] = ()  # what follows if they, below a ``try:``, do not succeed
+    turning: bool = True  # whether it changes the spin
+
+
+#: Any law.
+CALLED = Written("law", (), ("ax{n}, ay{n}, alpha{n} = law(at, ({state}))",))
 
 
 class Stage(NamedTuple):
@@ -58,22 +74,34 @@ class Integrator(NamedTuple):
         """Whether it chooses its step from its error estimate."""
         return len(self.error) > 0
 
-    def step_of(self, turns: bool = False) -> Method:
-        """One step of a ball; or of a body, which ``turns``."""
-        return _written_out(self.stages, self.error, tuple(_RATES)[: 5 + turns])
+    def step_of(self, law: Law, turns: bool = False) -> Method:
+        """One step of a ball under a law; or of a body, which ``turns``."""
+        method: Method = self.written(CALLED, turns)(law)
+        return method
+
+    def written(self, law: Written, turns: bool = False) -> Callable[..., Method]:
+        """What makes one step under a law that is written out, from what the law needs."""
+        return _written_out(self.stages, self.error, names_of(turns), law)
 
 
 #: The components of a state, and the rate of each.
 _RATES = {"x": "vx", "y": "vy", "vx": "ax", "vy": "ay", "spin": "alpha", "angle": "spin"}
 
 
-@cache
-def _written_out(stages: Sequence[Stage], error: Sequence[float], names: Sequence[str]) -> Method:
-    """The step of a state with these components as straight Python; loops over the weights take seven times as long.
+def names_of(turns: bool) -> tuple[str, ...]:
+    """The components of the state of a ball; or of a body, which ``turns``."""
+    return tuple(_RATES)[: 5 + turns]
 
-    A stage of Heun's method becomes ``vx2 = vx1 + dt * (ax1)``, the same for vy, and
-    ``ax2, ay2, alpha2 = law(t + dt, (x1 + dt * (vx1), y1 + dt * (vy1), vx2, vy2, spin1 + dt * (alpha1)))``; other
-    numbers than 1 are multiplied by dt once.
+
+@cache
+def _written_out(
+    stages: Sequence[Stage], error: Sequence[float], names: Sequence[str], law: Written
+) -> Callable[..., Method]:
+    """What makes the step of a state with these components as straight Python; loops over the weights take seven times
+    as long.
+
+    A stage of Heun's method becomes ``vx2 = vx1 + dt * (ax1)``, ``x2 = x1 + dt * (vx1)``, the same for the others, and
+    the lines of the law; other numbers than 1 are multiplied by dt once.
     """
     used = {*error, *(w for time, *of_both in stages for w in (time, *sum(of_both, ())))} - {0.0, 1.0}
     h = {number: f"h{place}" for place, number in enumerate(sorted(used))}
@@ -82,20 +110,25 @@ def _written_out(stages: Sequence[Stage], error: Sequence[float], names: Sequenc
     lines = [f"{_at(1, names)} = state", f"{_at(1, rates)} = acceleration"]
     lines += [f"{name} = dt * {number!r}" for number, name in h.items()]
     h[1.0] = "dt"
+    staged: list[str] = []
     for number, stage in enumerate(stages, 2):
-        made = {name: f"{name}1 + {_sum(h, stage.weights, name)}" for name in names}
-        for name in map(_RATES.__getitem__, coordinates):  # which later stages need
-            lines.append(f"{name}{number} = {made[name]}")
-            made[name] = f"{name}{number}"
+        made = dict.fromkeys(sorted(names, key=coordinates.__contains__), stage.weights)  # which may need the rest
         if stage.of_velocities:
-            made |= {name: f"{name}1 + {_sum(h, stage.of_velocities, name)}" for name in coordinates}
-        lines.append(f"{_at(number, rates)} = law(t + {h[stage.time]}, ({', '.join(made.values())}))")
-    lines[-1] = f"end = {', '.join(made.values())}"
-    lines.append(f"last = {_at(number, rates)} = law(t + dt, end)" if len(error) > len(stages) else "last = None")
-    errors = f"({', '.join(_sum(h, error, name) for name in names)})" if error else "None"
-    lines.append(f"return end, last, {errors}")
-    method: Method = straight("step(law, t, state, acceleration, dt)", lines, __file__)
-    return method
+            made |= dict.fromkeys(coordinates, stage.of_velocities)
+        for name, weights in made.items():
+            grows = f" + {_sum(h, weights, name)}" if name != "spin" or law.turning else ""
+            staged.append(f"{name}{number} = {name}1{grows}")
+        staged.append(f"at = t + {h[stage.time]}")
+        staged += [line.format(n=number, state=_at(number, names)) for line in law.lines]
+    off = [_sum(h, error, name) if name != "spin" or law.turning else "0.0" for name in names]
+    errors = f"({', '.join(off)})" if error else "None"
+    ends = [f"return ({_at(number, names)}), ({_at(number, rates)}), {errors}"]
+    if law.otherwise:
+        staged = ["try:", *(f"  {line}" for line in staged), *law.otherwise]
+    body = [f"  {line}" for line in (*lines, *staged, *ends)]
+    step = [*law.before, "def step(t, state, acceleration, dt):", *body, "return step"]
+    makes: Callable[..., Method] = straight(f"step_of({law.given})", step, __file__)
+    return makes
 
 
 def _at(number: int, names: Iterable[str]) -> str:

@@ -68,7 +68,7 @@ def fly(shots: np.ndarray, drag: Coefficient, lift: Coefficient) -> np.ndarray:
     states = [(zero, zero, speed * np.cos(angle), speed * np.sin(angle), spin)]
     for number in range(STEPS):
         t = number * STEP
-        states.append(INTEGRATORS["rk4"].step_of()(law, t, states[-1], law(t, states[-1]), STEP)[0])
+        states.append(INTEGRATORS["rk4"].step_of(law)(t, states[-1], law(t, states[-1]), STEP)[0])
     x, y, vx, vy, _ = np.array(states).transpose(1, 0, 2)  # each (times, shots)
     shot = np.arange(len(speed))
     last = np.argmax(y[1:] < 0.0, axis=0)  # the step in which it comes down
