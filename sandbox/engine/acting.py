@@ -12,6 +12,7 @@ from typing import Any
 from sandbox.engine.setup import Ball
 from sandbox.engine.setup_errors import failed, is_from_inside
 from sandbox.errors import RunError
+from sandbox.physics.forces import Gravity
 from sandbox.physics.integrators import Acceleration, Integrator, Law, Method, State, Written, names_of
 from sandbox.physics.straight import straight
 
@@ -48,9 +49,14 @@ def step_of(ball: Ball, integrator: Integrator) -> Method:
     return integrator.written(_written(*_kind(ball)), ball.turns)(*_given(ball))
 
 
-def _kind(ball: Ball) -> tuple[int, int, bool, bool]:
+def _kind(ball: Ball) -> tuple[tuple[bool, ...], int, bool, bool]:
     """What its law, as written, depends on."""
-    return len(ball.forces), len(ball.torques), ball.turns, ball.loss is not None
+    return tuple(map(_is_steady, ball.forces)), len(ball.torques), ball.turns, ball.loss is not None
+
+
+def _is_steady(force: Any) -> bool:
+    """Whether it is the same always, and is asked for once."""
+    return type(force) is Gravity and force.loss is None
 
 
 def _given(ball: Ball) -> Iterator[Any]:
@@ -68,21 +74,27 @@ def _law(*kind: Any) -> Any:
 
 
 @cache
-def _written(forces: int, torques: int, turns: bool, loses: bool) -> Written:
-    """The law of a ball with so many forces and torques, which ``turns`` or ``loses`` mass."""
-    terms = [(f"force{n}", f"fx{n}, fy{n}") for n in range(forces)]
-    terms += [(f"torque{n}", f"turning{n}") for n in range(torques)]
-    parts = {"fx": forces, "fy": forces, "turning": torques}
+def _written(steady: Sequence[bool], torques: int, turns: bool, loses: bool) -> Written:
+    """The law of a ball with forces that are ``steady`` or not, and so many torques, which ``turns`` or ``loses``
+    mass."""
+    forces = [(f"fx{n}, fy{n}", f"force{n}") for n in range(len(steady))]
+    turns_by = [(f"turning{n}", f"torque{n}") for n in range(torques)]
+    once = [force for force, same in zip(forces, steady, strict=True) if same]
+    anew = [force for force in (*forces, *turns_by) if force not in once]
+    parts = {"fx": len(forces), "fy": len(forces), "turning": torques}
     sums = [" + ".join(["0.0", *(f"{part}{n}" for n in range(count))]) for part, count in parts.items()]
     place = "place(({state}))" if turns else "(x{n}, y{n})"
     now = "(*position, *velocity, spin, position.angle)" if turns else "(*position, *velocity, spin)"
     left = " * ball.left(at)" if loses else ""
     return Written(
-        ", ".join(("ball", "is_from_inside", "place", "refused", *(name for name, _ in terms))),
-        ("mass, inertia = ball.mass, ball.inertia",),
+        ", ".join(("ball", "is_from_inside", "place", "refused", *(name for _, name in (*forces, *turns_by)))),
+        (
+            "mass, inertia = ball.mass, ball.inertia",
+            *(f"{made} = {name}(0.0, (0.0, 0.0), (0.0, 0.0), 0.0)" for made, name in once),
+        ),
         (
             f"position, velocity, spin = {place}, (vx{{n}}, vy{{n}}), spin{{n}}",
-            *(f"{made} = {name}(at, position, velocity, spin)" for name, made in terms),
+            *(f"{made} = {name}(at, position, velocity, spin)" for made, name in anew),
             f"fx, fy, turning = {', '.join(sums)}",
             "if not isinstance(fx + fy + turning, float) and isinstance(spin, float):",
             f"  raise refused(ball, at, {now})",

@@ -147,9 +147,12 @@ class Lanes:
 
     def _prepare(self, lane: int, pair: tuple[float, float, float]) -> None:
         """Set restitution, friction and inertia factor of a lane; most are those of the contact before."""
-        if self._pairs.get(lane) != pair:
-            disc, body = self._discs[lane], self._bodies[lane]
-            disc.elasticity, disc.friction, body.moment = self._pairs[lane] = pair
+        before = self._pairs.get(lane)
+        if before != pair:
+            disc = self._discs[lane]
+            disc.elasticity, disc.friction, factor = self._pairs[lane] = pair
+            if before is None or before[2] != factor:
+                self._bodies[lane].moment = factor
 
 
 _made = threading.local()

@@ -369,8 +369,7 @@ class Simulation:
         touch = self._first_touch(index, arc, track.obstacles, at, in_contact)
         if touch is not None:
             at, kind = touch, "touch"
-        caught = self._first_touch(index, arc, track.catches, at)
-        if caught is not None:
+        if track.catches and (caught := self._first_touch(index, arc, track.catches, at)) is not None:
             at, kind = caught, "catch"
         self._push(at, kind, index)
         for other in others:

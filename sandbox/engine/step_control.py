@@ -77,7 +77,7 @@ class StepControl:
         fits = off <= self._local_error
         change = clip(SAFETY * (self._local_error / (off + _TINY)) ** self._exponent, SHORTER, LONGER)
         following = h * choose(off < inf, change, LOST)
-        return fits, most(following, wanted * (fits & (h < wanted))), end, last
+        return fits, choose(fits & (h < wanted) & (following < wanted), wanted, following), end, last
 
 
 def size(error: State, radius: Any) -> Any:
