@@ -40,12 +40,12 @@ from sandbox.text import printable
 
 if TYPE_CHECKING:
     import numpy as np
+    import pygame
     from PIL import Image
 
     from sandbox.engine.run import Run
-    from sandbox.picture.frames import Drawing
 
-    Subject = Run | Drawing | Image.Image
+    Subject = Run | pygame.Surface | Image.Image
 
 #: Bits per colour channel in a golden picture; a stored level stands for the levels from LOWEST to HIGHEST around it.
 COLOUR_BITS = 6
