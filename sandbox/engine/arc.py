@@ -75,11 +75,18 @@ class Arc:
         return len(self.curves[0]) == len(self.curves[4]) == 1 and self.t1 > self.t0
 
     def box(self) -> tuple[float, float, float, float]:
-        """Left, bottom, right, top (m) of a rectangle that holds the whole path."""
+        """Left, bottom, right, top (m) of a rectangle that holds the path, as far as it is ``followed``."""
         if self._box is None:
             x, y = self.curves[0], self.curves[1]
             self._box = min(x), min(y), max(x), max(y)
         return self._box
+
+    def follow(self, t: float) -> None:
+        """It will not be followed farther than to t."""
+        if t < self.t1:
+            u = (t - self.t0) / (self.t1 - self.t0)
+            x, y = until(self.curves[0], u), until(self.curves[1], u)
+            self._box = min(x), min(y), max(x), max(y)
 
     def box_within(self, t: float, h: float) -> tuple[float, float, float, float]:
         """One that holds the path for h s from t."""

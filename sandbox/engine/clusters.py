@@ -133,6 +133,7 @@ class Cluster:
         self._mass = 1.0 / (light[first] + light[second])  # kg, reduced
         self._stiffness = np.array([link.stiffness for link in links])
         self._damping = np.array([damping(link.restitution) for link in links]) * np.sqrt(self._mass * self._stiffness)
+        self._taken = 0.8 * self._damping
         self._pushed = np.zeros((count + 1, len(links)), complex)  # 1/kg: by an impulse at each link
         self._pushed[first, every], self._pushed[second, every] = light[first], -light[second]
         self._deepest = _TOO_DEEP * np.minimum(radius[first], radius[second])
@@ -257,7 +258,7 @@ class Cluster:
         gap -= self._overlap
         depth = np.maximum(-gap, 0.0)
         root = np.sqrt(depth)
-        held, elastic = 0.8 * self._damping * depth * np.sqrt(root), self._stiffness * depth * root
+        held, elastic = self._taken * depth * np.sqrt(root), self._stiffness * depth * root
         velocity = velocity + np.vecdot(self._pushed, held * normal)
         along = (velocity.take(self._first) - velocity.take(self._second)) * normal.conj()
         turned = (elastic - 1j * (held * curvature * along.imag)) * normal  # damping's impulse turns with the normal

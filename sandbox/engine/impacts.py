@@ -78,6 +78,7 @@ class Impacts:
         model = setup.contact
         self._all_soft = len(setup.balls) > 1 and model.name != "rigid" and model.wall_stiffness == 0.0
         self._some_soft = self._all_soft or any(map(self._soft, setup.surfaces))
+        self._walls: dict[tuple[int, bool | None], list[Obstacle]] = {}  # soft or hard, of each ball
         self._all_round = discs(*setup.balls)
         self._heaviest = max(ball.mass for ball in setup.balls)  # kg
 
@@ -106,7 +107,7 @@ class Impacts:
                 closed = self._close_at_once(states, None if turn == last else False)
             if turn > 0 and not closed:
                 break
-            if self._slowest_hop > 0.0:
+            if closed and self._slowest_hop > 0.0:
                 self._pay_for_hops(before, states)
             hits += _hits(t, closed)
         return Outcome(t, states, hits)
@@ -178,8 +179,10 @@ class Impacts:
         join, a point of both counts once, for the surface whose side it is less far ``off``."""
         for index in states:
             track, met = self._tracks[index], dict[tuple[float, ...], tuple[Obstacle, Meeting, int]]()
-            asked = [each for each in track.obstacles if soft is None or self._soft(each.surface) is soft]
-            for obstacle, found in surfaces_met(track.ball, asked, states[index], self.gap):
+            asked = (index, soft)
+            if asked not in self._walls:
+                self._walls[asked] = [o for o in track.obstacles if soft is None or self._soft(o.surface) is soft]
+            for obstacle, found in surfaces_met(track.ball, self._walls[asked], states[index], self.gap):
                 for number, point in enumerate(found.points):
                     place = *point, *(track.ball.radius * part for part in found.normal)
                     near = (each for each in met if dist(place, each) <= _SAME_POINT * track.ball.radius)

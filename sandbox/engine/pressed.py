@@ -80,6 +80,9 @@ class Pressed:
             room, near = dict.fromkeys(members, inf), list[tuple[int, Obstacle]]()
             for index, (x, y, *_) in members.items():
                 for obstacle in self._tracks[index].obstacles:
+                    left, bottom, right, top = obstacle.box
+                    if max(left - x, x - right, bottom - y, y - top) > max(reach, room[index]):
+                        continue  # farther than that
                     gap = obstacle.near(x, y).gap
                     if gap <= reach:
                         near.append((index, obstacle))

@@ -140,7 +140,7 @@ def _slid(
         np.copyto(wanted, holds, where=held)
         change, impulse = wanted - impulse, wanted
         end += _times(mobility, change)
-        done = (np.abs(change) * ease).max() <= tolerance
+        done = np.maximum.reduce(np.abs(change) * ease) <= tolerance
         if done or iteration == _CLEAR:
             own = mobility.diagonal()
             least = (end - before).real / own[::2] + 1j * ((end - before).imag / own[1::2])

@@ -365,13 +365,13 @@ class Simulation:
         track = self._tracks[index]
         arc = track.arc
         at = arc.t1
-        left, bottom, right, top = arc.box()
         touch = self._first_touch(index, arc, track.obstacles, at, in_contact)
         if touch is not None:
             at, kind = touch, "touch"
         if track.catches and (caught := self._first_touch(index, arc, track.catches, at)) is not None:
             at, kind = caught, "catch"
         self._push(at, kind, index)
+        left, bottom, right, top = arc.box()
         for other in others:
             neighbour = self._tracks[other]
             if other == index or neighbour.caught:
@@ -405,6 +405,8 @@ class Simulation:
                 touch = self._tracks[index].first_touch(obstacle, arc)
                 if touch is not None and touch <= until:
                     first = until = touch
+                    arc.follow(touch)
+                    left, bottom, right, top = arc.box()
         return first
 
     def _push(self, t: float, kind: str, i: int, j: int = -1) -> None:

@@ -21,7 +21,7 @@ from typing import Any, Literal
 
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Always, Ball, Bounce, ContactModel, Setup, Vector
-from sandbox.engine.touch import Obstacle
+from sandbox.engine.touch import Obstacle, touched
 from sandbox.engine.track import Pressing
 from sandbox.errors import RequestError
 from sandbox.parameters import Group, SceneParameters, choice, either, group, groups, quantity, word
@@ -251,7 +251,8 @@ def check_spots(spots: Mapping[str, Vector], parameters: Parameters, obstacles: 
         where = f'ball "{name}" at ({place[0]:g}, {place[1]:g}) m'
         if not on_bed(parameters.table, *place):
             raise RequestError(f"{where} is off the table, whose noses are at x = +-{x_most:g} m, y = +-{y_most:g} m")
-        gap, cushion = min((obstacle.near(*place).gap, obstacle.surface.name) for obstacle in obstacles)
+        near = [(touching.gap, obstacle.surface.name) for obstacle, touching in touched(obstacles, *place)]
+        gap, cushion = min(near, default=(0.0, ""))
         if gap < -ROUNDING:
             raise RequestError(f"{where} overlaps the {cushion} by {-1000.0 * gap:.3g} mm: its radius is {radius:g} m")
         for hole in catches(parameters.table):
@@ -309,9 +310,9 @@ def point(run: Run, parameters: Parameters) -> int | None:
     missing, cushions = others(run, parameters), 0
     if run.setup.catches or len(missing) < 2:
         return None
-    for touched in touches(run, parameters):
-        missing.discard(touched)
-        cushions += touched.endswith(" cushion")
+    for name in touches(run, parameters):
+        missing.discard(name)
+        cushions += name.endswith(" cushion")
         if not missing:
             return cushions
     return None
