@@ -18,8 +18,9 @@ the time that numpy takes for the forces of all these shots, as often as they ne
 asks of itself: the same multiple of the floor for golf and soccer
 as for basketball.
 
-In the window: what it computes while a player aims, in processor time of the process that computes it; a fan is a
-picture of a shot with the usual errors, and grows where its shots are computed one by one.
+In the window: what it computes while a player aims, in processor time, by one process; a fan is a picture of a shot
+with the usual errors, and grows where its shots are computed one by one. Such a fan is computed by two processes while
+the aim rests; by the clock it is measured in window.py.
 
 Where it goes: the processor time of a shot of the map in each step of a sweep; the floor of each is the forces alone.
 

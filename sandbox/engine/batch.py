@@ -27,7 +27,7 @@ from sandbox.engine.outlines import Outlines
 from sandbox.engine.run import Numerics, Run
 from sandbox.engine.setup import Ball, Setup, Until
 from sandbox.engine.setup_errors import setup_errors_named
-from sandbox.engine.simulation import Left, Simulation
+from sandbox.engine.simulation import Left, Simulation, alone
 from sandbox.engine.stacking import FEWEST, Stack, selector
 from sandbox.engine.step_control import StepControl, allowed, shortest
 from sandbox.engine.surfaces import CLOSING, bounce_off, leaves_at, press, tilted
@@ -475,7 +475,7 @@ class Batch:
         try:
             with setup_errors_named():
                 simulation = Simulation(setup, self._accuracy, numerics)
-                run = simulation.run() if left.how == "start" else simulation.take_over(left, events)
+                run = alone(simulation.run() if left.how == "start" else simulation.take_over(left, events))
         except Exception as error:
             return error
         arcs = list(run.arcs[setup.balls[0].name])[len(left.arcs) :]

@@ -16,11 +16,12 @@ shared by threads, a hundred times as slow where other programs keep the process
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Generator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from math import hypot
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -120,9 +121,11 @@ class ClusterOutcome:
 class Cluster:
     """Bodies and the links between them. The cost grows with all of them: leave out what cannot be reached."""
 
-    def __init__(self, bodies: Sequence[Body], links: Sequence[Link]) -> None:
+    def __init__(self, bodies: Sequence[Body], links: Sequence[Link], groups: Sequence[int] = ()) -> None:
+        """``groups`` has a number, from 0 on, for each link: those of one group share bodies with no other."""
         count, every = len(bodies), range(len(links))
-        self._bodies, self._links = bodies, links
+        self.bodies, self.links = bodies, links
+        self._groups = np.array(groups or [0] * len(links))
         first = self._first = np.array([link.first for link in links])
         second = self._second = np.array([count if link.second is None else link.second for link in links])
         self._weights = np.array([(body.mass, body.inertia) for body in bodies]).T
@@ -139,8 +142,13 @@ class Cluster:
         self._deepest = _TOO_DEEP * np.minimum(radius[first], radius[second])
         radius[count] = 0.0
         self._reach = radius[first] + radius[second]
-        self._rubbing = Rubbing(first, second, radius, light, easy, [link.friction for link in links])
+        self._rubbing = Rubbing(first, second, radius, light, easy, [link.friction for link in links], self._groups)
         self._walls = [(place, link.wall, link.first) for place, link in enumerate(links) if link.wall is not None]
+
+    @property
+    def is_apart(self) -> bool:
+        """Whether it takes steps of its own, or has walls."""
+        return len(self.links) == 1 or bool(self._walls)
 
     def pass_through(self, share: float, faint: float = 0.0) -> ClusterOutcome:
         """Simulate the contact until nothing touches, in steps of this fraction of the shortest possible contact, or
@@ -154,17 +162,17 @@ class Cluster:
 
     def _stepped_through(self, share: float, faint: float) -> ClusterOutcome | None:
         """The same with steps that are not repeated; None if one has too large an error."""
-        count, links = len(self._bodies), len(self._links)
+        count, links = len(self.bodies), len(self.links)
         rows = [
             (complex(*body.position), complex(*body.velocity), complex(*body.spin[:2]), 1j * body.spin[2])
-            for body in self._bodies
+            for body in self.bodies
         ]
         state = np.array([*rows, (0.0, 0.0, 0.0, 0.0)]).T
         self._origin = state[_PLACE, 0]
         state[_PLACE] -= self._origin
         state[_PLACE, count] = 1e3  # m: a placeholder for walls, never read
         fastest = max(2.0 * float(np.abs(state[_VELOCITY]).max()), CLOSING)
-        quickest = max(fastest, *(hypot(*body.spin) * body.radius for body in self._bodies))
+        quickest = max(fastest, *(hypot(*body.spin) * body.radius for body in self.bodies))
         at = partial(contact_time, self._mass, self._stiffness)
         slowest = _SLOWEST + _TIMES * np.abs(self._push).max() * at(_SLOWEST).max()
         shortest, longest = at(fastest).min(), at(min(slowest, fastest)).max()
@@ -267,20 +275,64 @@ class Cluster:
         return elastic
 
     def _remove_excess_energy(self, start: np.ndarray, end: np.ndarray, impulse: np.ndarray, way: float) -> None:
-        """Slow the bodies that were touched towards their common motion if numerical errors have raised their energy;
-        other causes may have added what they do along the ``way`` in m."""
-        touched = np.flatnonzero(self._pushed[:-1, impulse > 0.0].any(axis=1))
-        mass, inertia = self._weights[:, touched]
+        """Slow the bodies that were touched towards the common motion of their group if numerical errors have raised
+        its energy; other causes may have added what they do along the ``way`` in m."""
+        for group in range(self._groups.max() + 1):
+            acted = (impulse > 0.0) & (self._groups == group)
+            touched = np.flatnonzero(self._pushed[:-1, acted].any(axis=1))
+            mass, inertia = self._weights[:, touched]
 
-        def energy(motion: np.ndarray) -> float:
-            _, velocity, roll, out = motion
-            moving, turning = np.abs(velocity) ** 2 + out.real**2, np.abs(roll) ** 2 + out.imag**2
-            return 0.5 * float(mass @ moving + inertia @ turning)
+            def energy(motion: np.ndarray, mass: np.ndarray = mass, inertia: np.ndarray = inertia) -> float:
+                _, velocity, roll, out = motion
+                moving, turning = np.abs(velocity) ** 2 + out.real**2, np.abs(roll) ** 2 + out.imag**2
+                return 0.5 * float(mass @ moving + inertia @ turning)
 
-        common = np.zeros((4, touched.size), complex)
-        if touched.size and not self._walls:
-            common[_VELOCITY] = mass @ end[_VELOCITY, touched] / mass.sum()
-        apart, worked = end[:, touched] - common, float(np.abs(self._push[touched]) @ mass) * way
-        most, has = energy(start[:, touched]) + worked - energy(common), energy(apart)
-        if has > most:
-            end[1:, touched] = (common + np.sqrt(max(0.0, most / has)) * apart)[1:]
+            common = np.zeros((4, touched.size), complex)
+            if touched.size and not self._walls:
+                common[_VELOCITY] = mass @ end[_VELOCITY, touched] / mass.sum()
+            apart, worked = end[:, touched] - common, float(np.abs(self._push[touched]) @ mass) * way
+            most, has = energy(start[:, touched]) + worked - energy(common), energy(apart)
+            if has > most:
+                end[1:, touched] = (common + np.sqrt(max(0.0, most / has)) * apart)[1:]
+
+
+T = TypeVar("T")
+
+#: What computes something and asks meanwhile for clusters to be passed through: with these steps, until what is left is
+#: slower than this (m/s).
+Asking = Generator[tuple[Cluster, float, float], ClusterOutcome, T]
+
+
+def pass_through(asked: Sequence[tuple[Cluster, float, float]]) -> list[ClusterOutcome | Exception]:
+    """The outcomes of clusters, or what they raise; of several as one, if they are alike and none raises anything."""
+    (one, *how), *others = asked
+    if not others:
+        try:
+            return [one.pass_through(*how)]
+        except Exception as error:  # also what a law of the scene raises
+            return [error]
+    clusters = [one, *(cluster for cluster, *_ in others)]
+    if all(its == how for _, *its in others) and not any(cluster.is_apart for cluster in clusters):
+        with suppress(Exception):  # it is found below whose it is
+            return _pass_together(clusters, *how)
+    return [found for each in asked for found in pass_through([each])]
+
+
+def _pass_together(clusters: Sequence[Cluster], share: float, faint: float) -> list[ClusterOutcome | Exception]:
+    """The outcomes of several clusters that are passed through as one, with steps in common."""
+    bodies, links, groups, parts = list[Body](), list[Link](), list[int](), list[tuple[slice, slice]]()
+    for group, cluster in enumerate(clusters):
+        moved = [
+            link._replace(first=len(bodies) + link.first, second=len(bodies) + link.second)
+            for link in cluster.links
+            if link.second is not None
+        ]
+        parts.append(
+            (slice(len(bodies), len(bodies) + len(cluster.bodies)), slice(len(links), len(links) + len(moved)))
+        )
+        bodies, links, groups = [*bodies, *cluster.bodies], [*links, *moved], groups + [group] * len(moved)
+    times, motion, *of_links = vars(Cluster(bodies, links, groups).pass_through(share, faint)).values()
+    return [
+        ClusterOutcome(times, motion[:, its_bodies], *(each[its_links] for each in of_links))
+        for its_bodies, its_links in parts
+    ]

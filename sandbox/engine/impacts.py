@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from math import dist, hypot
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from sandbox.engine.arc import Arc, straight
 from sandbox.engine.impulses import Contact, exchange_alone, exchange_at_once, lanes
@@ -25,6 +25,9 @@ from sandbox.engine.touch import TOUCHING_GAP, Obstacle
 from sandbox.engine.track import Pressing, Track
 from sandbox.physics.cushion import raised
 from sandbox.physics.integrators import State
+
+if TYPE_CHECKING:
+    from sandbox.engine.clusters import Asking
 
 #: Largest relative energy gain of a cluster in an impact: rounding in Chipmunk's iterations.
 _GAIN = 1e-7
@@ -61,7 +64,7 @@ class Outcome(NamedTuple):
     arcs: Mapping[int, Sequence[Arc]] = {}  # their paths through a contact that lasts
 
 
-Through = Callable[[float, dict[int, State]], Outcome | None]
+Through = Callable[[float, dict[int, State]], "Asking[Outcome | None]"]
 
 
 class Impacts:
@@ -82,7 +85,7 @@ class Impacts:
         self._all_round = discs(*setup.balls)
         self._heaviest = max(ball.mass for ball in setup.balls)  # kg
 
-    def exchange(self, t: float, states: dict[int, State], through: Through) -> Outcome:
+    def exchange(self, t: float, states: dict[int, State], through: Through) -> Asking[Outcome]:
         """The impact at t of balls that touch, directly or through others.
 
         Balls and hard walls exchange impulses at once; soft walls push back afterwards, one after another, and so on
@@ -94,7 +97,7 @@ class Impacts:
         for turn in range(last + 1):
             if turn in (0, last):
                 states, hits = dict(start), []
-            elif turn % 2 == 0 and (parted := through(t, states)) is not None:
+            elif turn % 2 == 0 and (parted := (yield from through(t, states))) is not None:
                 marker = Pressing(t, parted.t)
                 others = {i: [straight(t, parted.t, state, marker)] for i, state in states.items()}
                 arcs = {**others, **parted.arcs}

@@ -9,7 +9,7 @@ from math import hypot, inf
 import numpy as np
 
 from sandbox.engine.arc import Arc
-from sandbox.engine.clusters import Body, Cluster, Entered, Link, Unresolved
+from sandbox.engine.clusters import Asking, Body, Cluster, Entered, Link, Unresolved
 from sandbox.engine.impacts import Hit, Outcome
 from sandbox.engine.setup import Setup
 from sandbox.engine.surfaces import bounce_of_balls, bounce_off
@@ -44,7 +44,7 @@ class Pressed:
 
     def through(
         self, t: float, touching: dict[int, State], slow: float = 0.0, fresh: Collection[int] = ()
-    ) -> Outcome | None:
+    ) -> Asking[Outcome | None]:
         """Simulate the contact of the cluster around the balls that touch at t (with their states).
 
         None if impulses are right: no two balls strike each other, other forces change their speed more during the
@@ -98,7 +98,7 @@ class Pressed:
                 or self._gap(i, members[i], j, members[j]) <= 2.0 * fastest * lasts + TOUCHING_GAP
             ]
             try:
-                parted = self._passed(t, members, room, walls, pairs, speed, hard, _LEFT * slow)
+                parted = yield from self._passed(t, members, room, walls, pairs, speed, hard, _LEFT * slow)
             except Entered:
                 if slow > 0.0:
                     return None
@@ -177,7 +177,7 @@ class Pressed:
         speed: float,
         hard: float,
         faint: float,
-    ) -> Outcome:
+    ) -> Asking[Outcome]:
         place = {index: number for number, index in enumerate(members)}
         bodies = [self._body(t, index, state, room[index]) for index, state in members.items()]
         contacts: list[tuple[tuple[int, ...], str, Link]] = [
@@ -186,7 +186,7 @@ class Pressed:
         for index, obstacle in walls:
             link = self._wall_link(place[index], members[index], obstacle, hard)
             contacts.append(((index,), obstacle.surface.name, link))
-        outcome = Cluster(bodies, [link for *_, link in contacts]).pass_through(self._step, faint)
+        outcome = yield Cluster(bodies, [link for *_, link in contacts]), self._step, faint
         touched = np.flatnonzero(outcome.approach > 0.0).tolist()
         closed, approach = (t + outcome.closed).tolist(), outcome.approach.tolist()
         hits = [Hit(closed[link], contacts[link][0][0], contacts[link][1], approach[link]) for link in touched]

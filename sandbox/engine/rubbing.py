@@ -9,6 +9,7 @@ outcome does not depend on their order.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -40,11 +41,14 @@ class Rubbing:
         light: np.ndarray,
         easy: np.ndarray,
         laws: Sequence[Law],
+        groups: np.ndarray,
     ) -> None:
         """``first`` and ``second`` are the bodies of each link; ``light`` and ``easy`` are the inverse masses (1/kg)
-        and inertias (1/(kg m^2)) of bodies; ``laws`` have the friction of each link at a slip in m/s."""
+        and inertias (1/(kg m^2)) of bodies; ``laws`` have the friction of each link at a slip in m/s. Links of
+        different ``groups`` share no body: a kink in one does not shorten the intervals of the others."""
         every = range(len(laws))
         self._links, self._arms, self._laws = (first, second), (radius[first], radius[second]), laws
+        self._groups = groups
         signs, arms = np.zeros((2, len(laws), len(radius)))
         signs[every, first], signs[every, second] = 1.0, -1.0
         arms[every, first], arms[every, second] = self._arms
@@ -86,19 +90,25 @@ class Rubbing:
         mobility = np.zeros((2 * acting.size,) * 2)  # 1/kg: of the parts along, and of those out of the plane
         mobility[::2, ::2], mobility[1::2, 1::2] = shifts * turned + twists, shifts + twists * turned
         total, used = np.zeros_like(slip), self._used[acting]
-        waiting = [(-back, ahead, _HALVINGS)]
+        every, groups = slice(None), self._groups[acting]
+        waiting: list[tuple[float, float, int, Any]] = [(-back, ahead, _HALVINGS, every)]
         while waiting:
-            begun, ended, halvings = waiting.pop()
-            part = (ended - begun) / (ahead + back) * pressed
-            before, after = slip + begun * drift, slip + ended * drift
-            impulse, smooth = _slid(before, after, mobility, part, laws, used * part, _CONVERGED * fastest, halvings)
-            if smooth or halvings == 0:
-                total += impulse
-                slip = slip + _times(mobility, impulse)
-                used = impulse / part
-            else:
+            begun, ended, halvings, some = waiting.pop()
+            own = mobility if some is every else _of_some(mobility, some)
+            its = laws if some is every else [laws[link] for link in some.tolist()]
+            part = (ended - begun) / (ahead + back) * pressed[some]
+            before, after = slip[some] + begun * drift[some], slip[some] + ended * drift[some]
+            guess, close = used[some] * part, _CONVERGED * fastest
+            impulse, kinked = _slid(before, after, own, part, its, guess, close, halvings, groups[some])
+            if not kinked.all():
+                impulse[kinked] = 0.0
+                total[some] += impulse
+                slip[some] += _times(own, impulse)
+                used[some] = np.where(kinked, used[some], impulse / part)
+            if kinked.any():
                 middle = 0.5 * (begun + ended)
-                waiting += [(middle, ended, halvings - 1), (begun, middle, halvings - 1)]
+                again = some if kinked.all() else np.arange(acting.size)[some][kinked]
+                waiting += [(middle, ended, halvings - 1, again), (begun, middle, halvings - 1, again)]
         self._used[acting] = used
         pull, turn = self._pull.take(acting, 1), self._turn.take(acting, 1)
         along, upward = total.real, total.imag
@@ -119,16 +129,17 @@ def _slid(
     impulse: np.ndarray,
     tolerance: float,
     halvings: int,
-) -> tuple[np.ndarray, bool]:
+    groups: np.ndarray,
+) -> tuple[np.ndarray, np.ndarray]:
     """Friction impulses (N s) in an interval in which the slips (m/s) would otherwise go from ``before`` to ``end``,
-    and whether they change without a kink; if not, and it can be halved, the impulses are of no use.
+    and which are of a group with a kink, if it can be halved: these are of no use.
 
     By projected gradient steps from a guess; their lengths are a share of what the row sums of the matrix ``mobility``
     (1/kg) allow.
     """
     sums = np.abs(mobility).sum(axis=1)
     ease = np.maximum(sums[::2], sums[1::2])
-    step, smooth = _SHARE / ease, True
+    step, kinked = _SHARE / ease, np.zeros(len(laws), bool)
     end = end + _times(mobility, impulse)
     for iteration in range(_ITERATIONS):
         middle = 0.5 * (before + end)
@@ -146,10 +157,19 @@ def _slid(
             least = (end - before).real / own[::2] + 1j * ((end - before).imag / own[1::2])
             keeps = np.abs(least - impulse) <= limit
             turns = (before * end.conj()).real < 0.5 * np.abs(before) * np.abs(end)
-            smooth = bool(np.where(held, keeps, ~turns).all())
-            if done or (halvings and not smooth):
+            if halvings:
+                has_kink = np.zeros(groups.max() + 1, bool)
+                has_kink[groups[~np.where(held, keeps, ~turns)]] = True
+                kinked = has_kink[groups]
+            if done or kinked.all():
                 break
-    return impulse, smooth
+    return impulse, kinked
+
+
+def _of_some(mobility: np.ndarray, links: np.ndarray) -> np.ndarray:
+    """The rows and columns of these links."""
+    both = (2 * links[:, None] + np.array([0, 1])).ravel()
+    return mobility.take(both, 0).take(both, 1)
 
 
 def _times(mobility: np.ndarray, impulse: np.ndarray) -> np.ndarray:

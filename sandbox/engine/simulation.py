@@ -12,7 +12,7 @@ from functools import cached_property, partial
 from itertools import count
 from math import inf
 from time import perf_counter
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.arc import Arc, still
@@ -33,6 +33,7 @@ from sandbox.errors import RunError
 from sandbox.physics.integrators import State
 
 if TYPE_CHECKING:
+    from sandbox.engine.clusters import Asking
     from sandbox.engine.heap import Heap
     from sandbox.engine.pressed import Pressed
 
@@ -110,17 +111,17 @@ class Simulation:
             tracks.append(kind(ball, state, obstacles[ball.radius], near, setup, self._accuracy, self._numerics))
         return tracks
 
-    def run(self) -> Run:
+    def run(self) -> Asking[Run]:
         """Run from start to end."""
         started = perf_counter()
         for index, track in enumerate(self._tracks):
             if track.version == 0:
-                self._collide(0.0, [index])  # contacts at the start come first
-        return self._finished(0.0, started)
+                yield from self._collide(0.0, [index])  # contacts at the start come first
+        return (yield from self._finished(0.0, started))
 
-    def _finished(self, t: float, started: float) -> Run:
+    def _finished(self, t: float, started: float) -> Asking[Run]:
         """Continue the run from t to its end; ``started`` is the clock time of its start."""
-        t, ended = self._loop(t)
+        t, ended = yield from self._loop(t)
         for track in self._tracks:
             if not track.caught:
                 track.finish(t)
@@ -129,7 +130,7 @@ class Simulation:
         arcs = {track.ball.name: Path(track.path) for track in self._tracks}
         return Run(self._setup, self._accuracy, arcs, self._events, self._numerics, t, ended)
 
-    def take_over(self, left: Left, events: list[Event]) -> Run:
+    def take_over(self, left: Left, events: list[Event]) -> Asking[Run]:
         """Finish a run of one ball that batch.py has begun, with these events so far."""
         started = perf_counter()
         t, how, state, step, contact, arcs = left
@@ -145,12 +146,12 @@ class Simulation:
         if how == "flight":
             self._plan(0, t)
         elif how == "before":
-            self._collide(t, [0])
+            yield from self._collide(t, [0])
         else:
             self._resume(0, t)
-        return self._finished(t, started)
+        return (yield from self._finished(t, started))
 
-    def _loop(self, t: float) -> tuple[float, str]:
+    def _loop(self, t: float) -> Asking[tuple[float, str]]:
         duration = self._setup.duration
         moment, at_once = t, 0
         while self._queue and self._moving and not self._over:
@@ -170,9 +171,9 @@ class Simulation:
                 seeds = [i] if j < 0 else [i, j]
                 self._over = any(self._passed(t, index) for index in seeds)
                 if not self._over:
-                    self._collide(t, seeds)
+                    yield from self._collide(t, seeds)
             elif kind == "part" and t < duration:
-                self._collide(t, [i])  # with the walls it has entered during the contact
+                yield from self._collide(t, [i])  # with the walls it has entered during the contact
             elif kind == "catch":
                 self._catch(t, i)
             elif kind in ("", "heap", "part") and track.arc.t1 >= duration:
@@ -180,10 +181,10 @@ class Simulation:
             elif kind == "heap" and self._heap:
                 self._press_on(self._heap, t, ())
             else:
-                self._end_arc(t, i, kind)
+                yield from self._end_arc(t, i, kind)
         return t, "until" if self._over else "rest"
 
-    def _end_arc(self, t: float, index: int, reason: str) -> None:
+    def _end_arc(self, t: float, index: int, reason: str) -> Asking[None]:
         """Handle the end of an arc."""
         track = self._tracks[index]
         if reason == "":
@@ -194,23 +195,23 @@ class Simulation:
             self._plan(index, t)
         else:
             track.arc = still(t, t, track.state)
-            self._collide(t, [index])
+            yield from self._collide(t, [index])
 
     def _passed(self, t: float, index: int) -> bool:
         """Whether the run ends with a ball's arc up to t."""
         arc, until = self._tracks[index].arc, self._setup.until
         return isinstance(until, Until) and bool(until.passed(arc.start, arc.state(t)))
 
-    def _collide(self, t: float, seeds: Sequence[int]) -> None:
+    def _collide(self, t: float, seeds: Sequence[int]) -> Asking[None]:
         """Everything that touches at this instant exchanges impulses at once, or is simulated through the contact."""
         self._impacts.gap = TOUCHING_GAP
         touching = self._impacts.touching(t, seeds)
-        outcome = self._through(t, touching)
+        outcome = yield from self._through(t, touching)
         if outcome is None:
             if self._heap and self._heap.has(seeds):
                 self._impacts.gap = self._heap.margin
                 touching = self._impacts.touching(t, seeds)
-            outcome = self._impacts.exchange(t, touching, self._through)
+            outcome = yield from self._impacts.exchange(t, touching, self._through)
         for hit in outcome.hits:
             self._numerics.impacts += 1
             track = self._tracks[hit.ball]
@@ -246,13 +247,13 @@ class Simulation:
             self._resume(index, t)
         return stepped.keys()
 
-    def _through(self, t: float, touching: dict[int, State]) -> Outcome | None:
+    def _through(self, t: float, touching: dict[int, State]) -> Asking[Outcome | None]:
         """The outcome of balls that touch, by contact mechanics; None if impulses are right."""
         if not self._all_round or len(touching) < 2:
             return None
         heap = self._heap
         slow, fresh = (heap.slow(t, touching), heap.fresh(t)) if heap else (0.0, set[int]())
-        return self._pressed.through(t, touching, slow, fresh)
+        return (yield from self._pressed.through(t, touching, slow, fresh))
 
     def _go_through(self, t: float, touching: dict[int, State], parted: Outcome) -> None:
         """Apply the outcome of a contact that lasts from t until the balls separate: then they go on."""
@@ -423,3 +424,34 @@ class Simulation:
             return RunError(f"{where}: the velocity changes too fast for any step; look for a force that is not smooth")
         other = last.partner if last.ball == name else last.ball
         return RunError(f"{where}: endless events, the last with {other!r}")
+
+
+def side_by_side(runs: Sequence[Asking[Run]]) -> list[Run | Exception]:
+    """What these runs come to, or the exceptions they end with; the clusters that they meet are passed through
+    together."""
+    found: dict[int, Run | Exception] = {}
+    answers: dict[int, Any] = dict.fromkeys(range(len(runs)))
+    while answers:
+        asked = {}
+        for number, answer in answers.items():
+            run = runs[number]
+            try:
+                asked[number] = run.throw(answer) if isinstance(answer, Exception) else run.send(answer)
+            except StopIteration as end:
+                found[number] = end.value
+            except Exception as error:
+                found[number] = error
+        if not asked:
+            break
+        from sandbox.engine.clusters import pass_through  # here, not above, as it brings numpy
+
+        answers = dict(zip(asked, pass_through([*asked.values()]), strict=True))
+    return [found[number] for number in range(len(runs))]
+
+
+def alone(run: Asking[Run]) -> Run:
+    """What one run comes to."""
+    (found,) = side_by_side([run])
+    if isinstance(found, Exception):
+        raise found
+    return found

@@ -35,12 +35,18 @@ def silent(done: int, total: int) -> None:
 
 
 def runs(
-    scene: Scene, keys: Sequence[str], points: Sequence[Sequence[Any]], finer: bool = False, asked: Sequence[str] = ()
+    scene: Scene,
+    keys: Sequence[str],
+    points: Sequence[Sequence[Any]],
+    finer: bool = False,
+    asked: Sequence[str] = (),
+    at_once: int = 1,
 ) -> Iterator[Run | Exception]:
     """The run at each of the points, in order, with its result; or the exception it ended with.
 
     Similar shots are computed together. ``finer`` halves the steps, to estimate errors. If only some facts are
-    ``asked`` for, each run ends when these are settled, and its result contains only these.
+    ``asked`` for, each run ends when these are settled, and its result contains only these. ``at_once`` is as in
+    ``simulate_many``.
     """
     build, read, varied = builder(scene, asked), scene.reader(asked), Varied(scene, keys)
     parameters: dict[int, SceneParameters] = {}
@@ -48,7 +54,7 @@ def runs(
     for places, many in varied.together(points):
         each = [] if isinstance(many, Exception) else [varied.parameters(points[place]) for place in places]
         parameters |= zip(places, each, strict=False)
-        found |= dict.fromkeys(places, _outcomes(build, many, each, finer))
+        found |= dict.fromkeys(places, _outcomes(build, many, each, finer, at_once))
     for place in range(len(points)):
         run = next(found[place])
         if not isinstance(run, Exception):
@@ -60,7 +66,7 @@ def runs(
 
 
 def _outcomes(
-    build: Build, many: SceneParameters | Exception, each: Sequence[SceneParameters], finer: bool
+    build: Build, many: SceneParameters | Exception, each: Sequence[SceneParameters], finer: bool, at_once: int
 ) -> Iterator[Run | Exception]:
     """The outcomes of runs that differ only in numbers: ``many`` has the parameters of all in one, or is the error that
     explains why there are none."""
@@ -72,9 +78,9 @@ def _outcomes(
         return repeat(error)
     stack = built_at_once(build, many, each)
     if stack is not None:
-        return simulate_many(stack, accuracy)
+        return simulate_many(stack, accuracy, at_once)
     setups = [_or_error(build, parameters) for parameters in each]
-    found = simulate_many([setup for setup in setups if not isinstance(setup, Exception)], accuracy)
+    found = simulate_many([setup for setup in setups if not isinstance(setup, Exception)], accuracy, at_once)
     return (setup if isinstance(setup, Exception) else next(found) for setup in setups)
 
 

@@ -23,6 +23,8 @@ SHOTS = 100
 #: So many more are computed at least before a fan is shown, and no more after this time in s; and after this one by a
 #: process that may have to compute the path at once.
 FEWEST, QUICK, BRIEF = 8, 0.3, 0.05
+#: So many are computed at once where their balls fly one by one.
+AT_ONCE = 5
 #: Spread if the scene gives none: of the speed, as a share of it, and of the angle, in deg.
 SPEED, ANGLE = 0.01, 0.5
 #: Opacity of one path; and how far from the picture, in px, a path is still followed.
@@ -86,7 +88,8 @@ class Fan:
             scene = scene.changed({"accuracy.level": "fast"})
         self.flown: list[Flown | None] = []  # None where it could not be computed
         self._scene = scene
-        self._runs = runs(scene, list(spread), points[::-1] if backwards else points, asked=asked)
+        ordered = points[::-1] if backwards else points
+        self._runs = runs(scene, list(spread), ordered, asked=asked, at_once=AT_ONCE)
 
     def is_of(self, scene: Scene, *how: Any) -> bool:
         """Whether it is the fan of this scene with this spread and these facts."""

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import sandbox
-from sandbox.engine.clusters import Body, Cluster, Link, Unresolved
+from sandbox.engine.clusters import Body, Cluster, Link, Unresolved, pass_through
 from sandbox.engine.ledger import ledger
 from sandbox.physics.hertz import contact_time
 from sandbox.physics.throw import friction_by_speed
@@ -23,15 +23,20 @@ def ball(x, y, vx=0.0, vy=0.0, spin=(0.0, 0.0, 0.0), mass=MASS):
     return Body(mass, RADIUS, 0.4 * mass * RADIUS**2, (x, y), (vx, vy), spin)
 
 
-def passage(bodies, restitution=1.0, friction=0.0, reach=3e-3, step=STEP):
-    """Through a cluster in which all balls with gaps below ``reach`` (m) are linked."""
+def passage(*how, step=STEP, **more):
+    """Through a cluster."""
+    return cluster(*how, **more).pass_through(step)
+
+
+def cluster(bodies, restitution=1.0, friction=0.0, reach=3e-3, stiffness=STIFFNESS):
+    """One in which all balls with gaps below ``reach`` (m) are linked."""
     links = [
-        Link(i, j, STIFFNESS, restitution, friction if callable(friction) else lambda slip: friction)
+        Link(i, j, stiffness, restitution, friction if callable(friction) else lambda slip: friction)
         for i, one in enumerate(bodies)
         for j, other in enumerate(bodies[:i])
         if hypot(one.position[0] - other.position[0], one.position[1] - other.position[1]) < 2 * RADIUS + reach
     ]
-    return Cluster(bodies, links).pass_through(step)
+    return Cluster(bodies, links)
 
 
 def chain(count, gap=0.0, speed=1.0):
@@ -193,6 +198,29 @@ def test_what_stays_pressed_is_an_error():
     floor = Link(0, None, STIFFNESS, 0.1, lambda slip: 0.0, wall=lambda x, y: (y - RADIUS, 0.0, 1.0, 0.0))
     with pytest.raises(Unresolved, match="do not separate"):
         Cluster(pressed, [floor]).pass_through(0.5)
+
+
+def test_racks_that_are_broken_together_part_as_alone():
+    """Each with its own speed, friction and energy; the steps are those of the fastest."""
+    clusters = [cluster(rack(speed, 1e-5), 0.95, friction_by_speed) for speed in (7.0, 8.0, 9.0)]
+    together = pass_through([(each, STEP, 0.0) for each in clusters])
+    for one, each in zip(together, clusters, strict=True):
+        alone = each.pass_through(STEP)
+        assert one.velocity == pytest.approx(alone.velocity, abs=5e-3)
+        assert 0.028575 * one.spin == pytest.approx(0.028575 * alone.spin, abs=2e-2)
+        assert one.impulse == pytest.approx(alone.impulse, abs=1e-3)
+        assert one.approach == pytest.approx(alone.approach, abs=5e-2)
+        assert energy(one.velocity, one.spin, each.bodies) == pytest.approx(
+            energy(alone.velocity, alone.spin, each.bodies), rel=1e-3
+        )
+
+
+def test_one_that_cannot_part_leaves_the_others_as_they_are_alone():
+    soft = cluster(chain(3, speed=5.0), stiffness=1.0)
+    first, failed, last = pass_through([(each, STEP, 0.0) for each in (cluster(chain(3)), soft, cluster(chain(4)))])
+    assert isinstance(failed, Unresolved)
+    assert first.velocity.tolist() == passage(chain(3)).velocity.tolist()
+    assert last.velocity.tolist() == passage(chain(4)).velocity.tolist()
 
 
 @pytest.mark.parametrize("restitution", [0.0, 0.1])

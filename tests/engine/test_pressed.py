@@ -8,7 +8,7 @@ from math import atan2, cos, degrees, radians, sin, sqrt
 import numpy as np
 import pytest
 
-from sandbox.engine import simulate
+from sandbox.engine import simulate, simulate_many
 from sandbox.engine.accuracy import resolve
 from sandbox.engine.clusters import Body
 from sandbox.engine.ledger import ledger
@@ -39,6 +39,32 @@ def test_two_balls_that_touch_share_the_blow(model, expected):
     assert [run.state(name, 1.0)[2] / 2.0 for name in ("cue", "1", "2")] == pytest.approx(expected, abs=1e-4)
     assert (run.numerics.clusters == 0) == (model == "rigid")
     assert abs(ledger(run).residue) < 1e-9
+
+
+def test_runs_side_by_side_are_those_alone():
+    """Also beside one that ends in an error, and one in which no other balls are reached."""
+
+    def failing(normal_speed, slip_speed):
+        raise ValueError("no such law")
+
+    row = [ball("1", 0.0), ball("2", 2 * R)]
+    setups = [
+        Setup([ball("cue", -0.5, 1e-3 * number, vx=2.0), *others], duration=1.0, between_balls=law)
+        for number, others, law in (
+            (0, row, Always(Bounce(0.95, 0.05))),
+            (1, row, Always(Bounce(0.95, 0.05))),
+            (2, row, failing),
+            (3, row[:1], Always(Bounce(0.95, 0.05))),
+        )
+    ]
+    found = list(simulate_many(setups, resolve(), at_once=3))
+    assert str(found[2]) == "no such law"
+    for number in (0, 1, 3):
+        alone = simulate(setups[number], resolve())
+        assert [event.partner for event in found[number].events] == [event.partner for event in alone.events]
+        assert found[number].numerics.clusters == alone.numerics.clusters == (number != 3)
+        for name in alone.arcs:
+            assert found[number].state(name, 1.0) == pytest.approx(alone.state(name, 1.0), abs=1e-3)
 
 
 @pytest.mark.parametrize(("pocket", "duration"), [(0.02, 1.0), (0.02, 0.07), (0.3, 1.0)])
