@@ -1,6 +1,5 @@
 """The same verdict each time: hypothesis tries the same examples in every run, however slow the machine."""
 
-import gc
 import signal
 from collections.abc import Callable
 from pathlib import Path
@@ -11,7 +10,6 @@ from hypothesis import HealthCheck, settings
 from sandbox.cli import main
 from tests.own_scene import DROP, Outcome, copy_of
 
-gc.set_threshold(100_000)  # as the program does: to look for cycles more often takes a tenth of the time
 for ignored, handler in ((signal.SIGINT, signal.default_int_handler), (signal.SIGHUP, signal.SIG_DFL)):
     if signal.getsignal(ignored) is signal.SIG_IGN:  # as a shell's & and nohup do; children would inherit it
         signal.signal(ignored, handler)
