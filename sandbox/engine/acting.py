@@ -13,7 +13,7 @@ from sandbox.engine.setup import Ball
 from sandbox.engine.setup_errors import failed, is_from_inside
 from sandbox.errors import RunError
 from sandbox.physics.forces import Gravity
-from sandbox.physics.integrators import Acceleration, Integrator, Law, Method, State, Written, names_of
+from sandbox.physics.integrators import COMPONENTS, Acceleration, Integrator, Law, Method, State, Written
 from sandbox.physics.straight import straight
 
 #: Everyday names of causes.
@@ -66,7 +66,7 @@ def _given(ball: Ball) -> Iterator[Any]:
 @cache
 def _law(*kind: Any) -> Any:
     """What makes the law of such a ball."""
-    law, names = _written(*kind), ", ".join(names_of(kind[2]))
+    law, names = _written(*kind), ", ".join(COMPONENTS[kind[2]])
     lines = [line.format(n="", state=names) for line in law.lines]
     body = [f"{names} = state", "try:", *(f"  {line}" for line in lines), *law.otherwise, "return ax, ay, alpha"]
     makes = [*law.before, "def law(at, state):", *(f"  {line}" for line in body), "return law"]

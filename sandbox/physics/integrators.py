@@ -81,16 +81,13 @@ class Integrator(NamedTuple):
 
     def written(self, law: Written, turns: bool = False) -> Callable[..., Method]:
         """What makes one step under a law that is written out, from what the law needs."""
-        return _written_out(self.stages, self.error, names_of(turns), law)
+        return _written_out(self.stages, self.error, COMPONENTS[turns], law)
 
 
 #: The components of a state, and the rate of each.
 _RATES = {"x": "vx", "y": "vy", "vx": "ax", "vy": "ay", "spin": "alpha", "angle": "spin"}
-
-
-def names_of(turns: bool) -> tuple[str, ...]:
-    """The components of the state of a ball; or of a body, which ``turns``."""
-    return tuple(_RATES)[: 5 + turns]
+#: The components of the state by whether something turns: of a ball, and of a body.
+COMPONENTS = {False: tuple(_RATES)[:-1], True: tuple(_RATES)}
 
 
 @cache
