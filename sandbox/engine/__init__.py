@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from sandbox.engine.setup_errors import setup_errors_named
-
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
@@ -28,14 +26,13 @@ def simulate(setup: Setup, accuracy: Accuracy, progress: Callable[[float, float]
 
 def _run(setup: Setup, accuracy: Accuracy, progress: Callable[[float, float], None] | None = None) -> Asking[Run]:
     # here, not above: they bring pymunk, which reading a scene does not need
-    with setup_errors_named():
-        if accuracy.method == "plain":
-            from sandbox.engine.plain import PlainSimulation
+    if accuracy.method == "plain":
+        from sandbox.engine.plain import PlainSimulation
 
-            return PlainSimulation(setup, accuracy, progress).run()
-        from sandbox.engine.simulation import Simulation
+        return PlainSimulation(setup, accuracy, progress).run()
+    from sandbox.engine.simulation import Simulation
 
-        return (yield from Simulation(setup, accuracy).run())
+    return (yield from Simulation(setup, accuracy).run())
 
 
 def simulate_many(setups: Sequence[Setup], accuracy: Accuracy, at_once: int = 1) -> Iterator[Run | Exception]:

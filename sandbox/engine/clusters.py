@@ -27,7 +27,7 @@ import numpy as np
 
 from sandbox.engine.rubbing import Rubbing
 from sandbox.engine.surfaces import CLOSING
-from sandbox.errors import RunError
+from sandbox.errors import RunError, no_exit
 from sandbox.physics.hertz import contact_time, damping
 from sandbox.physics.integrators import INTEGRATORS
 
@@ -308,12 +308,13 @@ def pass_through(asked: Sequence[tuple[Cluster, float, float]]) -> list[ClusterO
     (one, *how), *others = asked
     if not others:
         try:
-            return [one.pass_through(*how)]
+            with no_exit():
+                return [one.pass_through(*how)]
         except Exception as error:  # also what a law of the scene raises
             return [error]
     clusters = [one, *(cluster for cluster, *_ in others)]
     if all(its == how for _, *its in others) and not any(cluster.is_apart for cluster in clusters):
-        with suppress(Exception):  # it is found below whose it is
+        with suppress(Exception), no_exit():  # it is found below whose it is
             return _pass_together(clusters, *how)
     return [found for each in asked for found in pass_through([each])]
 

@@ -24,7 +24,7 @@ from sandbox.engine.on_plane import OnPlane, slowest_hop
 from sandbox.engine.path import Path
 from sandbox.engine.run import Numerics, Run
 from sandbox.engine.setup import Setup, Surface, Until
-from sandbox.engine.setup_errors import failed
+from sandbox.engine.setup_errors import failed, setup_errors_named
 from sandbox.engine.start import starts
 from sandbox.engine.touch import TOUCHING_GAP, Obstacle
 from sandbox.engine.track import Track
@@ -436,7 +436,8 @@ def side_by_side(runs: Sequence[Asking[Run]]) -> list[Run | Exception]:
         for number, answer in answers.items():
             run = runs[number]
             try:
-                asked[number] = run.throw(answer) if isinstance(answer, Exception) else run.send(answer)
+                with setup_errors_named():  # not in the run: what is left off is closed, by a GeneratorExit
+                    asked[number] = run.throw(answer) if isinstance(answer, Exception) else run.send(answer)
             except StopIteration as end:
                 found[number] = end.value
             except Exception as error:

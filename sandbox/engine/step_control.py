@@ -41,9 +41,9 @@ JUMP = 0.01
 #: A step that ends this near a break (s) has reached it.
 _AT_BREAK = 1e-12
 
-#: A border of a patch has been reached if it is nearer than this share of the patch's longest step: that much the
-#: predicted time may be wrong.
-_AT_BORDER = 0.02
+#: A border of a patch has been reached if it is nearer than this share of the patch's longest step, or of the time to
+#: fly across, which is taken for no less than a share of that step: that much the predicted time may be wrong.
+_AT_BORDER, _THINNEST = 0.02, 1e-3
 
 #: Avoids division by zero.
 _TINY = 1e-300
@@ -105,16 +105,18 @@ def allowed(setup: Setup, t: Any, h: Any, state: State, acceleration: Accelerati
         near = patch.crossed((x, x + half * vx, x + h * (vx + half * ax)), (y, y + half * vy, y + h * (vy + half * ay)))
         if not anywhere(near):
             continue
-        for line, place, speed, change in (
-            (patch.left, x, vx, ax),
-            (patch.right, x, vx, ax),
-            (patch.bottom, y, vy, ay),
-            (patch.top, y, vy, ay),
+        width, height = patch.right - patch.left, patch.top - patch.bottom
+        for line, across, place, speed, change in (
+            (patch.left, width, x, vx, ax),
+            (patch.right, width, x, vx, ax),
+            (patch.bottom, height, y, vy, ay),
+            (patch.top, height, y, vy, ay),
         ):
             turns = speed * (speed + h * change) < 0.0
             passes = near & (turns | ((place < line) ^ (place + h * (speed + 0.5 * h * change) < line)))
             if anywhere(passes):
-                reached = _gone(line - place, speed, change, _AT_BORDER * patch.step)
+                time = clip(across / (abs(speed) + _TINY), _THINNEST * patch.step, patch.step)
+                reached = _gone(line - place, speed, change, _AT_BORDER * time)
                 h = choose(passes & (reached < h), reached, h)
         half = 0.5 * h
         inside = patch.holds(x + half * (vx + 0.5 * half * ax), y + half * (vy + 0.5 * half * ay))

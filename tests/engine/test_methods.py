@@ -101,6 +101,20 @@ def test_no_step_skips_a_patch(turn: float):
         assert hypot(*run.state("ball", 0.1)[2:4]) == pytest.approx(faster, rel=1e-2)
 
 
+@pytest.mark.parametrize("speed", [1.0, 20.0, 60.0])
+@pytest.mark.parametrize("width", [0.0, 1e-9, 0.01, 0.03])
+def test_no_step_skips_a_patch_that_is_thinner_than_its_own_step(width: float, speed: float):
+    """At 60 m/s a ball is through 1 cm in a 300th of the longest step; one without a width has a border, too."""
+    push = 2000.0
+    kick = lambda t, position, velocity, spin: (push if 1.0 < position[0] < 1.0 + width else 0.0, 0.0)  # noqa: E731
+    ball = Ball("ball", 1.0, 0.1, (0.0, 0.0), (speed, 0.0), forces=[kick])
+    patch = Patch(1.0, -1.0, 1.0 + width, 1.0, 0.05)
+    run = simulate(Setup([ball], duration=2.0 / speed, patches=[patch]), resolve())
+    assert run.state("ball", 2.0 / speed)[2] == pytest.approx((speed * speed + 2.0 * push * width) ** 0.5, rel=1e-3)
+    assert any(abs(state[0] - 1.0) < 1e-6 for _, state in run.ends("ball"))
+    assert run.numerics.steps < 100
+
+
 @pytest.mark.parametrize("way", [(1, 0), (-1, 0), (0, 1), (0, -1)])
 def test_steps_end_at_the_borders_of_patches(way: tuple[int, int]):
     """Where a force begins, is greatest and ends, each with a kink: found by refusals, these would be 20 steps more."""

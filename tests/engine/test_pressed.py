@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import gc
 from dataclasses import replace
 from math import atan2, cos, degrees, radians, sin, sqrt
+from traceback import extract_stack
 
 import numpy as np
 import pytest
@@ -65,6 +67,36 @@ def test_runs_side_by_side_are_those_alone():
         assert found[number].numerics.clusters == alone.numerics.clusters == (number != 3)
         for name in alone.arcs:
             assert found[number].state(name, 1.0) == pytest.approx(alone.state(name, 1.0), abs=1e-3)
+
+
+@pytest.mark.parametrize("count", [1, 3])
+@pytest.mark.parametrize("ends", [SystemExit(0), GeneratorExit(), ZeroDivisionError("of the scene"), StopIteration()])
+def test_what_a_law_raises_in_a_cluster_fails_its_run(ends: BaseException, count: int):
+    """And ends neither the program nor the other runs."""
+    setup = racked(raising_in_a_cluster(ends))
+    for found in simulate_many([setup] * count, resolve(), at_once=count):
+        assert isinstance(found, Exception)
+        assert type(ends).__name__ in repr(found)
+
+
+def test_a_run_that_is_interrupted_in_a_cluster_is_left_quietly():
+    """What is left of it is closed, which is no exit that its scene has asked for: pytest would warn."""
+    with pytest.raises(KeyboardInterrupt):
+        simulate(racked(raising_in_a_cluster(KeyboardInterrupt())), resolve())
+    gc.collect()
+
+
+def racked(law):
+    return Setup([ball("cue", -0.5, vx=2.0), ball("1", 0.0), ball("2", 2 * R)], duration=1.0, between_balls=law)
+
+
+def raising_in_a_cluster(ends):
+    def law(normal_speed, slip_speed):
+        if any(call.name == "_stepped_through" for call in extract_stack()):
+            raise ends
+        return Bounce(0.95, 0.05)
+
+    return law
 
 
 @pytest.mark.parametrize(("pocket", "duration"), [(0.02, 1.0), (0.02, 0.07), (0.3, 1.0)])
