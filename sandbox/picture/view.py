@@ -447,7 +447,10 @@ class View(Generic[P]):
 
     def _larger(self, camera: Camera, in_frame: bool = False) -> list[str]:
         """To note how many times their size balls are drawn; in frames, whose camera may move, that they are larger."""
-        factor, alone = self._least(in_frame) / (self.radius * camera.scale), len(self.balls) == 1
+        alone, radius = len(self.balls) == 1, self.radius
+        if in_frame:  # which need not be true of all
+            radius = min(self.radii[name] for name in self.balls)
+        factor = self._least(in_frame) / (radius * camera.scale)
         whose, are = ("its", "it is") if alone else ("their", "they are")
         how = f"larger than {are}" if in_frame else f"{times(factor)} {whose} size"
         return [f"{self.thing if alone else f'{self.THING}s'} drawn {how}"] if factor > UNSAID else []

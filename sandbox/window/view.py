@@ -26,7 +26,7 @@ from sandbox.window.bar import HEIGHT, Bar
 from sandbox.window.canvas import Canvas
 from sandbox.window.charts import Charts
 from sandbox.window.fan import Cloud, Flown, cloud, others
-from sandbox.window.game import Game
+from sandbox.window.game import LONG, Game
 from sandbox.window.handles import Grip, grips
 from sandbox.window.measure import NEAR, Tape, draw_reading, reading, state_entries
 from sandbox.window.overlay import Overlay
@@ -91,7 +91,7 @@ class View:
         self.holds = False  # the camera, while something is dragged
         self.picked_keys: tuple[str, str] | None = None  # the keys of the handle that was picked by key
         self.clouds: Latest[Cloud] = Latest(game.helper.abandon, HUNG)  # the fan
-        self.elsewhere: Latest[list[Flown | None]] = Latest(game.worker.abandon, HUNG)  # shots of the fan
+        self.elsewhere: Latest[list[Flown | None]] = Latest(game.worker.abandon, LONG)  # shots of the fan
         self.maps: Latest[ScoreMap] = Latest(game.helper.abandon, HUNG)
         self.cards: dict[str, pygame.Rect] = {}  # those that can be clicked: the map's cells and the charts
         self.head = pygame.Rect(0, 0, 0, 0)  # where the headline is
@@ -313,8 +313,7 @@ class View:
         self.elsewhere.take()
         wanted = self._cloud_wanted()
         self.clouds.follow(wanted, self._ask_cloud)
-        if wanted is not None and wanted[4] and game.helper is not game.worker:
-            self.elsewhere.follow((*wanted, len(self._from_elsewhere(wanted))), self._ask_others)
+        self._follow_elsewhere(wanted)
         self.changed |= self.maps.take()
         self.maps.follow(self._map_wanted(), lambda key: game.helper.submit(score_map, *key[1:]))
 
@@ -375,10 +374,13 @@ class View:
         known = self._from_elsewhere(key)
         return self.game.helper.submit(cloud, shot.scene, *how, shot.early, self.area.size, colours, known)
 
-    def _ask_others(self, key: tuple[Any, ...]) -> Future[list[Flown | None]]:
-        """Have shots of a fan computed where otherwise the path is."""
-        shot, width, _, _, left, _ = key
-        return self.game.worker.submit(others, shot.scene, width, left)
+    def _follow_elsewhere(self, wanted: tuple[Any, ...] | None) -> None:
+        """Have shots of a fan that has begun computed where otherwise the path is, which must not wait for them."""
+        key, worker = None, self.game.worker
+        if wanted is not None and wanted[4] and self.game.helper is not worker:
+            key = (*wanted[:2], len(self._from_elsewhere(wanted)))
+            left = wanted[4]
+        self.elsewhere.follow(key, lambda key: worker.submit(others, key[0].scene, key[1], left))
 
     def _from_elsewhere(self, key: tuple[Any, ...]) -> list[Flown | None]:
         """The shots of a fan that were."""

@@ -184,3 +184,10 @@ def test_a_lens_shows_the_path_of_a_ball_that_is_aimed():
         picture.draw_balls(Painter(stage), picture.camera, 0.0, ahead)
         seen.append(pygame.surfarray.array3d(stage.subsurface(picture.lens)).astype(int))
     assert (np.abs(seen[0] - seen[1]).max(axis=2) > 40).sum() > 1000
+
+
+def test_a_frame_says_it_if_only_the_smaller_ball_is_drawn_larger():
+    picture = picture_of("collisions/heavy-on-light", (480, 270))
+    assert picture.radius * picture.camera.scale > picture.least
+    picture.frame(0.0)
+    assert "balls drawn larger than they are" in written(picture)

@@ -21,6 +21,7 @@ from sandbox.window.canvas import Canvas
 from sandbox.window.charts import Charts
 from sandbox.window.commands import GROUPS, HINTS, TABLE
 from sandbox.window.fan import FEWEST, SHOTS, cloud, density, others, short, spread_of
+from sandbox.window.game import LONG
 from sandbox.window.measure import reading
 from sandbox.window.score_map import COARSE, FINER, SCORED, score_map
 from sandbox.window.session import Session
@@ -112,6 +113,8 @@ class TestTheFan:
         while len(known) < 12 - FEWEST:
             known = others(session.scene, 1.0, 12 - FEWEST - len(known))
         assert cloud(*asked, known) == alone
+        assert cloud(*asked).left == 0
+        assert cloud(*asked, known) == alone  # none of those that both have computed counts twice
 
     def test_in_the_window_the_path_s_process_computes_some_of_one_that_takes_long(self, player):
         player = player("billiards/nine-ball-break")
@@ -226,6 +229,21 @@ class TestTheFan:
         player.settle()
         assert view.clouds.key[0] is player.game.shot
         assert view.clouds.value.shots
+
+    def test_the_path_does_not_wait_for_shots_of_the_fan_that_never_end(self, player, monkeypatch):
+        player = player(PUTT)
+        player.key(pygame.K_f)
+        player.settle()
+        killed, latest = [], player.view.elsewhere
+        monkeypatch.setattr(latest, "abandon", killed.append)
+        latest.work, latest.began, latest.work_for = Future(), perf_counter(), "before"
+        player.game.worker.never = True
+        player.key(pygame.K_UP)
+        player.frames(1)
+        assert not killed
+        latest.began -= LONG
+        player.frames(1)
+        assert len(killed) == 1
 
 
 class TestTheMap:
