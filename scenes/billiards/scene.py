@@ -251,8 +251,7 @@ def check_spots(spots: Mapping[str, Vector], parameters: Parameters, obstacles: 
         where = f'ball "{name}" at ({place[0]:g}, {place[1]:g}) m'
         if not on_bed(parameters.table, *place):
             raise RequestError(f"{where} is off the table, whose noses are at x = +-{x_most:g} m, y = +-{y_most:g} m")
-        near = [(touching.gap, obstacle.surface.name) for obstacle, touching in touched(obstacles, *place)]
-        gap, cushion = min(near, default=(0.0, ""))
+        gap, cushion = min(((at.gap, wall.surface.name) for wall, at in touched(obstacles, *place)), default=(0.0, ""))
         if gap < -ROUNDING:
             raise RequestError(f"{where} overlaps the {cushion} by {-1000.0 * gap:.3g} mm: its radius is {radius:g} m")
         for hole in catches(parameters.table):
