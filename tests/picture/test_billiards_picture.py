@@ -184,3 +184,12 @@ def test_what_a_window_asks_for():
     assert stage.get_buffer().raw != before
     assert picture.stage().get_buffer().raw == before  # the window's own copy
     assert picture.view(1.0) == picture.camera
+
+
+def test_a_ball_that_was_potted_has_no_speed_any_more():
+    picture = picture_of("straight in")
+    run = picture.run
+    said = [{label: value for label, value, *_ in picture.live(t)} for t in (0.1, run.duration)]
+    assert run.result["scratch"]
+    assert "m/s" in said[0]["speed"]
+    assert {said[1][label] for label in ("speed", "direction", "side spin")} == {"–"}

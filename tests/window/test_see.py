@@ -13,6 +13,8 @@ import numpy as np
 import pygame
 import pytest
 
+from sandbox.errors import RunError
+from sandbox.lab.runs import runs
 from sandbox.picture.camera import Camera
 from sandbox.picture.lettering import Lettering
 from sandbox.scene import simulate
@@ -99,11 +101,17 @@ class TestTheFan:
         assert clouds[1].said[0].startswith(f"{clouds[1].scored} of {2 * FEWEST} score")
 
     def test_two_processes_share_the_shots_of_one_that_takes_long(self, monkeypatch):
+        def some_fail(scene, keys, points, **how):
+            for (speed, *_), run in zip(points, runs(scene, keys, points, **how), strict=False):
+                yield RunError("too fast") if speed > session.value("cue.speed") else run
+
         session, camera = Session("billiards/cut"), Camera((0.0, 0.0), (300.0, 200.0), 150.0)
         monkeypatch.setattr("sandbox.window.fan.SHOTS", 12)
         monkeypatch.setattr("sandbox.window.fan._begun", {})
+        monkeypatch.setattr("sandbox.window.fan.runs", some_fail)
         asked = session.scene, 1.0, camera, False, "", (640, 360), ((0, 255, 0), (255, 255, 255))
         alone = cloud(*asked)
+        assert 0 < alone.shots < 12
         monkeypatch.setattr("sandbox.window.fan._begun", {})
         monkeypatch.setattr("sandbox.window.fan.QUICK", 0.0)
         assert cloud(*asked).left == 12 - FEWEST
@@ -116,7 +124,7 @@ class TestTheFan:
         assert cloud(*asked).left == 0
         assert cloud(*asked, known) == alone  # none of those that both have computed counts twice
 
-    def test_in_the_window_the_path_s_process_computes_some_of_one_that_takes_long(self, player):
+    def test_in_the_window_the_path_s_process_computes_some_of_one_that_takes_long(self, player, monkeypatch):
         player = player("billiards/nine-ball-break")
         player.game.helper = Processes(1)
         try:
@@ -125,6 +133,14 @@ class TestTheFan:
                 player.frames()
                 sleep(0.01)
             assert FEWEST <= player.view.clouds.value.shots < SHOTS
+            asked, submit = [], player.game.helper.submit
+            monkeypatch.setattr(player.game.helper, "submit", lambda *call: asked.append(call) or submit(*call))
+            player.key(pygame.K_UP)
+            while not any(work is cloud and not quick for work, _, _, _, quick, *_ in asked):
+                player.frames()
+                sleep(0.01)
+            assert all(scene == player.game.shot.scene for _, scene, *_ in asked)
+            assert not any(known for *_, known in asked)  # shots of the fan from before
         finally:
             player.game.helper.close(abandon=True)
 
