@@ -55,7 +55,7 @@ def _kind(ball: Ball) -> tuple[tuple[bool, ...], int, bool, bool]:
 
 
 def _is_steady(force: Any) -> bool:
-    """Whether it is the same always, and is asked for once."""
+    """Whether it is the same always, and is asked for once; a kind of Gravity of a scene's own may not be."""
     return type(force) is Gravity and force.loss is None
 
 

@@ -32,7 +32,7 @@ class Numerics:
     impacts: int = 0
     pymunk_steps: int = 0
     queries: int = 0  # pairs of ball path and shape checked for contact
-    wall_s: float = 0.0
+    wall_s: float = 0.0  # of a run beside others until its end, with theirs
     clusters: int = 0  # impacts of several balls at once, simulated through the contact
 
 

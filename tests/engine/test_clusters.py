@@ -223,6 +223,17 @@ def test_one_that_cannot_part_leaves_the_others_as_they_are_alone():
     assert last.velocity.tolist() == passage(chain(4)).velocity.tolist()
 
 
+def test_those_with_walls_or_other_steps_are_passed_through_alone():
+    """A ball between another and a wall; and a chain in finer steps, or until it is slow."""
+    left = 3 * RADIUS + 1e-6
+    wall = Link(1, None, STIFFNESS, 1.0, lambda slip: 0.0, wall=lambda x, y: (left - x, -1.0, 0.0, 0.0))
+    between = Cluster(chain(2), [Link(1, 0, STIFFNESS, 1.0, lambda slip: 0.0), wall])
+    plain = cluster(chain(3))
+    for other in ((between, STEP, 0.0), (plain, 0.5 * STEP, 0.0), (plain, STEP, 0.1)):
+        for found, (each, *how) in zip(pass_through(asked := [(plain, STEP, 0.0), other]), asked, strict=True):
+            assert found.motion.tolist() == each.pass_through(*how).motion.tolist()
+
+
 @pytest.mark.parametrize("restitution", [0.0, 0.1])
 def test_balls_that_hardly_bounce_go_through_their_contact(restitution):
     """A break of them, which stay together for long, ends in as many contacts as any other."""

@@ -317,3 +317,14 @@ def test_a_ball_is_accelerated_by_the_sum_of_its_forces_and_torques(forces, torq
     total = sum(range(forces)) * 7.0 / (2.0 * share), forces * 4.0 / (2.0 * share), sum(n + 9.0 for n in range(torques))
     expected = (*total[:2], total[2] / (0.2 * share))
     assert law_of(ball)(1.0, (3.0, 5.0, 7.0, 8.0, 9.0)) == pytest.approx(expected, rel=1e-15)
+
+
+def test_a_kind_of_gravity_that_changes_is_asked_anew():
+    """Weight that sets in at 1 s: s = g t^2 / 2 from there on."""
+
+    class Later(Gravity):
+        def __call__(self, t, position, velocity, spin):
+            return super().__call__(t, position, velocity, spin) if t > 1.0 else (0.0, 0.0)
+
+    run = fly(Ball("ball", 2.0, 0.1, (0.0, 0.0), forces=[Later(2.0, G)]), 3.0, breaks=[1.0])
+    assert run.state("ball", 3.0)[1:4:2] == pytest.approx((-2.0 * G, -2.0 * G), rel=1e-6)
