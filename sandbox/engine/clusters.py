@@ -107,6 +107,11 @@ class ClusterOutcome:
     approach: np.ndarray  # m/s, when it first closed, shape (links,)
     closed: np.ndarray  # s, time when it first closed, shape (links,)
 
+    def part(self, bodies: slice, links: slice) -> ClusterOutcome:
+        """That of some of the bodies and links."""
+        each = self.impulse[links], self.approach[links], self.closed[links]
+        return ClusterOutcome(self.times, self.motion[:, bodies], *each)
+
     @property
     def velocity(self) -> np.ndarray:
         """At the end, in m/s, shape (bodies, 2)."""
@@ -280,20 +285,22 @@ class Cluster:
         for group in range(self._groups.max() + 1):
             acted = (impulse > 0.0) & (self._groups == group)
             touched = np.flatnonzero(self._pushed[:-1, acted].any(axis=1))
-            mass, inertia = self._weights[:, touched]
-
-            def energy(motion: np.ndarray, mass: np.ndarray = mass, inertia: np.ndarray = inertia) -> float:
-                _, velocity, roll, out = motion
-                moving, turning = np.abs(velocity) ** 2 + out.real**2, np.abs(roll) ** 2 + out.imag**2
-                return 0.5 * float(mass @ moving + inertia @ turning)
-
+            mass, _ = weights = self._weights[:, touched]
             common = np.zeros((4, touched.size), complex)
             if touched.size and not self._walls:
                 common[_VELOCITY] = mass @ end[_VELOCITY, touched] / mass.sum()
             apart, worked = end[:, touched] - common, float(np.abs(self._push[touched]) @ mass) * way
-            most, has = energy(start[:, touched]) + worked - energy(common), energy(apart)
+            most = _energy(weights, start[:, touched]) + worked - _energy(weights, common)
+            has = _energy(weights, apart)
             if has > most:
                 end[1:, touched] = (common + np.sqrt(max(0.0, most / has)) * apart)[1:]
+
+
+def _energy(weights: np.ndarray, motion: np.ndarray) -> float:
+    """Of bodies in J; the ``weights`` are their masses (kg) and inertias (kg m^2), shape (2, bodies)."""
+    (mass, inertia), (_, velocity, roll, out) = weights, motion
+    moving, turning = np.abs(velocity) ** 2 + out.real**2, np.abs(roll) ** 2 + out.imag**2
+    return 0.5 * float(mass @ moving + inertia @ turning)
 
 
 T = TypeVar("T")
@@ -328,12 +335,8 @@ def _pass_together(clusters: Sequence[Cluster], share: float, faint: float) -> l
             for link in cluster.links
             if link.second is not None
         ]
-        parts.append(
-            (slice(len(bodies), len(bodies) + len(cluster.bodies)), slice(len(links), len(links) + len(moved)))
-        )
+        before = len(bodies), len(links)
         bodies, links, groups = [*bodies, *cluster.bodies], [*links, *moved], groups + [group] * len(moved)
-    times, motion, *of_links = vars(Cluster(bodies, links, groups).pass_through(share, faint)).values()
-    return [
-        ClusterOutcome(times, motion[:, its_bodies], *(each[its_links] for each in of_links))
-        for its_bodies, its_links in parts
-    ]
+        parts.append((slice(before[0], len(bodies)), slice(before[1], len(links))))
+    outcome = Cluster(bodies, links, groups).pass_through(share, faint)
+    return [outcome.part(*part) for part in parts]

@@ -202,7 +202,7 @@ def on_floor(run: Run) -> float:
 
 def falls_to(run: Run, parameters: Parameters, below: float = 0.0) -> Iterator[tuple[float, State]]:
     """Each time and state at which the ball's centre falls to the ring's height, or so many m below it."""
-    return run.crossings("ball", parameters.hoop.across(below)[0], (0.0, 1.0))
+    return run.crossings("ball", (0.0, parameters.hoop.height - below), (0.0, 1.0))
 
 
 @once

@@ -13,7 +13,7 @@ from tests.engine import shots
 from tests.engine.reference import shoot
 
 DURATION = 2.5  # s
-SHOTS = shots.seeded(16)
+SHOTS = shots.seeded(30)
 
 #: Normal speed in m/s below which an impact is a graze: whether it happens at all depends on the last digits.
 GRAZING = 0.06
@@ -61,7 +61,7 @@ def test_impacts_and_end_agree_with_the_reference(level, time, place):
 def test_the_shots_meet_every_surface_and_bounce_often():
     names = [[name for _, name, *_ in reference(number)[0]] for number in range(len(SHOTS))]
     assert {name for touches in names for name in touches} == {"rim front", "rim back", "backboard", "floor"}
-    assert sum(len(touches) >= 3 for touches in names) >= 3
+    assert sum(len(touches) >= 3 for touches in names) >= 5
 
 
 def test_fast_is_cheaper_than_balanced_and_balanced_than_precise():
