@@ -168,7 +168,7 @@ def test_unequal_masses(m1, m2, e):
     assert m1 * u1 == pytest.approx(-m2 * u2, abs=1e-9)
 
 
-@pytest.mark.parametrize(("ratio", "count"), [(1, 3), (16, 12), (100, 31)])
+@pytest.mark.parametrize(("ratio", "count"), [(1, 3), (16, 12), (100, 31), (10_000, 314)])
 def test_colliding_blocks_count_pi(ratio, count):
     """Galperin: a heavy ball drives a light one against a wall; the collisions count the digits of pi."""
     wall = Surface("wall", Segment((0.0, -1.0), (0.0, 1.0)), 1.0, 0.0)
