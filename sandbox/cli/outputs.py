@@ -116,7 +116,7 @@ OUTPUTS = (
     Output("--trajectory", ".csv", _trajectory, "Write the path of every ball: t,ball,x,y,vx,vy,spin.", False),
     Output("--poster", ".png", _poster, "Write the whole run as one picture."),
     Output("--html", ".html", _html, "Write a page for any browser that plays the run; it needs no network.", False),
-    Output("--strip", ".png", _strip, "Write five frames side by side."),
+    Output("--strip", ".png", _strip, "Write some frames side by side."),
     Output("--energy", ".png", _energy, "Write a chart of where the energy goes."),
     Output("--graph", ".png", _graph, "Write graphs over time: place, speed, spin, acceleration, forces, energy."),
     Output("--gif", ".gif", _animation("save_gif", 25, SMALL), "Write it as an animation below 5 MB.", moves=True),

@@ -127,7 +127,7 @@ def _measured(reference: Reference, progress: Progress) -> Iterator[Point]:
     last: dict[str, Timed[tuple[float, int]]] = {}  # by method
     for done, (method, setting, accuracy) in enumerate(wanted):
         progress(done, 2 * len(wanted))
-        coarser = last.get(method)
+        coarser = None if method == "level" else last.get(method)  # levels are measured however long they take
         if coarser is not None and coarser.walls[0] * coarser.accuracy.step / accuracy.step > LONGEST:
             continue
         trial = Timed(

@@ -98,7 +98,7 @@ def validate(
         key = case.scene, case.set
         if key not in found:
             settings = dict(parse_assignment(text) for text in case.set.split(";") if text.strip())
-            found[key] = simulate(load(case.scene, {**settings, **(changes or {})}))
+            found[key] = simulate(load(case.scene, settings).changed(changes or {}, "--set"))
         compared.append(_compare(case, found[key]))
     return compared
 

@@ -109,6 +109,15 @@ def test_every_method_has_its_points_and_finer_ones_are_better(basketball: lab.T
     assert max(map(len, lab.as_text(basketball))) <= 80
 
 
+def test_on_a_slow_machine_all_levels_are_measured_and_of_the_methods_the_coarsest(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(lab, "LONGEST", 0.0)  # s
+    monkeypatch.setattr(lab, "ablation", lambda reference: [])
+    monkeypatch.setattr(lab, "shot_map", lambda scene: None)
+    found = lab.trade(load("soccer-curl"))
+    assert set(found.levels) == set(LEVELS)
+    assert [point.setting for point in found.points if point.method == "rk4"] == ["1/2 s"]
+
+
 def test_the_best_is_the_cheapest_that_is_good_enough(basketball: lab.Trade):
     for target in lab.TARGETS:
         best = basketball.best(target)

@@ -28,3 +28,9 @@ def test_a_wrong_number_would_be_seen():
     """Half as much drag again, and the tour table no longer holds."""
     rows = validate("golf", {"ball.drag.model": "constant", "ball.drag.coefficient": 0.4})
     assert sum(row.holds for row in rows) < 0.5 * len(rows)
+
+
+def test_another_model_takes_the_place_of_the_one_in_a_case():
+    """A case with a constant coefficient, too, is computed with the model that is asked for."""
+    rows = validate("golf", {"ball.drag.model": "usga", "ball.lift.model": "usga"})
+    assert not any(row.holds for row in rows if row.name == "p = 1, 45 deg")
