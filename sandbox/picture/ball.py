@@ -171,7 +171,8 @@ class Turning:
         self.matrices: list[np.ndarray] = []
         matrix = start
         for a, b in zip(times, [*times[1:], times[-1]], strict=True):
-            straight = _parallel(spin(a + (b - a) / 3), spin(b - (b - a) / 3))
+            one, other = spin(a + (b - a) / 3), spin(b - (b - a) / 3)
+            straight = np.linalg.norm(np.cross(one, other)) <= 1e-9 * hypot(*one) * hypot(*other)  # along one line
             pieces = 1 if straight else ceil((b - a) / STEP)
             for i in range(pieces):
                 t, until = a + (b - a) * i / pieces, a + (b - a) * (i + 1) / pieces
@@ -190,11 +191,6 @@ class Turning:
         """The ball's axes at time t in s."""
         i = max(0, bisect_right(self.times, t) - 1)
         return self._after(self.matrices[i], self.times[i], t)
-
-
-def _parallel(a: Sequence[float], b: Sequence[float]) -> bool:
-    """Whether two vectors lie along one line, to rounding."""
-    return float(np.linalg.norm(np.cross(a, b))) <= 1e-9 * hypot(*a) * hypot(*b)
 
 
 @lru_cache(maxsize=256)

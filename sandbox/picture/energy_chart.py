@@ -9,9 +9,9 @@ import pygame
 
 from sandbox.engine.run import Run
 from sandbox.picture.energy import Course, course
+from sandbox.picture.graph import CHART, Curve, Plot, plotted
 from sandbox.picture.palette import Colour, mix
 from sandbox.picture.path import hardest
-from sandbox.picture.plot import CHART, Curve, Plot, plotted
 from sandbox.picture.sheet import CARD, Entry, Sheet
 from sandbox.picture.vectors import colour_of
 

@@ -53,7 +53,6 @@ OURS = b"Software\0sports sandbox, one of the frames of a run"
 FRAMES = "frame_[0-9][0-9][0-9][0-9][0-9].png"
 
 Progress = Callable[[int, int], object]
-Drawing = pygame.Surface
 
 
 def to_image(surface: pygame.Surface) -> Image.Image:

@@ -12,9 +12,8 @@ import numpy as np
 import pygame
 
 from sandbox.picture.ball import mark_radius
-from sandbox.picture.camera import Area, Box, Camera
+from sandbox.picture.camera import Area, Box, Camera, Eye
 from sandbox.picture.chase import Chase
-from sandbox.picture.depth import Eye
 from sandbox.picture.marks import draw_mark, label_mark
 from sandbox.picture.painter import Painter, Point
 from sandbox.picture.palette import Colour

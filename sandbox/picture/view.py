@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property, wraps
 from math import atan2, ceil, degrees, dist, hypot, pi
-from typing import Any, ClassVar, Generic, NamedTuple, TypeVar
+from typing import Any, ClassVar, Generic, TypeVar
 
 import numpy as np
 import pygame
@@ -54,18 +54,6 @@ BEAD, LARGEST_BEAD = 0.5, 3.0
 STRING = 1.5
 
 P = TypeVar("P", bound=Group)
-
-
-#: Draws what belongs to a ball by its name at a time in s, where it is and as large, in px.
-Draw = Callable[[Painter, Camera, str, float, Point, float], None]
-
-
-class Heading(NamedTuple):
-    """What is written over a picture, notes under the headline, in so much ``room`` (px)."""
-
-    text: str
-    notes: Sequence[str]
-    room: float
 
 
 def _function(member: Any) -> Any:
@@ -367,70 +355,74 @@ class View(Generic[P]):
 
     def poster(self) -> pygame.Surface:
         """The whole run in one picture."""
-        sheet = self._drawn(None)
+        for _ in self.layers():
+            pass
+        sheet = self.sheet
+        sheet.headline(*self.heading)
         rows = [(ghost.light, ghost.run.scene.rows(ghost.run)) for ghost in self.ghosts]
         sheet.columns(self.card_row, self.run.scene.rows(self.run), rows)
         for ghost in self.ghosts:
             ghost.name(sheet, self.traced(self.camera, ghost.points), self.trace)
         return sheet.surface
 
+    def layers(self) -> Iterator[str]:
+        """Draw the poster on ``sheet``, from the lowest layer to the highest; the name of each is said when it is
+        drawn. Then all is there but text, and ``heading`` is known: headline, notes, and the room for them in px."""
+        camera = self.camera
+        sheet = self.sheet = Sheet(self.size, self.on_dark, self._still(camera).copy())
+        painter = sheet.painter
+        placed = self._placed(camera, self.told)
+        self.behind(painter, camera, self.moment)
+        yield "place"
+        self._strings(painter, camera, self.told)
+        for name, spot in placed.items():
+            self.shadow(painter, camera, name, self.told, *spot)
+        self._traces(sheet, camera)
+        yield "paths"
+        every = self.strobe(sheet, camera)
+        yield "along"
+        for name, spot in placed.items():
+            self.draw_ball(painter, camera, name, self.told, *spot)
+        yield "balls"
+        self.before(painter, camera, self.moment)
+        self.dimensions(sheet, camera)
+        self.measure(sheet, camera)
+        self.annotate(sheet, camera)
+        mark_impacts(sheet, camera, self.impacts(camera), last=placed.get(self.ball))
+        room = self._room(sheet, camera, None)
+        yield "over"
+        notes = [*(ghost.note for ghost in self.ghosts), *self.aligned, *every[:1], *self.notes(camera), *every[1:]]
+        self.heading = self.run.scene.verdict(self.run), notes, room
+
     def frame(self, t: float) -> pygame.Surface:
         """The scene at time t in s."""
         t = min(max(t, 0.0), self.run.duration)
-        sheet = self._drawn(t)
+        camera = self.view(t)
+        sheet = self.sheet = Sheet(self.size, self.on_dark, self._still(camera).copy())
+        painter = sheet.painter
+        placed = self._placed(camera, t, in_frame=True)
+        self.behind(painter, camera, t)
+        self._strings(painter, camera, t)
+        for name, spot in placed.items():
+            self.shadow(painter, camera, name, t, *spot)
+        self._trails(sheet, camera, t)
+        if self.ball in placed:
+            self.vectors.draw(sheet, *placed[self.ball], t)
+        for name, spot in placed.items():
+            self.draw_ball(painter, camera, name, t, *spot)
+        self.before(painter, camera, t)
+        self.scale(sheet, camera)
+        room = self._room(sheet, camera, t)
+        headline, note = (self.run.scene.verdict(self.run), "") if t >= self.told else self.progress(t)
+        compared = [f"compared with {ghost.label}" for ghost in self.ghosts]
+        larger = self._larger(camera, in_frame=True)
+        notes = [note, *compared, *self.aligned, *self._stretched(camera), *self._caveat, *larger]
+        sheet.headline(headline, [note for note in notes if note], room)
         rows = [(ghost.light, ghost.view.live(min(t, ghost.run.duration))) for ghost in self.ghosts]
         sheet.columns(self.card_row, self.live(t), rows)
         return sheet.surface
 
-    def _drawn(self, t: float | None) -> Sheet:
-        """All but the card."""
-        for _ in self.layers(t):
-            pass
-        self.sheet.headline(*self.heading)
-        return self.sheet
-
-    def layers(self, t: float | None = None) -> Iterator[str]:
-        """Draw the poster, or the scene at time t in s, on ``sheet``, from the lowest layer to the highest; the name of
-        each is said when it is drawn. Then all is there but text, and ``heading`` is known."""
-        camera = self.camera if t is None else self.view(t)
-        sheet = self.sheet = Sheet(self.size, self.on_dark, self._still(camera).copy())
-        painter = sheet.painter
-        moment, now = (self.moment, self.told) if t is None else (t, t)
-        placed = self._placed(camera, now, in_frame=t is not None)
-        self.behind(painter, camera, moment)
-        yield "place"
-        self._strings(painter, camera, now)
-        self._draw_each(self.shadow, painter, camera, now, placed)
-        yield "shadows"
-        self._traces(sheet, camera) if t is None else self._trails(sheet, camera, t)
-        yield "paths"
-        every = self.strobe(sheet, camera) if t is None else []
-        if t is not None and self.ball in placed:
-            self.vectors.draw(sheet, *placed[self.ball], t)
-        yield "along"
-        self._draw_each(self.draw_ball, painter, camera, now, placed)
-        yield "balls"
-        self.before(painter, camera, moment)
-        if t is None:
-            self.dimensions(sheet, camera)
-            self.measure(sheet, camera)
-            self.annotate(sheet, camera)
-            mark_impacts(sheet, camera, self.impacts(camera), last=placed.get(self.ball))
-        else:
-            self.scale(sheet, camera)
-        room = self._room(sheet, camera, t)
-        yield "over"
-        if t is None:
-            headline, compared = self.run.scene.verdict(self.run), [ghost.note for ghost in self.ghosts]
-            notes = [*compared, *self.aligned, *every[:1], *self.notes(camera), *every[1:]]
-        else:
-            headline, note = (self.run.scene.verdict(self.run), "") if t >= self.told else self.progress(t)
-            compared = [f"compared with {ghost.label}" for ghost in self.ghosts]
-            larger = self._larger(camera, in_frame=True)
-            notes = [note, *compared, *self.aligned, *self._stretched(camera), *self._caveat, *larger]
-        self.heading = Heading(headline, [note for note in notes if note], room)
-
-    # Parts of the two
+    # Parts of poster and frame
 
     @property
     def aligned(self) -> list[str]:
@@ -549,13 +541,8 @@ class View(Generic[P]):
         """All that are there at time t in s, over their shadows."""
         placed = self._placed(camera, t)
         for draw in (self.shadow, self.draw_ball):
-            self._draw_each(draw, painter, camera, t, placed)
-
-    def _draw_each(
-        self, draw: Draw, painter: Painter, camera: Camera, t: float, placed: Mapping[str, tuple[Point, float]]
-    ) -> None:
-        for name, (at, radius) in placed.items():
-            draw(painter, camera, name, t, at, radius)
+            for name, spot in placed.items():
+                draw(painter, camera, name, t, *spot)
 
     def _traces(self, sheet: Sheet, camera: Camera) -> None:
         """All paths, other runs' below; that of the ball that is played is kept as ``trace``, in px."""

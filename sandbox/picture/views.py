@@ -2,8 +2,7 @@
 
 from sandbox.picture.above import AboveView
 from sandbox.picture.ball import Look, Mark, Silhouette, dimples, near, patches, seams, turned
-from sandbox.picture.camera import Area, Box, Camera
-from sandbox.picture.depth import Eye
+from sandbox.picture.camera import Area, Box, Camera, Eye
 from sandbox.picture.long import LongView
 from sandbox.picture.painter import Painter
 from sandbox.picture.sheet import Entry, Sheet, SideRows

@@ -7,10 +7,9 @@ from functools import cached_property
 
 import numpy as np
 
-from sandbox.picture.figures import pose
 from sandbox.picture.palette import scene_colours
 from sandbox.picture.places import COURT_WIDTH, Ground, Hall, Person, Planks, Stands, tennis_court
-from sandbox.picture.places.things import net_across, standing_table
+from sandbox.picture.places.things import net_across, pose_of, standing_table
 from sandbox.picture.views import Box, Camera, Eye, Look, NetView, Place, seams
 from sandbox.sport.net_game import taken
 
@@ -51,7 +50,7 @@ class Picture(NetView[Parameters]):
         court, net, release = self.parameters.court, self.parameters.net, self.parameters.release
         end, high, on_table = court.length, release.height + court.table, court.table > 0.0
         strokes = STROKES[on_table]
-        stroke = min(strokes, key=lambda name: abs(high - pose(name).holds[1] * TALL))
+        stroke = min(strokes, key=lambda name: abs(high - pose_of(name).holds[1] * TALL))
         player = Person.holding((release.place, high), stroke, COLOURS["player"], TALL, 1.6)
         other = Person(1.1 * end + 0.5, TALL, COLOURS["opponent"], strokes[0], z=0.5 * TABLE_WIDTH, facing=-1)
         hung = 0.5 * end, net.height - net.depth, net.height

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pygame
 
-from sandbox.picture.depth import Eye
+from sandbox.picture.camera import Eye
 from sandbox.picture.painter import Painter, blank, from_coverage, gradient
 from sandbox.picture.palette import Colour, mix, palette
 

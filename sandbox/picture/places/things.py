@@ -3,17 +3,18 @@ side, or from above."""
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cache
 from math import dist
-from typing import Any, ClassVar, Protocol
+from typing import Any, ClassVar, NamedTuple, Protocol
 
 import numpy as np
 
-from sandbox.picture.depth import Eye as SideEye
-from sandbox.picture.figures import pose as pose_of
+from sandbox.picture.camera import Eye as SideEye
 from sandbox.picture.painter import Painter, Point
-from sandbox.picture.palette import Colour, palette
+from sandbox.picture.palette import ASSETS, Colour, palette
 from sandbox.picture.sheet import rows_of
 
 PERSON, SHADOW = palette("person"), palette("card")["shadow"]
@@ -28,7 +29,7 @@ Point3 = tuple[float, ...]
 
 
 class Eye(Protocol):
-    """Sees points of the world: ``sandbox.picture.depth.Eye`` from the side, a camera from above."""
+    """Sees points of the world: ``sandbox.picture.camera.Eye`` from the side, a camera from above."""
 
     def points(self, points: np.ndarray) -> np.ndarray:
         """Where in px, shape (n, 2), points in m of shape (n, 3) are, or of shape (n, 2) on the ground."""
@@ -106,6 +107,27 @@ class Shape:
 
     def draw(self, painter: Painter, eye: Eye) -> None:
         painter.polygon(eye.points(np.array(self.corners)), self.colour, self.opacity)
+
+
+class Pose(NamedTuple):
+    """A plain person from the side, flat and without a face, in units of its height: the colour's name, width and
+    points of each stroke, and where the middle of what is held is."""
+
+    strokes: list[tuple[str, float, list[Point]]]
+    holds: Point
+
+
+@cache
+def _figures() -> dict[str, Any]:
+    return tomllib.loads((ASSETS / "figures.toml").read_text("utf-8"))
+
+
+@cache
+def pose_of(name: str) -> Pose:
+    """One of the poses."""
+    found, strokes = _figures()["poses"][name], _figures()["strokes"]
+    drawn = [(part, width, points) for group in found["strokes"] for part, width, *points in strokes[group]]
+    return Pose(drawn, tuple(found.get("holds", (0.0, 0.0))))
 
 
 @dataclass(frozen=True)
