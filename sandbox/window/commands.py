@@ -19,12 +19,11 @@ from sandbox.picture.palette import palette
 from sandbox.scene import listings, listings_in, scene_files_in
 from sandbox.scene.finding import folder_of, is_installed
 from sandbox.window import aim, export, replay
-from sandbox.window.choice import Choice, Mark
 from sandbox.window.find import Found, Question, find, questions
 from sandbox.window.game import WIDEST
 from sandbox.window.measure import Tape
 from sandbox.window.menu import Menu, thumbnail
-from sandbox.window.overlay import Board, Chart, Overlay, Row
+from sandbox.window.overlay import Board, Chart, Choice, Mark, Overlay, Row
 from sandbox.window.shots import Played, Shot, write_csv
 from sandbox.window.table import Table
 from sandbox.window.view import AHEAD, View

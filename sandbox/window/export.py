@@ -19,8 +19,9 @@ FPS = 25
 GIF_SIZE = (640, 360)  # px
 
 
-def free(stem: str, suffix: str) -> Path:
-    """The first name in the folder of outputs that is not taken; the folder is made."""
+def new_file(stem: str, suffix: str, write: Callable[[Path], object]) -> Path:
+    """The first file in the folder of outputs whose name is not taken, with what ``write`` writes; the folder is
+    made."""
     try:
         FOLDER.mkdir(exist_ok=True)
     except OSError as error:
@@ -29,12 +30,6 @@ def free(stem: str, suffix: str) -> Path:
     number = 1
     while (path := FOLDER / f"{stem}-{number}{suffix}").exists():
         number += 1
-    return path
-
-
-def new_file(stem: str, suffix: str, write: Callable[[Path], object]) -> Path:
-    """A new file in the folder of outputs, with what ``write`` writes."""
-    path = free(stem, suffix)
     with writing("", path):
         write(path)
     return path
@@ -49,7 +44,6 @@ def scene_file(session: Session) -> Path:
     """A new scene file: a copy of the scene's, with its comments, and the changes."""
     import tomlkit
 
-    path = free(session.title, ".toml")
     try:
         text = session.file.read_text("utf-8-sig") if session.file is not None else ""
     except OSError as error:
@@ -57,18 +51,21 @@ def scene_file(session: Session) -> Path:
     if not re.search(r"(?m)^\s*scene\s*=", text):  # a preset, whose folder is that of its scene
         text = f'scene = ""\n\n{text}'
     document = tomlkit.parse(text)
-    document["scene"] = _named(session, str(document["scene"]), path.parent)
+    document["scene"] = _named(session, str(document["scene"]))
     for key, value in session.changes.values.items():
         _put(document, key.split("."), value)
-    with writing("", path), written_whole(path) as file:
-        file.write(tomlkit.dumps(document))
-    return path
+
+    def write(path: Path) -> None:
+        with written_whole(path) as file:
+            file.write(tomlkit.dumps(document))
+
+    return new_file(session.title, ".toml", write)
 
 
-def _named(session: Session, written: str, place: Path) -> str:
-    """How a scene file in ``place`` names its scene; it keeps the preset that the session's own file begins from."""
+def _named(session: Session, written: str) -> str:
+    """How a new scene file names its scene; it keeps the preset that the session's own file begins from."""
     scene = session.base
-    own = reference(scene.folder, place)
+    own = reference(scene.folder, FOLDER)
     begins_from = written.rpartition("/")[2]
     names_a_preset = begins_from != written and (scene.folder / "presets" / f"{begins_from}.toml").is_file()
     return f"{own}/{begins_from}" if names_a_preset else own

@@ -23,7 +23,6 @@ from sandbox.window.memory import Memory
 from sandbox.window.playback import Playback
 from sandbox.window.session import Session
 from sandbox.window.shots import Played, Shot, Shots
-from sandbox.window.watch import Watch
 from sandbox.window.worker import Packed, computed, unpacked, warm_up
 from sandbox.workers import Processes, WorkerLost
 
@@ -80,7 +79,6 @@ class Game:
         self.memory = memory or Memory()
         self.memory.opened(session.source)
         self.jobs: list[tuple[Future[Any], Callable[[Any], object], str]] = []  # and what they are
-        self.watch_files = Watch(session.files)
         if self.helper is not worker:
             self.helper.submit(warm_up, session.source)
         self._follow()
@@ -123,11 +121,6 @@ class Game:
     def late(self) -> bool:
         """Whether the path that is aimed is long in coming."""
         return self.playback is None and self.runs.takes >= LATE
-
-    @property
-    def same_place(self) -> bool:
-        """Whether the shot and the parameters differ only in what a player aims with."""
-        return self.aimed is not None and self.aimed.place == self.session.place
 
     @property
     def recent(self) -> list[Shot]:
@@ -191,7 +184,7 @@ class Game:
         if self.message is not None:
             text, bad, left = self.message
             self.message = Message(text, bad, left - dt) if left > dt else None
-        files = self.watch_files.saved(dt)
+        files = self.session.watch.saved(dt)
         if files:
             self._reload(files)
         self.still += dt
@@ -471,7 +464,6 @@ class Game:
         self.shooting = False
         self.runs.forget()
         self.memory.opened(self.session.source)
-        self.watch_files = Watch(self.session.files)
 
     def _reload(self, files: list[Path]) -> None:
         """Files were saved: aim with them, with the path from before still drawn."""

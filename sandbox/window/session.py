@@ -1,8 +1,8 @@
-"""A scene file with the changes made in the window."""
+"""A scene file with the changes made in the window, and whether it was saved meanwhile."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +14,39 @@ from sandbox.text import command_line
 from sandbox.window.background import Once
 from sandbox.window.history import Changes
 from sandbox.window.shots import Shot, place_of, value_at
+
+#: Files are checked so often, in s.
+EVERY = 0.2
+
+
+class Watch:
+    """Checks the time and size of files at intervals; a file that is missing for a moment is being saved."""
+
+    def __init__(self, files: Sequence[Path]) -> None:
+        self.seen = {file: _state(file) for file in files}
+        self.waited = 0.0
+
+    def saved(self, dt: float) -> list[Path]:
+        """The files that changed since the last call, ``dt`` s ago."""
+        self.waited += dt
+        if self.waited < EVERY:
+            return []
+        self.waited = 0.0
+        changed = []
+        for file, before in self.seen.items():
+            now = _state(file)
+            if now is not None and now != before:
+                self.seen[file] = now
+                changed.append(file)
+        return changed
+
+
+def _state(file: Path) -> tuple[int, int] | None:
+    try:
+        found = file.stat()
+    except OSError:
+        return None
+    return found.st_mtime_ns, found.st_size
 
 
 class Session:
@@ -30,6 +63,7 @@ class Session:
         scene.build()  # reports values that are invalid together
         self.base, self.scene = base, scene
         self.changes = Changes(source, dict(changes or {}))
+        self.watch = Watch(self.files)
 
     @property
     def source(self) -> str:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from math import isclose, sqrt
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -170,21 +170,6 @@ class Played:
         return {controls.speed: self.aim[0], controls.angle: self.aim[1], **found}
 
 
-class Share(NamedTuple):
-    """How many of some shots score, and the interval in which their true share lies with 95 % (Wilson 1927)."""
-
-    scored: int
-    total: int
-
-    @property
-    def interval(self) -> tuple[float, float]:
-        """Lower and upper end."""
-        n, p = self.total, self.scored / self.total
-        middle, half = p + Z**2 / (2 * n), Z * sqrt(p * (1 - p) / n + Z**2 / (4 * n**2))
-        low, high = ((middle + sign * half) / (1 + Z**2 / n) for sign in (-1, 1))
-        return max(0.0, low), min(1.0, high)
-
-
 class Shots:
     """All shots so far, in order."""
 
@@ -220,15 +205,12 @@ class Shots:
         self._drop_paths()
 
 
-def share_of(rows: Sequence[Played]) -> Share | None:
-    """How many score; None if that cannot be said of them."""
-    known = [row.scored for row in rows if row.scored is not None]
-    return Share(sum(known), len(known)) if known else None
-
-
-def values_of(rows: Sequence[Played], key: str) -> np.ndarray:
-    """The numbers of one kind, of the shots that have it."""
-    return np.array([row.numbers[key] for row in rows if key in row.numbers])
+def interval(scored: int, n: int) -> tuple[float, float]:
+    """Where the true share of shots of which so many of n scored lies with 95 %: lower and upper end (Wilson 1927)."""
+    p = scored / n
+    middle, half = p + Z**2 / (2 * n), Z * sqrt(p * (1 - p) / n + Z**2 / (4 * n**2))
+    low, high = ((middle + sign * half) / (1 + Z**2 / n) for sign in (-1, 1))
+    return max(0.0, low), min(1.0, high)
 
 
 def write_csv(rows: Sequence[Played], path: Path) -> None:

@@ -10,7 +10,7 @@ import pygame
 from sandbox.picture.palette import Colour, palette
 from sandbox.sport.amounts import amount
 from sandbox.window.overlay import HOVERED, Overlay
-from sandbox.window.shots import Played, share_of, values_of
+from sandbox.window.shots import Played, interval
 
 CARD = palette("card")
 
@@ -140,10 +140,11 @@ class Table(Overlay):
         """Mean and standard deviation of the column that the table is sorted by, its histogram, and who scores."""
         sheet, letters, unit = self.sheet, self.sheet.lettering, self.sheet.unit
         small = letters.height("small")
-        lines, share, values = [], share_of(rows), values_of(rows, self.by)
-        if share is not None:
-            low, high = share.interval
-            lines.append(f"{share.scored} of {share.total} score: {100 * share.scored / share.total:.0f} %, "
+        lines, values = list[str](), np.array([row.numbers[self.by] for row in rows if self.by in row.numbers])
+        if known := [row.scored for row in rows if row.scored is not None]:
+            scored, count = sum(known), len(known)
+            low, high = interval(scored, count)
+            lines.append(f"{scored} of {count} score: {100 * scored / count:.0f} %, "
                          f"{100 * low:.0f} to {100 * high:.0f} % with 95 % confidence")  # fmt: skip
         if not self.by:
             lines.append("sort by a number for its mean, standard deviation and histogram")

@@ -449,9 +449,7 @@ class View:
         drawn = shot is not None and self.undrawable is None and self._may_draw(shot)
         if drawn and no_path:
             self._draw_no_path(sheet)
-        elif drawn and (game.playback is not None or game.same_place):
-            assert shot is not None
-            assert stage is not None
+        elif drawn and shot and stage and (game.playback is not None or shot.place == game.session.place):
             self._draw_shot(sheet, stage, shot)
             self._draw_cards(sheet, stage, shot)
         else:

@@ -8,7 +8,7 @@ import numpy as np
 import pygame
 import pytest
 
-from sandbox.window.shots import PATHS, Share
+from sandbox.window.shots import PATHS, interval
 
 SPEEDS = (2.5, 2.95, 2.0, 6.0)
 
@@ -55,8 +55,8 @@ def test_it_is_sorted_by_a_click_or_a_key_and_says_the_mean(table):
 
 
 def test_the_interval_is_wilsons():
-    assert Share(10, 10).interval == pytest.approx((0.7225, 1.0), abs=1e-4)
-    assert Share(5, 20).interval == pytest.approx((0.1119, 0.4687), abs=1e-4)
+    assert interval(10, 10) == pytest.approx((0.7225, 1.0), abs=1e-4)
+    assert interval(5, 20) == pytest.approx((0.1119, 0.4687), abs=1e-4)
 
 
 def test_a_shot_is_pinned_deleted_and_gone_back_to(table):

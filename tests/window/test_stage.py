@@ -44,7 +44,7 @@ ACTIONS = {
     "N": lambda view: commands.do(view, "next_shot"),
     "V": lambda view: commands.do(view, "view"),
     "next preset": lambda view: commands.do(view, "next_preset"),
-    "saved": lambda view: setattr(view.game, "watch_files", Saved([view.game.session.file])),
+    "saved": lambda view: setattr(view.game.session, "watch", Saved([view.game.session.file])),
     "Tab": lambda view: commands.do(view, "panel"),
     "zoomed": lambda view: commands.do(view, "zoom"),
     "fit": lambda view: commands.do(view, "fit"),
