@@ -114,7 +114,7 @@ def changed_results(expected: Record, actual: Record, tolerance: float = TOLERAN
 def diverges(run: Run, until: float | None = None) -> float | None:
     """The time in s at which a run and one that begins ``NUDGE`` away differ; None if they never do."""
     from sandbox.engine import simulate
-    from sandbox.scene.checking import nudged
+    from sandbox.scene.running import nudged
 
     recorded = record(run, until)
     other = record(simulate(nudged(run.setup, NUDGE, 0), run.accuracy), until, recorded.get("duration"))

@@ -11,7 +11,7 @@ from sandbox.engine.ledger import warnings
 from sandbox.errors import RunError
 from sandbox.files import json_ready, json_text, written_whole
 from sandbox.lab.tables import paragraph, table
-from sandbox.scene.checking import NUDGE
+from sandbox.scene.running import NUDGE
 from sandbox.sport.amounts import margin
 from sandbox.sport.readings import words_of
 from sandbox.text import csv_text, shortened

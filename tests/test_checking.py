@@ -11,7 +11,7 @@ import pytest
 import sandbox
 from sandbox.cli import main
 from sandbox.engine.accuracy import LEVELS
-from sandbox.scene.checking import NUDGE, NUDGES, nudged
+from sandbox.scene.running import NUDGE, NUDGES, nudged
 
 #: Breaks, by the cue ball's place across the table (m), its speed (m/s) and its direction (deg).
 BREAKS = [(0.2, 8.0, -8.938), (-0.23, 6.5, 10.6), (0.05, 9.5, -2.6)]

@@ -1,12 +1,16 @@
-"""Arguments that several commands share: a scene, and changes to it."""
+"""What several commands share: arguments for a scene and changes to it, and printing."""
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
 from functools import wraps
 from typing import TYPE_CHECKING, Any
 
 import click
+
+from sandbox.errors import RunError
+from sandbox.text import printable
 
 if TYPE_CHECKING:
     from sandbox.scene import Scene
@@ -73,3 +77,18 @@ def load(source: str, changes: dict[str, Any]) -> Scene:
     from sandbox import scene
 
     return scene.load(source, changes, overrides_from="--set")
+
+
+def say(text: str) -> None:
+    """Print on stdout, at once. A full disk is reported."""
+    if sys.stdout is None:
+        raise RunError("stdout cannot be written: it is closed")
+    try:
+        click.echo(printable(text))
+        sys.stdout.flush()
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        from sandbox.files import reason
+
+        raise RunError(f"stdout cannot be written: {reason(error)}") from None

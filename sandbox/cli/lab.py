@@ -7,8 +7,7 @@ from typing import Any
 
 import click
 
-from sandbox.cli.arguments import changes_options, json_option, load, optional_scene, scene_argument
-from sandbox.cli.say import say
+from sandbox.cli.arguments import changes_options, json_option, load, optional_scene, say, scene_argument
 from sandbox.errors import RequestError, RunError
 from sandbox.files import json_text, writing
 

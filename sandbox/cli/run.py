@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from sandbox.cli import outputs
-from sandbox.cli.arguments import changes_options, json_option, load, scene_argument, units_option
-from sandbox.cli.say import say
+from sandbox.cli.arguments import changes_options, json_option, load, say, scene_argument, units_option
 from sandbox.errors import RequestError
 
 if TYPE_CHECKING:

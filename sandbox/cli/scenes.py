@@ -7,8 +7,7 @@ from typing import Any
 
 import click
 
-from sandbox.cli.arguments import changes_options, load, scene_argument
-from sandbox.cli.say import say
+from sandbox.cli.arguments import changes_options, load, say, scene_argument
 
 
 @click.command("list")
@@ -16,10 +15,9 @@ from sandbox.cli.say import say
 def list_scenes(scene: str | None) -> None:
     """List all scenes and presets, and what is in this folder."""
     from sandbox.lab.tables import table
-    from sandbox.scene import listings, listings_in, listings_of, scene_files_in
+    from sandbox.scene import listings, listings_in, listings_of
 
-    here = Path()
-    found = [*listings(), *listings_in(here), *scene_files_in(here)] if scene is None else listings_of(scene)
+    found = [*listings(), *listings_in(Path())] if scene is None else listings_of(scene)
     say("\n".join(table(("", ""), [(listing.name, listing.about) for listing in found], "ll", indent="")))
 
 

@@ -13,7 +13,7 @@ from sandbox.engine.run import Run
 from sandbox.engine.setup import Setup
 from sandbox.errors import RequestError
 from sandbox.scene import Scene
-from sandbox.scene.checking import NUDGE, nudged
+from sandbox.scene.running import NUDGE, nudged
 
 #: A thousand times finer than the finest level.
 REFERENCE = replace(LEVELS["precise"], level="reference", tolerance=1e-3 * LEVELS["precise"].tolerance, settle=1e-14)

@@ -8,16 +8,14 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any
 
-    from sandbox.scene.checking import Check, check, compare
-    from sandbox.scene.finding import Listing, listings, listings_in, listings_of, reference, scene_files_in
-    from sandbox.scene.running import simulate
+    from sandbox.scene.finding import Listing, listings, listings_in, listings_of, reference
+    from sandbox.scene.running import Check, check, compare, simulate
     from sandbox.scene.scene import Scene, as_scene, load, parameters_of
 
 #: The names of each module, which is imported on first use: to list scenes takes none of what it takes to run one.
 _MODULES = {
-    "checking": ("Check", "check", "compare"),
-    "finding": ("Listing", "listings", "listings_in", "listings_of", "reference", "scene_files_in"),
-    "running": ("simulate",),
+    "finding": ("Listing", "listings", "listings_in", "listings_of", "reference"),
+    "running": ("Check", "check", "compare", "simulate"),
     "scene": ("Scene", "as_scene", "load", "parameters_of"),
 }
 

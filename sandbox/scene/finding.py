@@ -84,15 +84,12 @@ def listings() -> Iterator[Listing]:
 
 
 def listings_in(place: Path) -> Iterator[Listing]:
-    """The scenes with folders in ``place``, each followed by its presets; named by paths from there."""
+    """The scenes with folders in ``place``, each followed by its presets, named by paths from there; and the scene
+    files in it: TOML files that name their scene."""
     ours = (resources.PACKAGE, *map(resources.folder, ("template", "template_above")))  # in a checkout
     for folder in sorted(file.parent for file in place.glob("*/scene.py")):
         if folder.resolve() not in ours:
             yield from _listed(f"./{folder.name}", folder)
-
-
-def scene_files_in(place: Path) -> Iterator[Listing]:
-    """The scene files in ``place``: TOML files that name their scene."""
     for file in sorted(place.glob("*.toml")):
         try:
             if file.is_file() and file.stat().st_size <= LARGEST_FILE and "scene" in read_toml(file):

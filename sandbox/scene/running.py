@@ -1,11 +1,14 @@
-"""Running a scene."""
+"""Running a scene; and how accurate its result is: run again, finer, and from starts that differ by a nanometre."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from sandbox.errors import RunError
 from sandbox.scene.scene import Scene, as_scene
 
 if TYPE_CHECKING:
@@ -13,8 +16,21 @@ if TYPE_CHECKING:
     from sandbox.engine.run import Run
     from sandbox.engine.setup import Setup
 
-
 Progress = Callable[[float, float], None]
+
+#: How far in m every ball is moved for a nudged run, each in its own direction, and the number of such runs. Nobody
+#: places a ball to a nanometre.
+NUDGE, NUDGES = 1e-9, 8
+
+#: How far in m every ball is moved for the finer run: less than the method resolves (its contact skin), so that motion
+#: known in closed form is checked as well.
+_ROUNDING = 1e-11
+
+#: A number is chaotic where a nudge grows by this factor or more: a nanometre to a millimetre.
+_CHAOTIC = 1e6
+
+#: Angle in rad between the directions of successive nudges: the golden angle, which spreads them.
+_TURN = math.pi * (3.0 - math.sqrt(5.0))
 
 
 def simulate(scene: Scene | str | Path, progress: Progress | None = None) -> Run:
@@ -36,3 +52,104 @@ def simulate_at(scene: Scene, accuracy: Accuracy, setup: Setup | None = None, pr
     run.scene = scene
     run.result = scene.result(run)
     return run
+
+
+@dataclass(frozen=True)
+class Check:
+    """How accurate a result is, according to runs that should agree with it."""
+
+    finer: Run
+    errors: dict[str, float] = field(default_factory=dict)  # estimated, of each number in the result, in its unit
+    changed: dict[str, tuple[Any, Any]] = field(
+        default_factory=dict
+    )  # other results that differ: in the run, in the finer one
+    #: The most that each number changes if every ball starts a nanometre away, in its unit.
+    spread: dict[str, float] = field(default_factory=dict)
+    #: Other results that such nudges change, with the values in the runs that differ.
+    unsettled: dict[str, list[Any]] = field(default_factory=dict)
+    nudges: int = 0  # runs from nudged starts
+
+    @property
+    def chaotic(self) -> dict[str, float]:
+        """The numbers that a nudge of a nanometre changes by at least 1e6 times as much, and by how much."""
+        return {name: spread for name, spread in self.spread.items() if spread >= _CHAOTIC * NUDGE}
+
+
+def check(scene: Scene | str | Path, run: Run | None = None, progress: Progress | None = None) -> Check:
+    """Estimate the errors of the scene's result: run it again, finer and from nudged starts, and compare.
+
+    The error of a number is the largest difference to any of those runs. ``progress`` is called as by ``simulate``, in
+    each of them.
+    """
+    chosen = as_scene(scene)
+    run = run or simulate(chosen)
+    setup = nudged(chosen.build(), _ROUNDING, 0)
+    outcome = compare(run, simulate_at(chosen, run.accuracy.finer(), setup, progress))
+    spread: dict[str, float] = {}
+    unsettled: dict[str, list[Any]] = {}
+    for result in _nudged_results(chosen, run, progress):
+        apart, changed = _differences(run.result, result)
+        for name, difference in apart.items():
+            spread[name] = max(difference, spread.get(name, 0.0))
+        for name, (_, other) in changed.items():
+            unsettled.setdefault(name, []).append(other)
+    both = (outcome.errors, spread)
+    errors = {
+        name: max(part.get(name, 0.0) for part in both) for name in run.result if any(name in part for part in both)
+    }
+    return replace(outcome, errors=errors, spread=spread, unsettled=unsettled, nudges=NUDGES)
+
+
+def compare(run: Run, finer: Run) -> Check:
+    """The estimated errors of a run's result, compared with a finer run of the same scene."""
+    return Check(finer, *_differences(run.result, finer.result))
+
+
+def nudged(setup: Setup, distance: float, turn: int) -> Setup:
+    """The setup with every ball moved by ``distance`` (m), each in its own direction, which ``turn`` chooses."""
+    balls = []
+    for place, ball in enumerate(setup.balls):
+        angle = _TURN * (turn * len(setup.balls) + place + 1)
+        x, y = ball.position
+        position = (x + distance * math.cos(angle), y + distance * math.sin(angle))
+        balls.append(replace(ball, position=position))
+    return replace(setup, balls=balls)
+
+
+def _nudged_results(scene: Scene, run: Run, progress: Progress | None) -> Iterator[Mapping[str, Any]]:
+    """The results from nudged starts; for a run that fails, its error in place of each result."""
+    for turn in range(NUDGES):
+        try:
+            yield simulate_at(scene, run.accuracy, nudged(scene.build(), NUDGE, turn), progress).result
+        except RunError as error:
+            yield dict.fromkeys(run.result, f"no result: {error}")
+
+
+def _differences(
+    result: Mapping[str, Any], other: Mapping[str, Any]
+) -> tuple[dict[str, float], dict[str, tuple[Any, Any]]]:
+    """The differences between the numbers of two results, and what else differs."""
+    apart: dict[str, float] = {}
+    changed: dict[str, tuple[Any, Any]] = {}
+    for name, value in result.items():
+        form, numbers = _taken_apart(value)
+        other_form, other_numbers = _taken_apart(other.get(name))
+        if form != other_form:
+            changed[name] = value, other.get(name)
+        elif numbers:
+            apart[name] = max(abs(a - b) for a, b in zip(numbers, other_numbers, strict=True))
+    return apart, changed
+
+
+def _taken_apart(value: Any) -> tuple[Any, list[float]]:
+    """The form of a value with its numbers left out, and those numbers in order."""
+    if isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value):
+        return float, [float(value)]
+    if isinstance(value, Mapping):
+        items, forms = list(value.values()), list(value)
+    elif isinstance(value, list | tuple):
+        items, forms = list(value), []
+    else:
+        return value if value == value else None, []  # NaN counts as no result
+    parts = [_taken_apart(item) for item in items]
+    return [*forms, *(form for form, _ in parts)], [number for _, numbers in parts for number in numbers]

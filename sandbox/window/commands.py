@@ -16,7 +16,7 @@ from sandbox.picture.energy_chart import energy_chart
 from sandbox.picture.frames import save_png
 from sandbox.picture.graph import graph
 from sandbox.picture.palette import palette
-from sandbox.scene import listings, listings_in, scene_files_in
+from sandbox.scene import listings, listings_in
 from sandbox.scene.finding import folder_of, is_installed
 from sandbox.window import aim, export, replay
 from sandbox.window.find import Found, Question, find, questions
@@ -256,12 +256,12 @@ def _find_one(view: View, question: Question) -> None:
 
 def _menu(view: View, by: float) -> None:
     """All scenes, each with its presets; those opened last and the user's own come first."""
-    game, here = view.game, Path()
+    game = view.game
     groups: dict[str, list[Row]] = {}
     for item in listings():
         groups.setdefault(item.name.partition("/")[0], []).append(Row(item.name, item.name, "", item.about))
     known = {row.action: row for rows in groups.values() for row in rows}
-    own = [Row(item.name, item.name, "", item.about) for item in (*scene_files_in(here), *listings_in(here))]
+    own = [Row(item.name, item.name, "", item.about) for item in listings_in(Path())]
     opened = [known.get(source, Row(source, Path(source).name, "", source)) for source in game.memory.recent]
     groups = {**({"recent": opened} if opened else {}), **({"in this folder": own} if own else {}), **groups}
 

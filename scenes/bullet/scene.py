@@ -13,8 +13,11 @@ from dataclasses import replace
 from math import atan2, degrees
 from typing import Literal
 
+from sandbox.engine import simulate
+from sandbox.engine.accuracy import LEVELS
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball, Force, Segment, Setup, Surface, Touches
+from sandbox.errors import RequestError
 from sandbox.parameters import Group, SceneParameters, choice, group, quantity
 from sandbox.physics.ballistics import BulletDrag, speed_of_sound
 from sandbox.physics.elementwise import cos, sin
@@ -25,12 +28,13 @@ from sandbox.sport.controls import Controls, Handle, Spread
 from sandbox.sport.facts import ENDED, Fact
 from sandbox.sport.flight import DEGREE, Directed
 from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, Moment, apex, at, passing
-from sandbox.sport.zero import Sight, Zero, zeroed
 
 MUZZLE_SPEED = replace(BALL_SPEED, label="muzzle speed")
 HUNDRED_YARDS = 91.44  # m
 MOA = 60.0 * degrees(1.0)  # minutes of arc in 1 rad
 SIDES, HOLDS = ("low", "high"), ("under", "over")
+#: Nearer than this (m) is on the line of sight; so many secants find the angle if there is one.
+MET, SECANTS = 1e-9, 20
 
 
 class Muzzle(Directed):
@@ -59,6 +63,18 @@ class Bullet(Group):
         air, sound = weather.air, speed_of_sound(weather.temperature + 273.15)
         given = self.mass, self.drag.model, self.coefficient, air.density, sound, wind_in(air)
         return [BulletDrag(*given)] if air.density > 0.0 else []
+
+
+class Zero(Group):
+    """The distance at which the bullet crosses the line of sight on its way down."""
+
+    distance: float = quantity(..., "m", 0, 2000, "0: launch.angle counts instead")
+
+
+class Sight(Group):
+    """The sight."""
+
+    height: float = quantity(..., "m", 0, 0.5, "above the barrel")
 
 
 class Range(Group):
@@ -92,9 +108,7 @@ def build(parameters: Parameters) -> Setup:
     """The bullet, and the target in which the run ends."""
     bullet = parameters.bullet
     forces = [Gravity(bullet.mass, parameters.gravity), *bullet.drag_in(parameters.air)]
-    angle = parameters.launch.angle * DEGREE
-    if parameters.zero.distance > 0.0:
-        angle = zeroed(parameters.zero, lambda angle: _setup(parameters, forces, angle, parameters.zero.distance))
+    angle = zeroed(parameters, forces) if parameters.zero.distance > 0.0 else parameters.launch.angle * DEGREE
     return _setup(parameters, forces, angle, parameters.range.distance)
 
 
@@ -104,6 +118,26 @@ def _setup(parameters: Parameters, forces: Sequence[Force], angle: float, distan
     target = Surface("target", Segment((distance + bullet.radius, -5e3), (distance + bullet.radius, 5e3)), 0.0, 0.0)
     fired = [Ball("ball", bullet.mass, bullet.radius, start, velocity, forces=forces)]
     return Setup(fired, [target], 60.0, Touches("target"))
+
+
+def zeroed(parameters: Parameters, forces: Sequence[Force]) -> float:
+    """The angle in rad at which the bullet meets the line of sight where the sights are zeroed. Raises RequestError if
+    it does not get there."""
+    distance = parameters.zero.distance
+
+    def height(angle: float) -> float | None:
+        run = simulate(_setup(parameters, forces, angle, distance), LEVELS["precise"])
+        return run.state("ball", run.duration)[1] if run.ended == "until" else None
+
+    before, angle, miss = 0.0, 1e-3, height(0.0)
+    for _ in range(SECANTS):
+        missed = height(angle)
+        if missed is None or miss is None:
+            break
+        if abs(missed) < MET or missed == miss:
+            return angle
+        before, angle, miss = angle, angle - missed * (angle - before) / (missed - miss), missed
+    raise RequestError(f"zero.distance = {distance:g} m: the bullet does not get there")
 
 
 def at_distance(run: Run, distance: float) -> Moment | None:

@@ -85,11 +85,8 @@ CONTROLS = Controls(
     sliders=("launch.speed", "launch.angle", "launch.spin", "launch.nose", "goal.distance", "air.wind"),
     handles=(Handle("goal.distance", "goal.height", where="goal.present", goal=True),),
     scores="good",
-    spread=(
-        Spread("launch.speed", 0.01),
-        Spread("launch.angle", least=0.5),
-        Spread("launch.nose", least=3.0),
-    ),  # assumed
+    # assumed:
+    spread=(Spread("launch.speed", 0.01), Spread("launch.angle", least=0.5), Spread("launch.nose", least=3.0)),
     fan_fact="bounce",
     fan_shots=200,
 )
