@@ -23,7 +23,6 @@ from dataclasses import dataclass
 from functools import partial
 from itertools import takewhile
 from numbers import Real
-from operator import attrgetter
 from types import EllipsisType
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeVar, get_args, get_origin
 
@@ -277,6 +276,16 @@ def walk(parameters: Group, prefix: str = "", entries: bool = False) -> Iterator
             yield Parameter(each, number, unit, low, high, words_of(field.annotation), meaning, optional)
 
 
+def value_at(parameters: Any, key: str) -> Any:
+    """The value at a dotted key; None where there is none."""
+    for part in key.replace("[", ".").replace("]", "").split("."):
+        if isinstance(parameters, list | tuple):
+            parameters = parameters[int(part)] if int(part) < len(parameters) else None
+        else:
+            parameters = getattr(parameters, part, None)
+    return parameters
+
+
 def words_of(annotation: Any) -> tuple[Any, ...]:
     """The words that a field of this type may hold."""
     if get_origin(annotation) is Literal:
@@ -386,7 +395,7 @@ def without_indices(parameters: Group, changes: Mapping[str, Any], by: str = "ov
     """The same changes without indices in their keys: for ``air.wind[0]`` the whole list ``air.wind`` is given."""
     after = changed(parameters, changes, by)
     return {
-        key.partition("[")[0]: attrgetter(key.partition("[")[0])(after) if "[" in key else value
+        key.partition("[")[0]: value_at(after, key.partition("[")[0]) if "[" in key else value
         for key, value in changes.items()
     }
 

@@ -17,9 +17,11 @@ from sandbox.sport.readings import words_of
 from sandbox.text import csv_text, shortened
 
 if TYPE_CHECKING:
-    from sandbox.engine.event import Event
     from sandbox.engine.run import Run
     from sandbox.scene import Check, Scene
+
+#: What is told of an event in JSON.
+EVENT = ("t", "kind", "ball", "with", "speed", "x", "y")
 
 #: Events shown on a card; a ball that rolls through a rack has hundreds.
 EVENTS_SHOWN = 6
@@ -37,7 +39,7 @@ def as_json(scene: Scene, run: Run, check: Check | None = None, other: Run | Non
         **_outcome(scene, run),
         "accuracy": run.accuracy,
         "warnings": warnings(run),
-        "events": [_event(event) for event in run.events],
+        "events": [dict(zip(EVENT, event, strict=True)) for event in run.events],
         "numerics": run.numerics,
     }
     if other is not None:
@@ -68,10 +70,6 @@ def _outcome(scene: Scene, run: Run) -> dict[str, Any]:
         "ended": run.ended,
         "duration": run.duration,
     }
-
-
-def _event(event: Event) -> dict[str, Any]:
-    return dict(zip(("t", "kind", "ball", "with", "speed", "x", "y"), event, strict=True))
 
 
 def write_trajectory(run: Run, path: Path) -> None:

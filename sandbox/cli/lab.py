@@ -129,6 +129,7 @@ def sweep(
     from sandbox.files import check_file
     from sandbox.lab.axes import parse_axis
     from sandbox.lab.plan import Plan
+    from sandbox.lab.row_file import rows
     from sandbox.lab.sweep import jobs_that_pay, sweep_to_file, workers
     from sandbox.progress import bar
 
@@ -140,9 +141,11 @@ def sweep(
     if of is not None and plot is None and html is None:
         raise RequestError(f"--of {of}: goes with --plot or --html")
     if plot is not None:
+        from sandbox.lab.chart import check_chart
         from sandbox.lab.maps import check_plot
 
-        check_plot(plan, plot, of)
+        check_chart("--plot", plot)
+        check_plot(plan, of)
     if html is not None:
         from sandbox.files import check_installed
         from sandbox.page import sweep as page
@@ -156,12 +159,12 @@ def sweep(
         from sandbox.lab.maps import draw_sweep
 
         with writing("--plot", plot):
-            draw_sweep(plan, out, plot, of)
+            draw_sweep(plan, rows(out), plot, of)
     if html is not None:
         from sandbox.page.parts import save
 
         with writing("--html", html):
-            save(page.page_of(plan, out, of), html)
+            save(page.page_of(plan, rows(out), of), html)
     if str(out) != "/dev/stdout":
         new = out if done.points > done.resumed else None
         written = [f"wrote {path}" for path in (new, plot, html) if path is not None]

@@ -10,7 +10,7 @@ import numpy as np
 
 from sandbox import parameters as declared
 from sandbox.errors import RequestError
-from sandbox.parameters import Group, Quantity, SceneParameters, path_of
+from sandbox.parameters import Group, Quantity, SceneParameters, path_of, value_at
 from sandbox.scene import Scene
 from sandbox.toml import toml_value
 
@@ -109,18 +109,10 @@ def span(option: str, key: str, low: float, high: float) -> Span:
 
 def checked(scene: Scene, option: str, key: str, value: Any) -> Any:
     """The value that the scene's parameter takes for ``value``, in its declared unit. Raises RequestError."""
-    path = path_of(option, key)
-    found = at(declared.changed(scene.parameters, {key: value}, option), path)
+    found = value_at(declared.changed(scene.parameters, {key: value}, option), key)
     if isinstance(found, Group):
         raise RequestError(f"{option} {key}: is a group of parameters, not a parameter")
     return found
-
-
-def at(node: Any, path: Path) -> Any:
-    """The value at ``path``."""
-    for step in path:
-        node = node[step] if isinstance(step, int) else getattr(node, step)
-    return node
 
 
 def unit_of(scene: Scene, key: str) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -12,11 +12,11 @@ from typing import Any
 import numpy as np
 
 from sandbox.errors import RequestError
-from sandbox.lab.axes import Axis, Values, at, label, result_label
-from sandbox.lab.chart import PLATE, chart, check_chart, legend
+from sandbox.lab.axes import Axis, Values, label, result_label
+from sandbox.lab.chart import PLATE, chart, legend
 from sandbox.lab.plan import Plan
-from sandbox.lab.row_file import cell, rows
-from sandbox.parameters import path_of
+from sandbox.lab.row_file import cell
+from sandbox.parameters import value_at
 from sandbox.sport.amounts import significant
 from sandbox.text import no_such_result
 
@@ -42,6 +42,10 @@ _MOST_OUTLINED, _MOST_DOTS = 40_000, 60
 _MOST_CURVES, _MOST_COUNTS = 6, 12
 
 
+#: The cells of a row by column, as a file has them.
+Row = Mapping[str, str]
+
+
 @dataclass(frozen=True)
 class Found:
     """The columns that a chart needs: numbers, NaN where missing, or words."""
@@ -61,9 +65,8 @@ class Found:
         return bool(known.size and (known == np.round(known)).all() and np.ptp(known) <= _MOST_COUNTS)
 
 
-def check_plot(plan: Plan, path: Path, of: str | None) -> None:
+def check_plot(plan: Plan, of: str | None) -> None:
     """Raise RequestError, before any work is done, if the chart cannot be drawn."""
-    check_chart("--plot", path)
     if len(plan.axes) > 2:
         raise RequestError(f"--plot shows one or two parameters, not {len(plan.axes)}: {', '.join(plan.keys)}")
     if any(len(axis.values) < 2 for axis in plan.axes if isinstance(axis, Values)):
@@ -72,9 +75,9 @@ def check_plot(plan: Plan, path: Path, of: str | None) -> None:
         raise RequestError(f"--of {of}: {no_such_result(of, plan.columns[:-1])}")
 
 
-def draw_sweep(plan: Plan, file: Path, path: Path, of: str | None = None) -> None:
-    """A chart of the rows in ``file``; ``of`` names the column, by default the verdict or the first result."""
-    found = read(plan, file, of)
+def draw_sweep(plan: Plan, rows: Iterable[Row], path: Path, of: str | None = None) -> None:
+    """A chart of these rows; ``of`` names the column, by default the verdict or the first result."""
+    found = read(plan, rows, of)
     shots = f"{plan.samples:,} shots at random" if plan.samples else f"{plan.size:,} shots"
     about = f"{shots}; all other parameters as in the scene file"
     with chart(path, f"{plan.scene.title}: {found.label.partition(' (')[0]}", about) as (axes, colours):
@@ -100,14 +103,14 @@ def draw_sweep(plan: Plan, file: Path, path: Path, of: str | None = None) -> Non
 # ---------------------------------------------------------------------------------------------------------------------
 
 
-def read(plan: Plan, file: Path, of: str | None) -> Found:
+def read(plan: Plan, rows: Iterable[Row], of: str | None) -> Found:
     """The swept columns and the one to show. Raises RequestError if every point failed."""
     scene = plan.scene
     shown = of or ("verdict" if "verdict" in plan.asked else next(iter(plan.asked), "ended"))
     places: list[list[str]] = [[] for _ in plan.keys]
     texts: list[str] = []
     won: list[bool] = []
-    for row in rows(file):
+    for row in rows:
         for place, key in zip(places, plan.keys, strict=True):
             place.append(row[key])
         texts.append(row[shown] if not row["error"] else FAILED)
@@ -165,7 +168,7 @@ def own_place(plan: Plan) -> list[float] | None:
     """Positions of the scene's own values along the axes, if they lie on them."""
     own: list[float] = []
     for axis in plan.axes:
-        value = at(plan.scene.parameters, path_of("over", axis.key))
+        value = value_at(plan.scene.parameters, axis.key)
         if isinstance(axis, Values) and not has_numbers(axis):
             if value not in axis.values:
                 return None

@@ -203,11 +203,6 @@ def _rows(plan: Plan, start: int, stop: int) -> list[Record]:
     return rows
 
 
-def failed(plan: Plan, start: int, stop: int, why: str) -> list[Record]:
-    """Rows of points that could not be run at all."""
-    return [dict(zip(plan.keys, values, strict=True)) | {"error": why} for values in plan.points(start, stop)]
-
-
 def _record(keys: Sequence[str], values: Sequence[Any], run: Run | Exception) -> Record:
     row: Record = dict(zip(keys, values, strict=True))
     if isinstance(run, Exception):

@@ -3,7 +3,7 @@ or, if the scene is chaotic, the last moment before that shows."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import hypot
 
@@ -74,7 +74,8 @@ def converge(scene: Scene) -> Reference:
     other = simulate(until(nudged(scene.build(), NUDGE, 1), whole), REFERENCE)
     check = simulate(until(scene.build(), whole), _check(whole))
     time, diverges_at = whole, None
-    for t in _looks(first, whole):
+    looks = {whole * k / _LOOKS for k in range(_LOOKS + 1)} | {event.t for event in first.events if event.t <= whole}
+    for t in sorted(looks):
         here = places(first, t)
         if max(apart(here, places(run, t)) for run in (other, check)) > DIVERGED:
             diverges_at = t
@@ -106,11 +107,6 @@ def places(run: Run, t: float) -> list[Point]:
     return [(state[0], state[1]) for state in (run.state(ball.name, t) for ball in run.setup.balls)]
 
 
-def _looks(run: Run, whole: float) -> Iterator[float]:
-    times = {whole * k / _LOOKS for k in range(_LOOKS + 1)} | {event.t for event in run.events if event.t <= whole}
-    yield from sorted(times)
-
-
 def until(setup: Setup, time: float) -> Setup:
     """The same setup, ending only at ``time`` (s)."""
     return replace(setup, duration=time, until=None)
@@ -122,10 +118,6 @@ def _check(time: float) -> Accuracy:
 
 
 def _size(run: Run, time: float) -> float:
-    farthest = 0.0
-    for ball in run.setup.balls:
-        x0, y0 = run.state(ball.name, 0.0)[:2]
-        for arc in run.arcs[ball.name]:
-            x, y = run.state(ball.name, min(arc.t1, time))[:2]
-            farthest = max(farthest, hypot(x - x0, y - y0))
-    return farthest
+    starts = {ball.name: run.state(ball.name, 0.0) for ball in run.setup.balls}
+    ends = ((name, run.state(name, min(arc.t1, time))) for name in starts for arc in run.arcs[name])
+    return max((hypot(x - starts[name][0], y - starts[name][1]) for name, (x, y, *_) in ends), default=0.0)

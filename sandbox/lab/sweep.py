@@ -19,7 +19,7 @@ import numpy as np
 
 from sandbox.errors import RequestError, RunError, Stopped
 from sandbox.lab.axes import Values, as_axis
-from sandbox.lab.plan import Plan, Record, failed, records
+from sandbox.lab.plan import Plan, Record, records
 from sandbox.lab.row_file import RowFile
 from sandbox.lab.runs import Progress, silent
 from sandbox.scene import Scene, as_scene
@@ -224,7 +224,8 @@ class RowsInOrder:
         self._pool = pool
         self._progress = progress
         self._payload = pickle.dumps((_HERE, plan.provenance, pickle.dumps(plan)))
-        self._pace = _Pace(plan, pool.width)
+        self._points = plan.block  # in a call: whole blocks that take about CALL s
+        self._most = max(plan.block, min(_MOST, -(-plan.size // (_QUEUED * pool.width))))
         self._waiting: deque[tuple[int, int, Call]] = deque()
         self._following = first
         self._reached = first
@@ -247,7 +248,7 @@ class RowsInOrder:
         plan = self._plan
         while self._following < plan.size and len(self._waiting) < _QUEUED * self._pool.width:
             start = self._following
-            stop = min(plan.size, start - start % plan.block + self._pace.points)
+            stop = min(plan.size, start - start % plan.block + self._points)
             self._waiting.append((start, stop, self._submit(start, stop)))
             self._following = stop
 
@@ -258,7 +259,8 @@ class RowsInOrder:
         self._reached = start + len(rows)
         if self._reached < stop:
             self._waiting.appendleft((self._reached, stop, self._submit(self._reached, stop)))
-        self._pace.note(len(rows), seconds)
+        fitting = int(min(len(rows) * CALL / max(seconds, 1e-6), 4 * self._points, self._most))
+        self._points = max(self._plan.block, fitting - fitting % self._plan.block)
         self._progress(self._reached, self._plan.size)
         return rows
 
@@ -276,26 +278,13 @@ class RowsInOrder:
                 call = self._submit(start, stop, alone)
         if stop - start == 1:
             why = f"the process that ran it was killed {_TRIES} times: out of memory?"
-            return failed(self._plan, start, stop, why), 0.0
+            (values,) = self._plan.points(start, stop)
+            return [dict(zip(self._plan.keys, values, strict=True)) | {"error": why}], 0.0
         rows: list[Record] = []
         for number in range(start, stop):
             one = self._submit(number, number + 1, alone=True)
             rows += self._result(number, number + 1, one, alone=True)[0]
         return rows, 0.0
-
-
-class _Pace:
-    """Number of points per call: whole blocks that take about ``CALL`` s."""
-
-    def __init__(self, plan: Plan, width: int) -> None:
-        self._block = plan.block
-        self._most = max(self._block, min(_MOST, -(-plan.size // (_QUEUED * width))))
-        self.points = self._block
-
-    def note(self, points: int, seconds: float) -> None:
-        """Record the number of points of a call and its time."""
-        fitting = int(min(points * CALL / max(seconds, 1e-6), 4 * self.points, self._most))
-        self.points = max(self._block, fitting - fitting % self._block)
 
 
 def _computed(payload: bytes, start: int, stop: int, alone: bool = False) -> tuple[list[Record], float]:

@@ -133,19 +133,21 @@ def aim_html(aim: Aim) -> str:
 
 def sweep_plot(sweep: Sweep, path: Path | str | None, of: str | None) -> Image.Image | None:
     """The chart of a sweep: written to ``path``, or handed back; ``of`` names the result."""
+    from sandbox.lab.chart import check_chart
     from sandbox.lab.maps import check_plot, draw_sweep
-    from sandbox.lab.row_file import RowFile
+    from sandbox.lab.row_file import cell
 
-    with tempfile.TemporaryDirectory() as folder:
-        rows, drawn = Path(folder, "rows.csv"), Path(folder, "chart.png")
-        check_plot(sweep.plan, drawn if path is None else Path(path), of)
-        with RowFile(rows, sweep.plan) as file:
-            file.append(sweep.records)
-            file.finish()
-        if path is not None:
-            draw_sweep(sweep.plan, rows, Path(path), of)
-            return None
-        return _drawn(lambda chart: draw_sweep(sweep.plan, rows, chart, of))
+    check_plot(sweep.plan, of)
+    rows = [{name: cell(record.get(name)) for name in sweep.plan.columns} for record in sweep.records]
+
+    def draw(file: Path) -> None:
+        check_chart("--plot", file)
+        draw_sweep(sweep.plan, rows, file, of)
+
+    if path is None:
+        return _drawn(draw)
+    draw(Path(path))
+    return None
 
 
 def _drawn(draw: Callable[[Path], None]) -> Image.Image:

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from itertools import accumulate
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -13,8 +12,8 @@ import numpy as np
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Circle, Segment
 from sandbox.errors import RequestError
-from sandbox.lab.axes import Values, label
-from sandbox.lab.maps import Found, coded, has_numbers, own_place, read
+from sandbox.lab.axes import Values, label, unit_of
+from sandbox.lab.maps import Found, Row, coded, has_numbers, own_place, read
 from sandbox.lab.plan import Plan
 from sandbox.lab.row_file import cell
 from sandbox.lab.runs import runs
@@ -38,9 +37,9 @@ def check_page(plan: Plan) -> None:
         raise RequestError(f"--html: {plan.size:,} points are too many for a page; the limit is {MOST_POINTS:,}")
 
 
-def page_of(plan: Plan, file: Path, of: str | None = None) -> str:
-    """The page of the rows in ``file``; ``of`` names the column, by default the verdict or the first result."""
-    found = read(plan, file, of)
+def page_of(plan: Plan, rows: Iterable[Row], of: str | None = None) -> str:
+    """The page of these rows; ``of`` names the column, by default the verdict or the first result."""
+    found = read(plan, rows, of)
     scene, swept = plan.scene, list(plan.points(0, plan.size))
     done = list(runs(scene, plan.keys, swept, asked=plan.asked))
     palette_, codes, legend = _coloured(found)
@@ -142,21 +141,17 @@ def _own(plan: Plan, found: Found) -> int | None:
 
 def _said(plan: Plan, done: Sequence[Run | Exception], swept: Sequence[Sequence[Any]]) -> list[dict[str, Any]]:
     """What is said of each point: its parameters, and the facts of its run, or why it failed."""
-    columns = [
-        {"label": axis.key, "texts": [_shown(point[i], label(plan.scene, axis.key)) for point in swept]}
-        for i, axis in enumerate(plan.axes)
-    ]
+    columns = []
+    for key, values in zip(plan.keys, zip(*swept, strict=True), strict=True):
+        unit = unit_of(plan.scene, key)
+        texts = [amount(value, unit) if isinstance(value, float) else cell(value) for value in values]
+        columns.append({"label": key, "texts": texts})
     for key, fact in plan.scene.facts.items():
         if fact.label or key == "verdict":
             texts = [fact.text(run.result.get(key)) if isinstance(run, Run) else "" for run in done]
             columns.append({"label": fact.label or key, "texts": texts})
     errors = ["" if isinstance(run, Run) else str(run) for run in done]
     return [*columns, {"label": "failed", "texts": errors}]
-
-
-def _shown(value: Any, name: str) -> str:
-    unit = name.rpartition(" (")[2].rstrip(")") if name.endswith(")") else ""
-    return amount(value, unit) if isinstance(value, float) else cell(value)
 
 
 def _paths(done: Sequence[Run | Exception]) -> dict[str, Any]:

@@ -7,11 +7,10 @@ from dataclasses import dataclass
 from math import inf
 from typing import Any
 
-from sandbox.parameters import Group
+from sandbox.parameters import Group, value_at
 from sandbox.sport.amounts import amount
 from sandbox.sport.controls import Handle
 from sandbox.window.session import Session
-from sandbox.window.shots import value_at
 
 #: What every scene with air has.
 WIND = Handle("air.wind[0]", "air.wind[1]")

@@ -13,7 +13,7 @@ from sandbox.sport.controls import Controls
 from sandbox.text import command_line
 from sandbox.window.background import Once
 from sandbox.window.history import Changes
-from sandbox.window.shots import Shot, place_of, value_at
+from sandbox.window.shots import Shot, place_of
 
 #: Files are checked so often, in s.
 EVERY = 0.2
@@ -101,11 +101,11 @@ class Session:
 
     def value(self, key: str) -> Any:
         """The current value of a parameter; None for a key that the scene does not have."""
-        return value_at(self.scene.parameters, key)
+        return declared.value_at(self.scene.parameters, key)
 
     def base_value(self, key: str) -> Any:
         """The value of a parameter in the scene file."""
-        return value_at(self.base.parameters, key)
+        return declared.value_at(self.base.parameters, key)
 
     @property
     def parameters(self) -> dict[str, declared.Parameter]:

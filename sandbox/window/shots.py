@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from sandbox.files import written_whole
+from sandbox.parameters import value_at
 from sandbox.physics.forces import Gravity
 from sandbox.picture.path import moves, points
 from sandbox.scene import Scene
@@ -26,16 +27,6 @@ if TYPE_CHECKING:
 PATHS, MOST = 20, 5000
 #: Of a standard normal: 95 % lie within.
 Z = 1.96
-
-
-def value_at(parameters: Any, key: str) -> Any:
-    """The value at a dotted key; None where there is none."""
-    for part in key.replace("[", ".").replace("]", "").split("."):
-        if isinstance(parameters, list | tuple):
-            parameters = parameters[int(part)] if int(part) < len(parameters) else None
-        else:
-            parameters = getattr(parameters, part, None)
-    return parameters
 
 
 def without(scene: Scene, keys: Iterable[str]) -> tuple[Any, ...]:

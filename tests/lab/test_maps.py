@@ -11,7 +11,7 @@ from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
 from PIL import Image
 
-from sandbox.lab import maps
+from sandbox.lab import maps, row_file
 from sandbox.lab.axes import parse_axis
 from sandbox.lab.plan import Plan
 from sandbox.lab.sweep import sweep_to_file, workers
@@ -41,7 +41,7 @@ def test_a_picture_of_one_word_keeps_clear_of_the_edges(tmp_path: Path):
     plan, rows, plot = plan_of("basketball", "launch.angle=50:55:5"), tmp_path / "x.csv", tmp_path / "x.png"
     with workers(1) as pool:
         sweep_to_file(plan, rows, pool)
-    maps.draw_sweep(plan, rows, plot, "ended")
+    maps.draw_sweep(plan, row_file.rows(rows), plot, "ended")
     with Image.open(plot) as picture:
         inked = np.asarray(picture.convert("RGB")).min(axis=2) < 250
     across, down = (np.flatnonzero(inked.any(axis=axis)) for axis in (0, 1))
@@ -56,7 +56,7 @@ def axes_of(tmp_path: Path, of: str, *over: str) -> Axes:
         sweep_to_file(plan, rows, pool)
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr(Figure, "savefig", lambda figure, *args, **kwargs: shown.append(figure.axes[0]))
-        maps.draw_sweep(plan, rows, tmp_path / "x.png", of)
+        maps.draw_sweep(plan, row_file.rows(rows), tmp_path / "x.png", of)
     (axes,) = shown
     return axes
 
@@ -103,7 +103,7 @@ def written(name: str, *cells: str) -> str:
 def test_sets_of_balls_are_counted_whatever_their_order(tmp_path: Path, name: str, cells: tuple[str, ...], words):
     file = tmp_path / "x.csv"
     file.write_text(written(name, *cells))
-    found = maps.read(plan_of("billiards", "cue.angle=0:2:3"), file, name)
+    found = maps.read(plan_of("billiards", "cue.angle=0:2:3"), row_file.rows(file), name)
     assert found.numbers is None
     assert found.words == words
     assert found.good == {word for word in words if "6" in word}
