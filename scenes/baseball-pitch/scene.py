@@ -15,7 +15,7 @@ from sandbox.sport.facts import ENDED, Fact
 from sandbox.sport.readings import LAUNCH, at, passing_at
 from sandbox.sport.solids import level
 
-from ..baseball.ball import BaseballFlight
+from ..baseball.scene import BaseballFlight
 
 MITT = 1.2  # m, behind the front of the plate
 

@@ -12,16 +12,44 @@ from dataclasses import replace
 from typing import Literal
 
 from sandbox.engine.run import Run
-from sandbox.engine.setup import Setup, Surface, Touches
+from sandbox.engine.setup import SOLID_SPHERE, Setup, Surface, Touches
 from sandbox.parameters import Group, choice, group, quantity
+from sandbox.physics.coefficients import BASEBALL_LIFT, Coefficient, NathanDrag
+from sandbox.sport.air import Air, Model, Weather
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spin
 from sandbox.sport.facts import ENDED, Fact
+from sandbox.sport.flight import RPM, Flight, Release, Sphere
 from sandbox.sport.readings import APEX, DISTANCE, FLIGHT_TIME, LANDING_ANGLE, LAUNCH, at, passing_at
 from sandbox.sport.solids import level
 from sandbox.sport.swing import Bat, struck_by
 
-from .ball import BaseballFlight
+
+class BaseballDrag(Model):
+    """Drag that grows with the spin."""
+
+    model: Literal["nathan"] = choice(..., "coefficient by its source")
+
+    def coefficient_in(self, air: Air, radius: float) -> Coefficient:
+        return NathanDrag(air.viscosity / (2.0 * radius**2 * air.density * RPM))
+
+
+class Baseball(Sphere, drag=BaseballDrag, lift=BASEBALL_LIFT):
+    """The ball."""
+
+    INERTIA = SOLID_SPHERE
+    spin_decay: float = quantity(..., "", 0, 0.01, "k of dw/dt = -k |u| w / r")
+
+    def decay_in(self, air: Air) -> float:
+        return self.spin_decay
+
+
+class BaseballFlight(Flight):
+    """Parameters of a baseball in the air; x = 0 is the plate of a hit, and the hand of a pitch."""
+
+    release: Release = group(..., "where the ball leaves bat or hand")
+    air: Weather = group(..., "the air")
+    ball: Baseball = group(..., "the ball")
 
 
 class Fence(Group):

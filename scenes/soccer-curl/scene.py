@@ -26,7 +26,7 @@ from sandbox.sport.facts import ENDED, Fact, once
 from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, LAUNCH_SPIN, Moment, at, first_touch, passing
 from sandbox.sport.solids import Extent, Solid, check_apart, disc, rectangle
 
-from ..soccer.kick import SPREAD, Goal, SoccerBall, Wall
+from ..soccer.scene import SPREAD, Goal, SoccerBall, Wall
 
 
 class Launch(flight.Launch):
