@@ -1,9 +1,9 @@
 """Integrators as data: the weights of each method, with its order and its source.
 
 The state of a ball is ``(x, y, vx, vy, spin)`` in m, m/s, rad/s; that of a body has its angle in rad, too. An
-acceleration is ``(ax, ay, alpha)`` in m/s^2 and rad/s^2. Components are floats, or arrays of shape (n,) when many shots
-fly at once; ``dt`` may be an array then too. The acceleration at the start of a step is passed in, since interpolation
-between steps needs it anyway.
+acceleration is ``(ax, ay, alpha)`` in m/s^2 and rad/s^2. Components are floats; or rows of an array, shape (5, n) and
+(3, n), when many shots fly at once, and ``dt`` has shape (n,) then. The acceleration at the start of a step is passed
+in, since interpolation between steps needs it anyway.
 """
 
 from __future__ import annotations
@@ -78,6 +78,27 @@ class Integrator(NamedTuple):
         """One step of a ball under a law; or of a body, which ``turns``."""
         method: Method = self.written(CALLED, turns)(law)
         return method
+
+    def step_of_many(self, law: Law) -> Method:
+        """One step of many balls at once, whose states are an array. A ball's step does not depend on the others."""
+        import numpy as np  # here, not above: single runs do not need it
+
+        def step(t: Any, state: Any, acceleration: Any, dt: Any) -> Any:
+            rates = np.empty((len(self.stages) + 1, *state.shape))  # vx, vy, ax, ay and alpha in each stage
+            rates[0, :2], rates[0, 2:] = state[2:4], acceleration
+
+            def grown(weights: tuple[float, ...], some: slice) -> Any:
+                return dt * np.einsum("s,scn->cn", weights, rates[: len(weights), some])
+
+            for number, stage in enumerate(self.stages, 1):
+                end = state + grown(stage.weights, slice(None))
+                rates[number, :2] = end[2:4]
+                if stage.of_velocities:
+                    end[:2] = state[:2] + grown(stage.of_velocities, slice(2))
+                rates[number, 2:] = law(t + stage.time * dt, end)
+            return end, rates[-1, 2:], grown(self.error, slice(None)) if self.error else None
+
+        return step
 
     def written(self, law: Written, turns: bool = False) -> Callable[..., Method]:
         """What makes one step under a law that is written out, from what the law needs."""

@@ -76,12 +76,16 @@ def test_counts_its_evaluations(name):
 @pytest.mark.parametrize("name", METHODS)
 def test_many_shots_at_once_are_the_same_as_one_by_one(name):
     speeds = [1.0, 2.5, 4.0]
-    state = (np.zeros(3), np.zeros(3), np.array(speeds), np.zeros(3), np.ones(3))
-    together, _, _ = METHODS[name].step_of(drag_alone)(0.0, state, drag_alone(0.0, state), np.array([0.01, 0.02, 0.03]))
-    for k, (speed, dt) in enumerate(zip(speeds, (0.01, 0.02, 0.03), strict=True)):
-        state = (0.0, 0.0, speed, 0.0, 1.0)
-        alone = METHODS[name].step_of(drag_alone)(0.0, state, drag_alone(0.0, state), dt)[0]
-        assert [float(component[k]) for component in together] == list(alone)
+    state, dt = np.array([[1.0] * 3, [-0.5] * 3, speeds, [0.3] * 3, [-2.0] * 3]), np.array([0.01, 0.02, 0.03])
+    end, last, error = METHODS[name].step_of_many(turning)(0.1, state, np.array(turning(0.1, state)), dt)
+    for k in range(3):
+        start = tuple(state[:, k].tolist())
+        alone = METHODS[name].step_of(turning)(0.1, start, turning(0.1, start), float(dt[k]))
+        assert (end[:, k].tolist(), last[:, k].tolist()) == (
+            pytest.approx(alone[0], rel=1e-15),
+            pytest.approx(alone[1], rel=1e-14),
+        )
+        assert error is alone[2] is None or error[:, k].tolist() == pytest.approx(alone[2], rel=1e-9, abs=1e-17)
 
 
 @pytest.mark.parametrize("name", METHODS)
