@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 
 from sandbox.engine.arc import Arc
-from sandbox.engine.bernstein import downward_crossings, elevate, until
+from sandbox.engine.bernstein import downward_crossings, elevate
 from sandbox.engine.bernstein_many import downward_crossings as crossings_of_many
-from sandbox.engine.bernstein_many import evaluate
+from sandbox.engine.bernstein_many import evaluate, until
 from sandbox.engine.path import Curve, Passage, Path, climb, height
 
 #: Positions of an arc's parts in its row: times, state at the start, curves, state at the end, number of the contact.
@@ -23,6 +23,11 @@ CURVES = X, Y, VX, VY, SPIN = slice(7, 13), slice(13, 19), slice(19, 24), slice(
 END = slice(33, 38)
 CONTACT = END.stop
 COLUMNS = CONTACT + 1
+
+#: Positions of the coefficients, a column for each curve, and whether there is one: of x and y there are most.
+_COEFFICIENTS = np.add.outer(np.arange(X.stop - X.start), [curve.start for curve in CURVES])
+_HELD = np.less(_COEFFICIENTS, [curve.stop for curve in CURVES])
+_OF_CURVES = _COEFFICIENTS[_HELD]
 
 
 class Paths:
@@ -131,9 +136,7 @@ class ArcRows(Path):
 def cut(rows: np.ndarray, t: np.ndarray, u: np.ndarray) -> np.ndarray:
     """Arcs as columns that end at t (s), where their parameter is u."""
     rows[T1] = t
-    for first, last in ((X, Y), (VX, VY), (SPIN, SPIN)):  # of the same degree
-        curves = rows[first.start : last.stop].reshape(-1, first.stop - first.start, len(u)).swapaxes(0, 1)
-        curves[...] = until(list(curves), u)
+    rows[_OF_CURVES] = until(rows[_COEFFICIENTS], u)[_HELD]
     rows[END] = rows[[curve.stop - 1 for curve in CURVES]]
     return rows
 

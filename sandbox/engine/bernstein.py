@@ -30,9 +30,9 @@ def evaluate(b: Sequence[float], u: float) -> float:
     return value
 
 
-def until(b: Sequence[Any], u: Any) -> list[Any]:
-    """Coefficients on [0, u], by de Casteljau; of one polynomial, or of many with arrays as coefficients."""
-    left: list[Any] = _written_out("until", len(b))(b, u)
+def until(b: Sequence[float], u: float) -> list[float]:
+    """Coefficients on [0, u], by de Casteljau."""
+    left: list[float] = _written_out("until", len(b))(b, u)
     return left
 
 

@@ -52,6 +52,16 @@ def _elevation(n: int, degree: int) -> np.ndarray:
     return np.array([elevate(one, degree) for one in np.eye(n + 1).tolist()]).T
 
 
+def until(b: np.ndarray, u: np.ndarray) -> np.ndarray:
+    """Coefficients on [0, u], by de Casteljau. A polynomial of a lower degree may come first in a longer column."""
+    part, rest = b.copy(), 1.0 - u
+    for level in range(1, len(b)):
+        before = rest * part[level - 1 : -1]
+        part[level:] *= u
+        part[level:] += before
+    return part
+
+
 def first_downward_crossing(b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The u in [0, 1] where each f first goes from positive to negative, inf where none does; and a mask of
     those that are unclear. ``b`` has shape (degree + 1, paths); both arrays have shape (paths,)."""

@@ -101,23 +101,23 @@ def allowed(setup: Setup, t: Any, h: Any, state: State, acceleration: Accelerati
         h = choose((room > _AT_BREAK) & (room < h), room, h)
     (x, y, vx, vy), (ax, ay, _) = state[:4], acceleration
     for patch in setup.patches:
-        half = 0.5 * h  # control points of the predicted parabola
-        near = patch.crossed((x, x + half * vx, x + h * (vx + half * ax)), (y, y + half * vy, y + h * (vy + half * ay)))
+        whole, half = h, 0.5 * h
+        end_x, end_y = x + h * (vx + half * ax), y + h * (vy + half * ay)
+        near = patch.crossed((x, x + half * vx, end_x), (y, y + half * vy, end_y))  # points of the predicted parabola
         if not anywhere(near):
             continue
-        width, height = patch.right - patch.left, patch.top - patch.bottom
-        for line, across, place, speed, change in (
-            (patch.left, width, x, vx, ax),
-            (patch.right, width, x, vx, ax),
-            (patch.bottom, height, y, vy, ay),
-            (patch.top, height, y, vy, ay),
+        for place, end, speed, change, *lines in (
+            (x, end_x, vx, ax, patch.left, patch.right),
+            (y, end_y, vy, ay, patch.bottom, patch.top),
         ):
-            turns = speed * (speed + h * change) < 0.0
-            passes = near & (turns | ((place < line) ^ (place + h * (speed + 0.5 * h * change) < line)))
-            if anywhere(passes):
-                time = clip(across / (abs(speed) + _TINY), _THINNEST * patch.step, patch.step)
-                reached = _gone(line - place, speed, change, _AT_BORDER * time)
-                h = choose(passes & (reached < h), reached, h)
+            turns = speed * (speed + whole * change) < 0.0
+            for line in lines:
+                passes = near & (turns | ((place < line) ^ (end < line)))
+                if anywhere(passes):
+                    across = (lines[1] - lines[0]) / (abs(speed) + _TINY)
+                    soonest = _AT_BORDER * clip(across, _THINNEST * patch.step, patch.step)
+                    reached = _gone(line - place, speed, change, soonest)
+                    h = choose(passes & (reached < h), reached, h)
         half = 0.5 * h
         inside = patch.holds(x + half * (vx + 0.5 * half * ax), y + half * (vy + 0.5 * half * ay))
         h = choose(near & inside & (h > patch.step), patch.step, h)

@@ -12,7 +12,7 @@ from sandbox.lab.aim.question import Interval, Solution
 from sandbox.lab.aim.shots import Shots, scan
 
 #: Runs between the known points in the first refinement of an end, where there may be several, and in later ones.
-FIRST, _LATER = 5, 3
+FIRST, _LATER = 4, 3
 
 #: The accuracy of ends, and the distance within which finer runs look for an end that they do not see within this
 #: accuracy, both as fractions of the range.
