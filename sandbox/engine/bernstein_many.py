@@ -126,7 +126,9 @@ def _single_root(b: np.ndarray) -> np.ndarray:
         return np.zeros(0)
     low, high = np.zeros(paths), np.ones(paths)
     both = (_value_and_slope(n) @ b).reshape(2, n + 1, paths)
-    u = b[0] / (b[0] - b[-1])
+    falls = (b > 0.0).argmin(axis=0)  # the first coefficient below zero: the control polygon falls just before
+    above, below = b[falls - 1, np.arange(paths)], b[falls, np.arange(paths)]
+    u = (falls - below / (below - above)) / n
     near = np.zeros(paths, dtype=bool)
     for _ in range(_MOST_STEPS):
         value, fall = (both * _powers(u, n)).sum(axis=1)
