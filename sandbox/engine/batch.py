@@ -375,6 +375,7 @@ class Batch:
         t = t0 + u * (rows[T1] - t0)
         hits = np.flatnonzero(t <= rows[T1])
         if len(hits):
+            self._wanted[lanes[hits]] = np.minimum(self._wanted[lanes[hits]], rows[T1, hits] - t0[hits])
             rows[:, hits] = cut(rows[:, hits], t[hits], u[hits])
             changes[hits] = np.inf
         self._paths.append((shots, rows))

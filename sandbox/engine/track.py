@@ -90,7 +90,10 @@ class Track:
         return "" if self.contact is None else self.contact.obstacle.surface.name
 
     def arrive(self, t: float, state: State) -> None:
-        """It has moved on its arc up to t, and is in this state there."""
+        """It has moved on its arc up to t, and is in this state there. After an event on its way the next step is no
+        longer than the one that it cut: an impact changes how long a step may be, and every fourth was refused."""
+        if t < self.arc.t1:
+            self.next_step = min(self.next_step, self.arc.t1 - self.arc.t0)
         self._keep(t)
         self.state = state
 

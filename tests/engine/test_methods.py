@@ -181,3 +181,14 @@ def test_trade_measures_it(monkeypatch: pytest.MonkeyPatch):
         assert coarse.error_m is not None
         assert fine.error_m is not None
         assert fine.error_m < coarse.error_m
+
+
+def test_no_step_after_an_impact_is_longer_than_the_one_that_it_cut():
+    for number in range(30):
+        setup = replace(tossed(number), duration=3.0)
+        bounced = simulate(setup, resolve())
+        t = bounced.events[0].t
+        cut = simulate(replace(setup, surfaces=[]), resolve()).arcs["ball"].at(t)
+        after = bounced.arcs["ball"].at(t)
+        assert after.t0 == t
+        assert after.t1 - after.t0 <= (cut.t1 - cut.t0) * (1.0 + 1e-12)
