@@ -21,6 +21,7 @@ from collections.abc import Callable
 from functools import partial
 from math import hypot, inf
 from statistics import median
+from time import thread_time
 from timeit import timeit
 from typing import Any, NamedTuple
 
@@ -121,7 +122,7 @@ def limits(shot: Shot, reference: Run) -> list[tuple[float, int]]:
 def seconds_per_evaluation(shot: Shot) -> float:
     ball = shot.setup.balls[0]
     state = (*ball.velocity, ball.spin)
-    return min(timeit(lambda: shot.law(*state), number=20_000) / 20_000 for _ in range(5))
+    return min(timeit(lambda: shot.law(*state), number=20_000, timer=thread_time) / 20_000 for _ in range(5))
 
 
 def compare(case: Case, repeats: int) -> list[dict[str, Any]]:

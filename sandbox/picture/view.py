@@ -530,7 +530,7 @@ class View(Generic[P]):
             if t > 0 and any(near):
                 painter.disc(at, bead + max(0.7, 0.8 * self.unit), RIM, 0.8)
                 painter.disc(at, bead, look.colour)
-                crowded = True
+                crowded |= dist(at, end) > radius - bead  # where the last ball does not hide it
             else:
                 look.draw(painter, at, radius, self.turn(self.ball, t), self.unit)
                 last = at

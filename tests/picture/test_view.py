@@ -50,12 +50,14 @@ def test_a_ball_or_a_bead_is_drawn_at_every_even_time(name: str, monkeypatch: py
         assert min(dist(at, place) for place in drawn) < 4.0, f"no ball at {t:g} s"
 
 
-def test_beads_are_said_where_there_are_any():
-    rolling, flying = picture_of("golf/golf-game"), picture_of("soccer/dipping-free-kick")
-    for picture in (rolling, flying):
-        picture.poster()
-    assert "a bead where balls would overlap" in written(rolling)
-    assert "a bead" not in written(flying)
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [("golf/golf-game", True), ("soccer/dipping-free-kick", False), ("tennis/clay", False)],  # behind the last ball
+)
+def test_beads_are_said_where_they_are_seen(name: str, said: bool):
+    picture = picture_of(name)
+    picture.poster()
+    assert ("a bead where balls would overlap" in written(picture)) == said
 
 
 @pytest.mark.parametrize("name", ["golf", "golf/topped", "soccer", "basketball"])
