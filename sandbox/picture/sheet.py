@@ -122,7 +122,8 @@ class Sheet:
 
     def card_row(self, others: int = 0) -> int:
         """Where the card along the bottom begins, in px, with so many rows of other values."""
-        return self.frame.bottom - self.card_height(others)
+        tall = self.lettering.height("small") + (1 + others) * self.lettering.height("medium") + 4 * self.gap
+        return self.frame.bottom - tall
 
     def side_rows(self, others: int, lengths: int) -> SideRows:
         """The rows of a picture from the side with so many rows of other values on its card, and of ``lengths``."""
@@ -198,10 +199,6 @@ class Sheet:
             self.write(value, "medium", (x, middle), colour, "topleft", bold=True)
             for down, (colour, row) in enumerate(rows, 1):
                 self.write(row.get(label, "–"), "medium", (x, middle + down * tall), colour, "topleft", bold=True)
-
-    def card_height(self, others: int = 0) -> int:
-        """Height of the card that ``columns`` draws, in px, with so many rows of other values."""
-        return self.lettering.height("small") + (1 + others) * self.lettering.height("medium") + 4 * self.gap
 
     def ruler_heights(self) -> tuple[int, int]:
         """What the ruler takes above and below its line, in px."""

@@ -169,17 +169,19 @@ class View(Generic[P]):
 
     def live(self, t: float) -> list[Entry]:
         """What a frame's card says at time t in s; a ball that was caught does nothing any more."""
-        _, _, vx, vy, spin = self.run.state(self.ball, t)
-        speed = hypot(vx, vy)
-        does: list[Entry] = [
-            ("speed", amount(speed, "m/s")),
-            ("direction", self.heading_text(degrees(atan2(vy, vx))) if speed > 0.01 else "–"),
-            *self.vectors.entries(t),
-            ("side spin" if self.rolls(self.ball) else "spin", self.spin_text(spin)),
-        ]
+        speed, way, spin = self.moving(self.ball, t)
+        does = [speed, way, *self.vectors.entries(t), spin]
         if self.ball not in self.present(t):
             does = [(label, "–") for label, *_ in does]
         return [("time", self.clock(t)), *self.position(t), *does]
+
+    def moving(self, name: str, t: float) -> list[Entry]:
+        """Speed, direction and spin of a ball at time t in s."""
+        _, _, vx, vy, spin = self.run.state(name, t)
+        speed = hypot(vx, vy)
+        way = self.heading_text(degrees(atan2(vy, vx))) if speed > 0.01 else "–"
+        turning = "side spin" if self.rolls(name) else "spin"
+        return [("speed", amount(speed, "m/s")), ("direction", way), (turning, self.spin_text(spin))]
 
     def heading_text(self, angle: float) -> str:
         """A direction in deg, counter-clockwise from straight ahead, for people."""

@@ -121,10 +121,10 @@ def forces_in_flight(ball: Sphere, air: Air, gravity: float = 0.0, lift_share: f
     return forces
 
 
-def height_on(surfaces: Sequence[Surface], radius: float, x: float = 0.0, above: float = 0.0) -> float:
-    """Height in m of the centre of a ball that lies on surfaces at x, found from ``above`` m down to 1e-12 m."""
+def height_on(surfaces: Sequence[Surface], radius: float, above: float) -> float:
+    """Height in m of the centre of a ball that lies on surfaces at x = 0, found from ``above`` m down to 1e-12 m."""
     obstacles, y = [Obstacle(surface, radius) for surface in surfaces], above + radius
-    while (gap := min(obstacle.near(x, y).gap for obstacle in obstacles)) > 1e-12:
+    while (gap := min(obstacle.near(0.0, y).gap for obstacle in obstacles)) > 1e-12:
         y -= gap  # it cannot have reached anything on that way
     return y
 

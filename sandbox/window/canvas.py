@@ -32,7 +32,7 @@ class Canvas(Sheet):
         room = self.frame.width - 6 * self.gap
         ended = [self.ended(entry[1], "medium", room, bold=True) for entry in entries]
         shown = [e if text == e[1] else (e[0], text) for e, text in zip(entries, ended, strict=True)]
-        self.columns(self.frame.bottom - self.card_height(), shown)
+        self.columns(self.card_row(), shown)
 
     def board(self, rect: pygame.Rect) -> None:
         """A panel with a rim, for what lies over all else."""

@@ -50,7 +50,7 @@ class Charts:
         size = wide, len(self.strips) * tall + 2 * gap
         rect = sheet.stacked(size) if self.shot.upright else pygame.Rect((0, 0), size)
         if not self.shot.upright:
-            rect.bottomleft = sheet.frame.left, round(sheet.frame.bottom - sheet.card_height() - gap)
+            rect.bottomleft = sheet.frame.left, round(sheet.card_row() - gap)
         sheet.painter.panel(rect, CARD["background"], 0.85, 10 * unit)
         until = max(self.shot.run.duration, 1e-9)
         for i, (strip, text) in enumerate(zip(self.strips, said, strict=True)):

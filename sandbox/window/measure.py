@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import atan2, degrees, hypot, pi
+from math import hypot
 
 import numpy as np
 
 from sandbox.picture.camera import Camera
 from sandbox.picture.palette import palette
 from sandbox.picture.sheet import Entry
-from sandbox.sport.amounts import metres, signed
+from sandbox.sport.amounts import metres
 from sandbox.window.canvas import Canvas
 from sandbox.window.shots import Shot
 
@@ -55,17 +55,6 @@ def away_from(line: np.ndarray, at: tuple[float, float]) -> tuple[float, int, fl
     away = np.hypot(*(from_start - share[:, None] * along).T)
     i = int(away.argmin())
     return float(away[i]), i, float(share[i])
-
-
-def state_entries(shot: Shot, ball: str, t: float) -> list[tuple[str, str]]:
-    """The state of a ball at a time: speed, height or place, direction, spin."""
-    x, y, vx, vy, spin = shot.run.state(ball, t)
-    places = [("height", metres(y, 2)), ("distance", metres(x, 2))] if shot.upright else [
-        ("x", metres(x, 2)), ("y", metres(y, 2))]  # fmt: skip
-    speed = hypot(vx, vy)
-    way = signed(f"{degrees(atan2(vy, vx)):.1f}") + "°" if speed > 0 else "–"
-    turning = signed(f"{spin * 30 / pi:.0f}") + " rpm"
-    return [("speed", f"{speed:.2f} m/s"), *places, ("direction", way), ("spin", turning)]
 
 
 def draw_reading(sheet: Canvas, shot: Shot, read: Reading, entries: Sequence[Entry]) -> None:

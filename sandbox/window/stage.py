@@ -112,7 +112,7 @@ class Stage:
     def _ghost_labels(self, sheet: Canvas, shown: Sequence[Shot], around: Shot) -> pygame.Surface:
         """Number and result of each earlier shot, where on its path there is room."""
         labels = Sheet(self.size, surface=blank(self.size, transparent=True))
-        labels.labels.frame.height -= sheet.card_height() + sheet.gap
+        labels.labels.frame.height = sheet.card_row() - sheet.gap - sheet.frame.top
         labels.labels.take(pygame.Rect(sheet.frame.topleft, (round(0.66 * sheet.size[0]), sheet.top_row)))
         labels.labels.take_path(self.line(around).tolist(), 5 * sheet.unit)
         for shot in shown:

@@ -20,6 +20,7 @@ from sandbox.picture.palette import palette, set_contrast
 from sandbox.picture.sheet import Entry, rows_of
 from sandbox.picture.vectors import Vectors
 from sandbox.picture.view import View as Picture
+from sandbox.sport.amounts import metres
 from sandbox.window import hand
 from sandbox.window.background import Background, Latest, Once
 from sandbox.window.bar import HEIGHT, Bar
@@ -28,7 +29,7 @@ from sandbox.window.charts import Charts
 from sandbox.window.fan import Cloud, Flown, cloud, others
 from sandbox.window.game import LONG, Game
 from sandbox.window.handles import Grip, grips
-from sandbox.window.measure import NEAR, Tape, draw_reading, reading, state_entries
+from sandbox.window.measure import NEAR, Tape, draw_reading, reading
 from sandbox.window.overlay import Overlay
 from sandbox.window.pad import Pad
 from sandbox.window.panel import Panel
@@ -601,8 +602,9 @@ class View:
         if self.area.collidepoint(self.at) and not pygame.mouse.get_pressed()[2]:
             read = reading(shot, camera, self.at, NEAR * sheet.unit, self.until(shot))
             if read is not None:
-                own = read.ball == shot.ball
-                entries = stage.picture.live(read.t) if own else state_entries(shot, read.ball, read.t)
+                picture, (x, y, *_) = stage.picture, shot.run.state(read.ball, read.t)
+                others = [("x", metres(x)), ("y", metres(y)), *picture.moving(read.ball, read.t)]
+                entries = picture.live(read.t) if read.ball == shot.ball else others
                 draw_reading(sheet, shot, read, entries)
 
     def _why(self, latest: Latest[Any], what: str) -> str:

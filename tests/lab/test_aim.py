@@ -15,6 +15,7 @@ from sandbox.cli import main
 from sandbox.errors import RequestError, RunError
 from sandbox.lab.aim import Target, aim, as_target, parse_target, search
 from sandbox.lab.aim.greatest import peak
+from sandbox.lab.aim.question import GREATEST
 from sandbox.lab.aim.report import as_text
 from sandbox.lab.axes import Span, parse_span
 from sandbox.lab.runs import runs
@@ -254,6 +255,7 @@ def test_what_is_named_twice_is_told():
     for spans, targets, told in (
         ([height, height], [bounces, bounces], "--vary launch.height: given twice"),
         ([height], [bounces, bounces], "--target bounces: given twice"),
+        ([height], [bounces, Target("bounces", GREATEST)], "--target bounces: --maximize names the same number"),
     ):
         with pytest.raises(RequestError, match=told):
             search(scene, spans, targets)

@@ -73,16 +73,14 @@ def test_numbers_in_a_card_keep_apart_and_inside(size):
     sheet = Sheet(size)
     entries = [("carry", "1450.1 m"), ("total", "1483.3 m"), ("apex", "253.9 m"), ("flight time", "135.41 s")]
     entries += [("ball speed", "340.0 m/s"), ("launch", "−35.0°"), ("backspin", "−20000 rpm"), ("landing", "−35°")]
-    sheet.columns(sheet.frame.bottom - sheet.card_height(), entries)
+    sheet.columns(sheet.card_row(), entries)
     assert_legible(sheet)
     assert len(sheet.written) == 2 * len(entries)
 
 
 def test_a_card_that_is_too_narrow_leaves_out_the_last():
     sheet = Sheet((200, 300))
-    sheet.columns(
-        sheet.frame.bottom - sheet.card_height(), [("carry", "253.6 m"), ("total", "277.0 m"), ("apex", "33.9 m")]
-    )
+    sheet.columns(sheet.card_row(), [("carry", "253.6 m"), ("total", "277.0 m"), ("apex", "33.9 m")])
     assert_legible(sheet)
     assert [text for text, _ in sheet.written] == ["carry", "253.6 m", "total", "277.0 m"]
 

@@ -62,7 +62,9 @@ def search(scene: Scene, spans: Sequence[Span], targets: Sequence[Target], progr
     for option, names in (("--vary", [span.key for span in spans]), ("--target", [each.name for each in targets])):
         twice = next((name for name in names if names.count(name) > 1), None)
         if twice is not None:
-            raise RequestError(f"{option} {twice}: given twice")
+            both = any(each.name == twice and each.value is GREATEST for each in targets)
+            why = "--maximize names the same number; give one of the two" if both else "given twice"
+            raise RequestError(f"{option} {twice}: {why}")
     numbers = [target.is_number for target in targets]
     one, several = len(targets) == 1 and not numbers[0], len(targets) == 2 and all(numbers)
     if not (len(spans) == len(targets) == 1 or (len(spans) == 2 and (one or several))):

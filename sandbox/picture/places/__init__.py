@@ -2,8 +2,7 @@
 
 from sandbox.picture.places.courts import COURT_WIDTH, tennis_court
 from sandbox.picture.places.ground import Ground, Line, Planks, Stripes, boards, turf
-from sandbox.picture.places.landscape import Landscape
-from sandbox.picture.places.scenery import Hall, Scenery, Stands
+from sandbox.picture.places.scenery import Hall, Landscape, Scenery, Stands
 from sandbox.picture.places.things import Net, Person, Post, Shape, Thing, goal, net_across, standing_table
 
 __all__ = [

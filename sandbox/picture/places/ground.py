@@ -150,11 +150,10 @@ def turf(
     return Ground(*kinds, line=(colours.get("line", WHITE), line), **more)
 
 
-def boards(colours: Mapping[str, Any], line: float = 0.05, **more: Any) -> Ground:
-    """The floor of a hall in a scene's colours ``wood``, ``beneath``, ``lit``, ``cut`` and ``line``, lines so many m
-    wide."""
+def boards(colours: Mapping[str, Any], **more: Any) -> Ground:
+    """The floor of a hall in a scene's colours ``wood``, ``beneath``, ``lit``, ``cut`` and ``line``."""
     edges = [(colours["lit"], 2), (colours["cut"], 7)]
-    return Ground(Planks(colours["wood"]), colours["beneath"], edges, line=(colours["line"], line), far=0.44, **more)
+    return Ground(Planks(colours["wood"]), colours["beneath"], edges, line=(colours["line"], 0.05), far=0.44, **more)
 
 
 @lru_cache(maxsize=4)
