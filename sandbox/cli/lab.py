@@ -226,9 +226,7 @@ def stress(scene: str | None, changes: dict[str, Any], as_json: bool) -> None:
     names = [listing.name for listing in listings() if "/" not in listing.name] if scene is None else [scene]
     scenes = [load(name, changes) for name in names]
     with bar("stress") as progress:
-        outcomes = lab.stress(
-            scenes, changes.get("accuracy.level", "balanced"), with_bare=scene is None, progress=progress
-        )
+        outcomes = lab.stress(scenes, changes.get("accuracy.level", "balanced"), scene is None, progress)
     say(json_text(outcomes) if as_json else "\n".join(lab.as_text(outcomes)))
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections import defaultdict
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise, takewhile
 from math import inf, isfinite
@@ -30,6 +30,7 @@ from sandbox.engine.touch import Outline
 from sandbox.engine.track import Heaped, Pressing
 from sandbox.errors import RequestError, SandboxError
 from sandbox.lab.extremes import Extreme, bare, of_scene
+from sandbox.lab.runs import Progress, silent
 from sandbox.lab.tables import length, paragraph, percent, table
 from sandbox.physics.integrators import INTEGRATORS
 from sandbox.scene import Scene
@@ -89,10 +90,7 @@ def every_method(level: str = "balanced") -> dict[str, Accuracy]:
 
 
 def stress(
-    scenes: Sequence[Scene],
-    level: str = "balanced",
-    with_bare: bool = True,
-    progress: Callable[[int, int], None] = lambda done, total: None,
+    scenes: Sequence[Scene], level: str = "balanced", with_bare: bool = True, progress: Progress = silent
 ) -> list[Outcome]:
     """Run every extreme of the scenes, and those without a scene, with every method."""
     rows = [("", extreme, ALL) for extreme in bare()] if with_bare else []

@@ -13,12 +13,12 @@ from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Setup
 from sandbox.errors import SandboxError
+from sandbox.lab.runs import Progress, silent
 
 #: Most runs of each. The shortest counts, since other load only adds time.
 REPEATS = 15
 
 Seen = TypeVar("Seen")
-Progress = Callable[[int, int], None]
 
 
 @dataclass
@@ -51,7 +51,7 @@ class Timed(Generic[Seen]):
         return others[-1] / first - 1.0 if others else 0.0
 
 
-def repeat(trials: Sequence[Timed[Seen]], patience: float = float("inf"), progress: Progress = lambda *_: None) -> None:
+def repeat(trials: Sequence[Timed[Seen]], patience: float = float("inf"), progress: Progress = silent) -> None:
     """Run each several times, for ``patience`` s at most, except those that fail."""
     for turn in range(REPEATS):
         progress(turn, REPEATS)

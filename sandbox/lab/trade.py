@@ -11,8 +11,9 @@ from sandbox.engine.accuracy import LEVELS, Accuracy, settle_for
 from sandbox.lab.ablation import Ablated, ablation
 from sandbox.lab.ablation import as_text as ablation_text
 from sandbox.lab.reference import Reference, converge
+from sandbox.lab.runs import Progress, silent
 from sandbox.lab.tables import length, length_above, paragraph, table, time
-from sandbox.lab.timing import Progress, Timed, repeat
+from sandbox.lab.timing import Timed, repeat
 from sandbox.lab.verdicts import ShotMap, shot_map
 from sandbox.physics.integrators import INTEGRATORS
 from sandbox.scene import Scene
@@ -90,7 +91,7 @@ class Trade:
         return 1.0 if best is None else max(1.0, own.wall_s / best.wall_s)
 
 
-def trade(scene: Scene, progress: Progress = lambda done, total: None) -> Trade:
+def trade(scene: Scene, progress: Progress = silent) -> Trade:
     """Measure a scene. Raises RunError if it cannot be run."""
     reference = converge(scene)
     measured = list(_measured(reference, progress))

@@ -10,7 +10,7 @@ from __future__ import annotations
 import csv
 import math
 import tomllib
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -18,6 +18,7 @@ from typing import Any
 from sandbox import units
 from sandbox.engine.run import Run
 from sandbox.errors import RequestError
+from sandbox.lab.runs import Progress, silent
 from sandbox.lab.tables import paragraph, table
 from sandbox.parameters import parse_assignment
 from sandbox.scene import load, parameters_of, simulate
@@ -85,9 +86,7 @@ def _by_form(rows: Sequence[Mapping[str, str]], form: Mapping[str, Any]) -> Iter
 
 
 def validate(
-    source: str | None = None,
-    changes: Mapping[str, Any] | None = None,
-    progress: Callable[[int, int], None] = lambda done, total: None,
+    source: str | None = None, changes: Mapping[str, Any] | None = None, progress: Progress = silent
 ) -> list[Compared]:
     """Compute the cases of one scene or preset, or all. ``changes`` override what the cases set."""
     wanted = list(cases()) if source is None else _of(source)

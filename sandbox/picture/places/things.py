@@ -12,6 +12,7 @@ from typing import Any, ClassVar, NamedTuple, Protocol
 
 import numpy as np
 
+from sandbox.picture.camera import Camera
 from sandbox.picture.camera import Eye as SideEye
 from sandbox.picture.painter import Painter, Point
 from sandbox.picture.palette import ASSETS, Colour, palette
@@ -26,16 +27,8 @@ SHADED = 0.3
 
 #: A point in m: along the plane of play, up, and behind it or, from above, to the left; two numbers are on the ground.
 Point3 = tuple[float, ...]
-
-
-class Eye(Protocol):
-    """Sees points of the world: ``sandbox.picture.camera.Eye`` from the side, a camera from above."""
-
-    def points(self, points: np.ndarray) -> np.ndarray:
-        """Where in px, shape (n, 2), points in m of shape (n, 3) are, or of shape (n, 2) on the ground."""
-
-    def scale_at(self, points: np.ndarray) -> float:
-        """How large things at these points are, in px/m."""
+#: Sees such points: from the side, or from above.
+Eye = SideEye | Camera
 
 
 class Thing(Protocol):
