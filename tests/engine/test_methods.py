@@ -185,7 +185,8 @@ def test_trade_measures_it(monkeypatch: pytest.MonkeyPatch):
 
 def test_no_step_after_an_impact_is_longer_than_the_one_that_it_cut():
     for number in range(30):
-        setup = replace(tossed(number), duration=3.0)
+        setup = tossed(number)
+        setup = replace(setup, balls=[replace(setup.balls[0], position=(0.0, 6.0))], duration=3.0)
         bounced = simulate(setup, resolve())
         t = bounced.events[0].t
         cut = simulate(replace(setup, surfaces=[]), resolve()).arcs["ball"].at(t)
