@@ -7,12 +7,14 @@ from dataclasses import is_dataclass
 from functools import cache
 from itertools import chain
 from math import isfinite
+from types import NoneType
 from typing import Any
 
 from sandbox.engine.setup import Ball
 from sandbox.engine.setup_errors import failed, is_from_inside
 from sandbox.errors import RunError
-from sandbox.physics.forces import Gravity
+from sandbox.physics.air import UniformWind
+from sandbox.physics.forces import Drag, Gravity, Magnus, SpinDecay
 from sandbox.physics.integrators import COMPONENTS, Acceleration, Integrator, Law, Method, State, Written
 from sandbox.physics.straight import straight
 
@@ -49,14 +51,21 @@ def step_of(ball: Ball, integrator: Integrator) -> Method:
     return integrator.written(_written(*_kind(ball)), ball.turns)(*_given(ball))
 
 
-def _kind(ball: Ball) -> tuple[tuple[bool, ...], int, bool, bool]:
+def _kind(ball: Ball) -> tuple[tuple[bool, ...], int, bool, bool, bool]:
     """What its law, as written, depends on."""
-    return tuple(map(_is_steady, ball.forces)), len(ball.torques), ball.turns, ball.loss is not None
+    placed = ball.turns or not all(map(_is_uniform, (*ball.forces, *ball.torques)))
+    return tuple(map(_is_steady, ball.forces)), len(ball.torques), ball.turns, ball.loss is not None, placed
 
 
 def _is_steady(force: Any) -> bool:
     """Whether it is the same always, and is asked for once; a kind of Gravity of a scene's own may not be."""
     return type(force) is Gravity and force.loss is None
+
+
+def _is_uniform(term: Any) -> bool:
+    """Whether it is known to be the same at any place."""
+    even = type(getattr(term, "wind", None)) in (NoneType, UniformWind)
+    return even and type(term) in (Gravity, Drag, Magnus, SpinDecay)
 
 
 def _given(ball: Ball) -> Iterator[Any]:
@@ -74,17 +83,17 @@ def _law(*kind: Any) -> Any:
 
 
 @cache
-def _written(steady: Sequence[bool], torques: int, turns: bool, loses: bool) -> Written:
+def _written(steady: Sequence[bool], torques: int, turns: bool, loses: bool, placed: bool) -> Written:
     """The law of a ball with forces that are ``steady`` or not, and so many torques, which ``turns`` or ``loses``
-    mass."""
+    mass; if they are the same at any place, they are called with the state at the start in place of a position."""
     forces = [(f"fx{n}, fy{n}", f"force{n}") for n in range(len(steady))]
     turns_by = [(f"turning{n}", f"torque{n}") for n in range(torques)]
     once = [force for force, same in zip(forces, steady, strict=True) if same]
     anew = [force for force in (*forces, *turns_by) if force not in once]
     parts = {"fx": len(forces), "fy": len(forces), "turning": torques}
     sums = [" + ".join(["0.0", *(f"{part}{n}" for n in range(count))]) for part, count in parts.items()]
-    place = "place(({state}))" if turns else "(x{n}, y{n})"
-    now = "(*position, *velocity, spin, position.angle)" if turns else "(*position, *velocity, spin)"
+    place = "place(({state}))" if turns else "(x{n}, y{n})" if placed else "state"
+    now = "(*position, *velocity, spin, position.angle)" if turns else "(*position[:2], *velocity, spin)"
     left = " * ball.left(at)" if loses else ""
     return Written(
         ", ".join(("ball", "is_from_inside", "place", "refused", *(name for _, name in (*forces, *turns_by)))),
@@ -107,6 +116,7 @@ def _written(steady: Sequence[bool], torques: int, turns: bool, loses: bool) -> 
             f"  raise refused(ball, at, {now}) from None",
         ),
         turning=torques > 0,
+        placed=placed,
     )
 
 

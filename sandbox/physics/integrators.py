@@ -37,6 +37,7 @@ class Written(NamedTuple):
     lines: tuple[str, ...]
     otherwise: tuple[str, ...] = ()  # what follows if they, below a ``try:``, do not succeed
     turning: bool = True  # whether it changes the spin
+    placed: bool = True  # whether it may differ from place to place
 
 
 #: Any law.
@@ -134,6 +135,8 @@ def _written_out(
         if stage.of_velocities:
             made |= dict.fromkeys(coordinates, stage.of_velocities)
         for name, weights in made.items():
+            if name in coordinates and number <= len(stages) and not law.placed:
+                continue  # only the end has a place
             grows = f" + {_sum(h, weights, name)}" if name != "spin" or law.turning else ""
             staged.append(f"{name}{number} = {name}1{grows}")
         staged.append(f"at = t + {h[stage.time]}")

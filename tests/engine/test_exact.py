@@ -1,5 +1,6 @@
 """Cases with an exact answer; each test states its equation."""
 
+from dataclasses import replace
 from itertools import pairwise
 from math import atan, atan2, cos, cosh, degrees, log, pi, radians, sin, sqrt, tanh
 
@@ -10,8 +11,9 @@ from sandbox.engine import simulate
 from sandbox.engine.accuracy import resolve
 from sandbox.engine.acting import law_of
 from sandbox.engine.setup import DISC, HOLLOW_SPHERE, SOLID_SPHERE, Ball, Bounce, Circle, Segment, Setup, Surface
+from sandbox.physics.air import LogWind, UniformWind
 from sandbox.physics.coefficients import Constant
-from sandbox.physics.forces import Drag, Gravity, Magnus
+from sandbox.physics.forces import Drag, Gravity, Magnus, SpinDecay
 from sandbox.physics.rocket import Motor
 
 G = 9.81
@@ -317,6 +319,17 @@ def test_a_ball_is_accelerated_by_the_sum_of_its_forces_and_torques(forces, torq
     total = sum(range(forces)) * 7.0 / (2.0 * share), forces * 4.0 / (2.0 * share), sum(n + 9.0 for n in range(torques))
     expected = (*total[:2], total[2] / (0.2 * share))
     assert law_of(ball)(1.0, (3.0, 5.0, 7.0, 8.0, 9.0)) == pytest.approx(expected, rel=1e-15)
+
+
+@pytest.mark.parametrize("wind", [None, UniformWind(-3.0, 0.5), LogWind((5.0, 0.0), 10.0, 0.03)])
+def test_a_flight_does_not_depend_on_whether_its_forces_are_known_to_need_no_place(wind):
+    """Of a function the engine cannot know it, and makes the place in each stage of a step."""
+    air = 0.02, 1.2, Constant(0.3), wind
+    forces, torques = [Gravity(0.05, G), Drag(*air), Magnus(*air)], [SpinDecay(8e-6, 0.02, 2e-5, wind)]
+    known = Ball("ball", 0.05, 0.02, (0.0, 1.0), (40.0, 30.0), 200.0, forces=forces, torques=torques)
+    called = [[lambda *state, term=term: term(*state) for term in terms] for terms in (forces, torques)]
+    asked = replace(known, forces=called[0], torques=called[1])
+    assert fly(known, 2.0).state("ball", 2.0) == fly(asked, 2.0).state("ball", 2.0)
 
 
 def test_a_kind_of_gravity_that_changes_is_asked_anew():
