@@ -87,7 +87,7 @@ def page_of(run: Run, ghosts: Mapping[str, Run] | None = None) -> str:
         events_open="open" if len(events) <= 8 else "",
         parameters=rows((key, _shown(value, unit)) for key, value, unit, *_ in walk(scene.parameters)),
         about=html(scene.about),
-        command=html(command(scene)),
+        command=html(command(scene, "run", *(word for other in ghosts or {} for word in ("--compare", other)))),
         data=packed(data),
     )
 

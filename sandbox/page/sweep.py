@@ -66,6 +66,7 @@ def page_of(plan: Plan, rows: Iterable[Row], of: str | None = None) -> str:
     }
     options = [word for axis in plan.axes for word in ("--over", f"{axis.key}={_values(axis)}")]
     options += ["--samples", str(plan.samples)] if plan.samples else []
+    options += ["--out", "sweep.csv"]
     return filled(
         "sweep.html",
         title=html(title),

@@ -11,6 +11,7 @@ def test_the_index_leads_to_posters_and_pages(browser, tmp_path: Path):
     browser.driver.get(index.as_uri())
     assert browser.text("h2") == ["throws", "volleyball"]
     assert browser.run("[...document.images].every((image) => image.naturalWidth === 1280)")
+    assert browser.run("[...document.images].every((image) => Math.abs(image.width / image.height - 16 / 9) < 0.02)")
     browser.run("document.querySelector('a').click()")
     assert "throws.html" in browser.driver.current_url
     assert browser.driver.get_log("browser") == []

@@ -79,6 +79,7 @@ def test_it_plays_by_mouse_keyboard_and_touch(browser, pages):
     assert browser.text(".card tbody th") == list(rows)
     assert browser.text(".card tbody td:nth-of-type(1)") == list(rows.values())
     assert browser.text(".card thead th") == ["golf", "golf/headwind"]
+    assert "sandbox run golf --compare golf/headwind" in browser.text("code")
     assert not browser.run("player.playing")
     # play, and go on to the end by dragging; step, events, speed
     driver.find_element(By.ID, "play").click()
