@@ -90,7 +90,7 @@ def _written(steady: Sequence[bool], torques: int, turns: bool, loses: bool, pla
     turns_by = [(f"turning{n}", f"torque{n}") for n in range(torques)]
     once = [force for force, same in zip(forces, steady, strict=True) if same]
     anew = [force for force in (*forces, *turns_by) if force not in once]
-    parts = {"fx": len(forces), "fy": len(forces), "turning": torques}
+    parts = {"fx": len(forces), "fy": len(forces)} | ({"turning": torques} if torques else {})
     sums = [" + ".join(["0.0", *(f"{part}{n}" for n in range(count))]) for part, count in parts.items()]
     place = "place(({state}))" if turns else "(x{n}, y{n})" if placed else "state"
     now = "(*position, *velocity, spin, position.angle)" if turns else "(*position[:2], *velocity, spin)"
@@ -104,10 +104,11 @@ def _written(steady: Sequence[bool], torques: int, turns: bool, loses: bool, pla
         (
             f"position, velocity, spin = {place}, (vx{{n}}, vy{{n}}), spin{{n}}",
             *(f"{made} = {name}(at, position, velocity, spin)" for made, name in anew),
-            f"fx, fy, turning = {', '.join(sums)}",
-            "if not isinstance(fx + fy + turning, float) and isinstance(spin, float):",
+            f"{', '.join(parts)} = {', '.join(sums)}",
+            f"if not isinstance({' + '.join(parts)}, float) and isinstance(spin, float):",
             f"  raise refused(ball, at, {now})",
-            f"ax{{n}}, ay{{n}}, alpha{{n}} = fx / (mass{left}), fy / (mass{left}), turning / (inertia{left})",
+            f"ax{{n}}, ay{{n}} = fx / (mass{left}), fy / (mass{left})",
+            f"alpha{{n}} = {f'turning / (inertia{left})' if torques else '0.0'}",
         ),
         (
             "except (TypeError, ValueError, OverflowError) as error:",

@@ -72,7 +72,7 @@ class Arc:
     @property
     def rests(self) -> bool:
         """Whether the ball neither moves nor spins, for some time."""
-        return len(self.curves[0]) == len(self.curves[4]) == 1 and self.t1 > self.t0
+        return len(self.curves[0]) == 1 == len(self.curves[4]) and self.t1 > self.t0
 
     def box(self) -> tuple[float, float, float, float]:
         """Left, bottom, right, top (m) of a rectangle that holds the path, as far as it is ``followed``."""

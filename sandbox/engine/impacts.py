@@ -92,7 +92,8 @@ class Impacts:
         until nothing closes; balls that a wall sends on others that touch still others go ``through`` them. If that
         takes too many turns, or in a heap, all exchange impulses at once instead.
         """
-        start, hits = states, list[Hit]()
+        start = states
+        hits: list[Hit] = []  # not list[Hit](), which takes thirty times as long, here and below
         last = _TURNS if self._some_soft and self.gap == TOUCHING_GAP and not self._with_bodies(states) else 0
         for turn in range(last + 1):
             if turn in (0, last):
@@ -150,7 +151,8 @@ class Impacts:
     def touching(self, t: float, seeds: Sequence[int]) -> dict[int, State]:
         """The states at t of all balls that touch those in ``seeds``, directly or through others."""
         states: dict[int, State] = {}
-        waiting, pairs = list(seeds), list[tuple[int, int]]()
+        waiting = list(seeds)
+        pairs: list[tuple[int, int]] = []
         while waiting:
             index = waiting.pop(0)
             if index in states:
@@ -181,7 +183,8 @@ class Impacts:
         """The contacts with soft or hard walls, or both, each from the states when it is asked for. Where two surfaces
         join, a point of both counts once, for the surface whose side it is less far ``off``."""
         for index in states:
-            track, met = self._tracks[index], dict[tuple[float, ...], tuple[Obstacle, Meeting, int]]()
+            track = self._tracks[index]
+            met: dict[tuple[float, ...], tuple[Obstacle, Meeting, int]] = {}
             asked = (index, soft)
             if asked not in self._walls:
                 self._walls[asked] = [o for o in track.obstacles if soft is None or self._soft(o.surface) is soft]

@@ -268,9 +268,9 @@ class Bounds(NamedTuple):
     def hold(self, state: State) -> Any:
         """Whether a ball in this state is inside, and all its numbers are finite."""
         x, y, vx, vy, spin = state[:5]
-        total = x + y + vx + vy + spin
         inside = (self.left <= x) & (x <= self.right) & (self.bottom <= y) & (y <= self.top)
-        return inside & (total - total == 0.0)
+        motion = vx + vy + spin
+        return inside & (motion - motion == 0.0)
 
     def broken_by(self, state: State) -> str:
         """What is wrong with a ball in a state that they do not hold."""

@@ -167,7 +167,9 @@ class Simulation:
             if self._numerics.steps > MOST_STEPS:
                 what = "its forces are very stiff: raise accuracy.tolerance, or shorten the duration"
                 raise failed(t, track.ball.name, f"{MOST_STEPS:,} steps without an end; {what}")
-            if kind == "touch":
+            if kind == "" and t < duration:
+                self._go_on(t, i)
+            elif kind == "touch":
                 seeds = [i] if j < 0 else [i, j]
                 self._over = any(self._passed(t, index) for index in seeds)
                 if not self._over:
@@ -181,21 +183,24 @@ class Simulation:
             elif kind == "heap" and self._heap:
                 self._press_on(self._heap, t, ())
             else:
-                yield from self._end_arc(t, i, kind)
+                yield from self._change(t, i, kind)
         return t, "until" if self._over else "rest"
 
-    def _end_arc(self, t: float, index: int, reason: str) -> Asking[None]:
-        """Handle the end of an arc."""
+    def _go_on(self, t: float, index: int) -> None:
+        """Plan the next arc where one ends only because of its length."""
         track = self._tracks[index]
-        if reason == "":
-            self._over = self._passed(t, index)
-        track.arrive(t, track.arc.state(track.arc.t1))
+        self._over = self._passed(t, index)
+        track.arrive(t, track.arc.state(t))
+        track.conclude("")
+        self._plan(index, t)
+
+    def _change(self, t: float, index: int, reason: str) -> Asking[None]:
+        """Go on where an arc ends because the contact changes."""
+        track = self._tracks[index]
+        track.arrive(t, track.arc.state(t))
         track.conclude(reason)
-        if reason == "":
-            self._plan(index, t)
-        else:
-            track.arc = still(t, t, track.state)
-            yield from self._collide(t, [index])
+        track.arc = still(t, t, track.state)
+        yield from self._collide(t, [index])
 
     def _passed(self, t: float, index: int) -> bool:
         """Whether the run ends with a ball's arc up to t."""

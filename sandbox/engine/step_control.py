@@ -99,8 +99,8 @@ def allowed(setup: Setup, t: Any, h: Any, state: State, acceleration: Accelerati
     for at in setup.breaks:
         room = at - t
         h = choose((room > _AT_BREAK) & (room < h), room, h)
-    (x, y, vx, vy), (ax, ay, _) = state[:4], acceleration
     for patch in setup.patches:
+        (x, y, vx, vy), (ax, ay, _) = state[:4], acceleration
         whole, half = h, 0.5 * h
         end_x, end_y = x + h * (vx + half * ax), y + h * (vy + half * ay)
         near = patch.crossed((x, x + half * vx, end_x), (y, y + half * vy, end_y))  # points of the predicted parabola

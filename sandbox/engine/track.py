@@ -226,7 +226,8 @@ class Track:
             return
         x, y, vx, vy, spin = self.state
         applied = self.applied(t, self.state)
-        kept, hardest = list[Near](), 0.0
+        kept: list[Near] = []
+        hardest = 0.0
         for obstacle, touch in near:
             by = press(self.state, applied, touch.nx, touch.ny, touch.curvature)
             if vx * touch.nx + vy * touch.ny <= leaves_at(by, max(height, obstacle.surface.lowest_bounce)):
@@ -259,7 +260,7 @@ class Track:
         ball, state = self.ball, self.state
         x, y, vx, vy, spin = state
         mx, my = (vx, vy) if vx or vy else applied[:2]  # direction in which it will move
-        held = list[LastingContact]()
+        held: list[LastingContact] = []
         for obstacle, touching in kept:
             ahead = obstacle.next_feature(touching, x, y, mx, my)
             mode, direction = motion_on(ball, state, obstacle.surface, ahead, applied, slips)
