@@ -142,11 +142,6 @@ def over(run: Run, parameters: Parameters) -> float | None:
     return passed.y - parameters.goal.height
 
 
-def good(run: Run, parameters: Parameters) -> bool | None:
-    """Whether the kick is good: over the bar before it comes down, as seen from the side."""
-    return (over(run, parameters) or -1.0) > 0.0 if parameters.goal.present else None
-
-
 def _nose(run: Run, parameters: Parameters) -> float | None:
     """Angle in deg of the long axis above the horizontal as the ball lands, from -90 to 90."""
     down = landing(run, parameters)
@@ -186,7 +181,7 @@ FACTS = (
     Fact("bounce", "bounces", "m", _bounced, also="yd"),
     Fact("bounce_spread", "bounce spread", "m", _spread),
     Fact("over", "over the bar", "m", over),
-    Fact("good", "", "", good),
+    Fact("good", "", "", lambda run, it: (over(run, it) or -1.0) > 0.0 if it.goal.present else None),
     Fact("landing_angle", "lands at", "deg", at(landing, "descent"), settled="ground"),
     Fact("nose", "nose at landing", "deg", _nose),
     *LAUNCH,

@@ -17,7 +17,7 @@ from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spread
 from sandbox.sport.facts import ENDED, Fact
 from sandbox.sport.flight import Flight, Release, Sphere
-from sandbox.sport.readings import APEX, BALL_SPEED, DISTANCE, FLIGHT_TIME, LANDING_ANGLE, LAUNCH_ANGLE, landing
+from sandbox.sport.readings import APEX, BALL_SPEED, DISTANCE, FLIGHT_TIME, LANDING_ANGLE, LAUNCH_ANGLE
 from sandbox.sport.solids import level
 
 
@@ -64,11 +64,6 @@ def vacuum_distance(run: Run, parameters: Parameters) -> float | None:
     return x + vx * (vy + sqrt(vy * vy + 2.0 * gravity * y)) / gravity if gravity > 0.0 else None
 
 
-def _beaten(run: Run, parameters: Parameters) -> bool:
-    landed = landing(run, parameters)
-    return landed is not None and landed.x > parameters.record
-
-
 FACTS = (
     DISTANCE,
     Fact("vacuum_distance", "without air", "m", vacuum_distance, settled="start"),
@@ -78,7 +73,7 @@ FACTS = (
     BALL_SPEED,
     LAUNCH_ANGLE,
     Fact("best_angle", "best angle", "deg", best_angle, settled="start"),
-    Fact("record_beaten", "", "", _beaten, settled="ground"),
+    Fact("record_beaten", "", "", lambda run, it: (DISTANCE.how(run, it) or 0.0) > it.record, settled="ground"),
     ENDED,
 )
 
