@@ -11,8 +11,7 @@ from sandbox.picture.lettering import Lettering
 from sandbox.picture.painter import OVERSAMPLING, scratch
 from sandbox.picture.palette import Colour, mix, palette
 from sandbox.window.canvas import Canvas
-from sandbox.window.playback import Playback
-from sandbox.window.shots import Shot
+from sandbox.window.shots import Playback, Shot
 
 CARD, TRACE = palette("card"), palette("trace")
 HEIGHT = 48  # px on 720 rows

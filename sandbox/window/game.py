@@ -20,9 +20,8 @@ from sandbox.window.background import PATIENCE, Latest
 from sandbox.window.handles import Grip
 from sandbox.window.history import Changes, History
 from sandbox.window.memory import Memory
-from sandbox.window.playback import Playback
 from sandbox.window.session import Session
-from sandbox.window.shots import Played, Shot, Shots
+from sandbox.window.shots import Playback, Played, Shot, Shots
 from sandbox.window.worker import Packed, computed, unpacked, warm_up
 from sandbox.workers import Processes, WorkerLost
 

@@ -59,7 +59,7 @@ class Session:
     def open(self, source: str, changes: Mapping[str, Any] | None = None) -> None:
         """Switch to another scene; if that is invalid, keep this one."""
         base = load(source)
-        scene = load(source, changes or {}, overrides_from="--set")
+        scene = base.changed(changes, "--set") if changes else base
         scene.build()  # reports values that are invalid together
         self.base, self.scene = base, scene
         self.changes = Changes(source, dict(changes or {}))

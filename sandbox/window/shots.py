@@ -1,4 +1,5 @@
-"""A shot, which is a scene and its run; and all shots: what each came to, the paths of some of them, statistics."""
+"""A shot, which is a scene and its run; the clock of the one that is watched; and all shots: what each came to, the
+paths of some of them, statistics."""
 
 from __future__ import annotations
 
@@ -27,6 +28,11 @@ if TYPE_CHECKING:
 PATHS, MOST = 20, 5000
 #: Of a standard normal: 95 % lie within.
 Z = 1.96
+#: How fast a shot is watched.
+RATES = (1 / 16, 1 / 8, 1 / 4, 1 / 2, 1.0, 2.0, 4.0, 8.0)
+STEP = 1 / 60  # s of the shot, for one step by hand
+#: Longest time in s that one frame moves the clock at rate 1: a late frame slows the shot down instead of skipping.
+LONGEST_FRAME = 1 / 30
 
 
 def without(scene: Scene, keys: Iterable[str]) -> tuple[Any, ...]:
@@ -135,6 +141,45 @@ class Shot:
         """Speed and direction that a pull has set."""
         speed, angle = self.aim
         return f"{amount(speed, 'm/s')} at {amount(angle, 'deg')}"
+
+
+class Playback:
+    """The current time in a shot."""
+
+    def __init__(self, shot: Shot, rate: float) -> None:
+        self.shot, self.duration, self.rate = shot, shot.run.duration, rate
+        self.t, self.playing = 0.0, True
+
+    @property
+    def over(self) -> bool:
+        return self.t >= self.duration
+
+    def advance(self, dt: float) -> None:
+        """``dt`` s of real time have passed."""
+        if self.playing:
+            self.seek(self.t + min(dt, LONGEST_FRAME) * self.rate)
+            self.playing = not self.over
+
+    def toggle(self) -> None:
+        """Pause, resume, or start again at the end."""
+        if self.over:
+            self.restart()
+        else:
+            self.playing = not self.playing
+
+    def step(self, steps: int) -> None:
+        self.playing = False
+        self.seek(self.t + steps * STEP)
+
+    def restart(self) -> None:
+        self.t, self.playing = 0.0, True
+
+    def seek(self, t: float) -> None:
+        self.t = min(max(t, 0.0), self.duration)
+
+    def change_rate(self, by: int) -> None:
+        index = RATES.index(self.rate) + by
+        self.rate = RATES[min(max(index, 0), len(RATES) - 1)]
 
 
 class Played:

@@ -15,7 +15,7 @@ import pytest
 import sandbox
 from sandbox.scene import Scene, listings
 from sandbox.window.commands import TABLE
-from sandbox.window.playback import LONGEST_FRAME, STEP
+from sandbox.window.shots import LONGEST_FRAME, STEP
 from sandbox.window.view import SMALLEST
 
 from .conftest import Player

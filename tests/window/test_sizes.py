@@ -16,7 +16,7 @@ from sandbox.window import commands
 from sandbox.window.bar import HEIGHT, ICONS, LEAST, WORDS, Bar
 from sandbox.window.canvas import Canvas
 from sandbox.window.commands import TABLE
-from sandbox.window.playback import Playback
+from sandbox.window.shots import Playback
 
 #: From half as wide as high to three times as wide.
 SIZES = [
