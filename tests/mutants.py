@@ -87,7 +87,7 @@ TESTS: dict[str, dict[str, str]] = {
             ["{name}", "schemas", *(f"scenes/{file.stem[5:]}" for file in sorted(ROOT.glob("tests/scenes/test_*.py")))]
         )
     },
-    "sandbox/scene": {"checking": "checking", "": "scene mistakes cli"},
+    "sandbox/scene": {"running": "checking", "": "scene mistakes cli"},
     "sandbox/lab": {
         "maps": "maps",
         "stress": "stress",

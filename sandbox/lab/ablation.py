@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from functools import partial
 from math import hypot, isclose
 from typing import Any, NamedTuple
@@ -74,10 +74,6 @@ class Ablated:
         """Whether the change has no visible effect, in flight or at the end."""
         shifts = self.shift_m, self.flight_m
         return all(m is not None and m < NOTHING for m in shifts) and self.verdict[0] == self.verdict[1]
-
-    def as_dict(self) -> dict[str, Any]:
-        """For JSON."""
-        return {**asdict(self), "nothing": self.is_nothing}
 
     @property
     def effect(self) -> str:

@@ -186,7 +186,7 @@ def as_dict(found: Trade) -> dict[str, Any]:
         "levels": {
             name: {**point.as_dict(), "times_front": found.behind_front(name)} for name, point in found.levels.items()
         },
-        "ablation": [row.as_dict() for row in found.ablation],
+        "ablation": [{**asdict(row), "nothing": row.is_nothing} for row in found.ablation],
         "verdicts": found.verdicts,
     }
 

@@ -62,7 +62,7 @@ class Pull:
     def changes(self, session: Session) -> dict[str, Any] | None:
         """The changes that the pull makes; None if it is not a shot. The ball goes in the opposite direction."""
         controls = session.controls
-        speed, angle = session.parameter(controls.speed), session.parameter(controls.angle)
+        speed, angle = session.parameters.get(controls.speed), session.parameters.get(controls.angle)
         if not self.shoots or speed is None or angle is None:
             return None
         along, down = self.vector
@@ -78,7 +78,7 @@ def nudged(session: Session, turn: float = 0.0, push: float = 0.0) -> dict[str, 
     """The changes of a key pressed so many times: ``turn`` counter-clockwise, ``push`` stronger."""
     controls = session.controls
     changes: dict[str, Any] = {}
-    angle, speed = session.parameter(controls.angle), session.parameter(controls.speed)
+    angle, speed = session.parameters.get(controls.angle), session.parameters.get(controls.speed)
     if turn and angle is not None:
         changes[controls.angle] = _turned(angle, round(angle.value + turn * TURN, 3))
     if push and speed is not None:
@@ -92,7 +92,7 @@ def spun(session: Session, which: int, notches: float) -> dict[str, Any]:
     spins = session.controls.spins
     if which >= len(spins):
         return {}
-    spin, parameter = spins[which], session.parameter(spins[which].key)
+    spin, parameter = spins[which], session.parameters.get(spins[which].key)
     if parameter is None:
         return {}
     value = round(parameter.value + notches * spin.step, 6)

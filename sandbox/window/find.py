@@ -66,7 +66,7 @@ def questions(session: Session, upright: bool) -> list[Question]:
 def _usual(session: Session, upright: bool) -> dict[str, tuple[float, float]]:
     """The ranges of speed and angle that are searched where the scene says nothing else."""
     controls = session.controls
-    speed, angle = session.parameter(controls.speed), session.parameter(controls.angle)
+    speed, angle = session.parameters.get(controls.speed), session.parameters.get(controls.angle)
     if speed is None or angle is None:
         return {}
     fastest = min(controls.strongest, TIMES * speed.value or controls.strongest)

@@ -72,7 +72,7 @@ def grips(session: Session) -> list[Grip]:
                 continue
             place = handle.at(parameters) if handle.at is not None else (values[0], values[1])
             slopes = _slopes(handle, keys, values, place, session)
-            declared = [session.parameter(key) for key in keys]
+            declared = [session.parameters.get(key) for key in keys]
             bounds = [
                 (-inf, inf) if p is None or p.low is None or p.high is None else (p.low, p.high) for p in declared
             ]

@@ -27,7 +27,7 @@ class Pad:
     def __init__(self, session: Session, upright: bool, left: float, top: float, sheet: Canvas) -> None:
         self.session, self.upright, self.unit = session, upright, sheet.unit
         spins = session.controls.spins[:2]
-        self.spins = [p for spin in spins if (p := session.parameter(spin.key)) is not None]
+        self.spins = [p for spin in spins if (p := session.parameters.get(spin.key)) is not None]
         self.reaches = [self._reach(p, spin.step) for p, spin in zip(self.spins, spins, strict=False)]
         #: The tip of a cue: both in radii of the ball, so it slips off beyond a circle.
         self.is_tip = len(self.spins) == 2 and all(p.unit == "" for p in self.spins)

@@ -115,10 +115,6 @@ class Session:
         )
         return found
 
-    def parameter(self, key: str) -> declared.Parameter | None:
-        """A parameter with its current value."""
-        return self.parameters.get(key)
-
     @property
     def place(self) -> tuple[Any, ...]:
         """What the scene is apart from what a player aims with."""

@@ -193,3 +193,13 @@ def test_a_ball_that_was_potted_has_no_speed_any_more():
     assert run.result["scratch"]
     assert "m/s" in said[0]["speed"]
     assert {said[1][label] for label in ("speed", "direction", "side spin")} == {"–"}
+
+
+def test_any_ball_says_how_it_moves():
+    picture = picture_of("carom")
+    event = next(e for e in picture.run.events if e.kind == "impact" and {e.ball, e.partner} <= {*picture.balls})
+    (hit,), t = {event.ball, event.partner} - {picture.ball}, event.t
+    still, rolling = (dict(picture.moving(hit, moment)) for moment in (0.0, t + 0.01))
+    assert still == {"speed": "0.00 m/s", "direction": "–", "side spin": "none"}
+    assert rolling["speed"] != still["speed"]
+    assert rolling["direction"].endswith("°")

@@ -32,7 +32,7 @@ def test_what_is_looked_for_is_a_result_and_may_be_varied(source):
         for goal in question.goals:
             assert goal.wanted.keys() <= session.scene.facts.keys()
             for key, (low, high) in goal.vary.items():
-                assert session.parameter(key) is not None
+                assert session.parameters.get(key) is not None
                 assert low < high
 
 
