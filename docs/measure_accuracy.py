@@ -116,7 +116,7 @@ def rattled() -> dict[str, list[float | None]]:
         reference = simulate(setup, REFERENCE)
         same = met == [event.partner for event in reference.events if event.kind == "impact"]
         t = min(run.duration, reference.duration)
-        error = apart(places(run, ["ball"], t), places(reference, ["ball"], t))
+        error = apart(places(run, t), places(reference, t))
         found[name].append(error if same else None)
     return found
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import doctest
-import importlib
+import importlib.util
 import inspect
 import math
 import os
@@ -197,6 +197,19 @@ def test_code_of_the_readme_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 def test_pictures_of_the_readme_are_shown_and_small(picture: Path):
     assert f"docs/pictures/{picture.name}" in README
     assert picture.stat().st_size < 300_000
+
+
+# Accuracy -----------------------------------------------------------------------------------------------------------
+
+
+def test_the_table_of_shots_at_the_rim_can_be_measured_again(monkeypatch: pytest.MonkeyPatch):
+    """With the columns that the page has."""
+    found = importlib.util.spec_from_file_location("measure_accuracy", ROOT / "docs" / "measure_accuracy.py")
+    measure = importlib.util.module_from_spec(found)
+    found.loader.exec_module(measure)
+    monkeypatch.setattr(measure, "SHOTS", 5)
+    page = measure.PAGE.read_text("utf-8")
+    assert f"<!-- rim -->\n{measure.rimmed()['rim'][0]}\n" in page
 
 
 # Contributing -------------------------------------------------------------------------------------------------------
