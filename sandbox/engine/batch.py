@@ -89,8 +89,10 @@ class _OnlyFloats(Exception):
     """Forces that cannot take arrays, or that return other values for arrays than for floats."""
 
 
-#: How a shot that is complete left the batch.
-_ENDS = ("until", "rest", "duration")
+#: Why a shot leaves the batch, as in Left, where the first three are complete; none if it stays.
+_HOW = ("until", "rest", "duration", "before", "after", "flight", "ended", "start", "")
+_UNTIL, _REST, _DURATION, _BEFORE, _AFTER, _FLIGHT, _ENDED, _START, _STAYS = range(len(_HOW))
+_ENDS = _HOW[:_BEFORE]
 
 
 class _Held(NamedTuple):
@@ -109,7 +111,10 @@ class Batch:
         self._accuracy = accuracy
         self._control = StepControl(accuracy)
         self._step = self._control.integrator.step_of_many(self._law)
-        whole = setups.whole
+        whole, ball = setups.whole, setups.whole.balls[0]
+        numbers = (whole.duration, ball.radius, ball.inertia_factor)
+        self._duration, self._radius, self._factor = (np.broadcast_to(each, len(setups)) for each in numbers)  # of all
+        self._has_law = np.array([surface.law is not None for surface in whole.surfaces], dtype=bool)
         self._select = selector(whole)
         self._until = selector(whole.until)
         self._outlines = Outlines(setups, accuracy.skin)
@@ -123,11 +128,11 @@ class Batch:
         # of those in flight
         self._shot = np.arange(len(setups))
         self._t = np.zeros(len(setups))
-        start = whole.start_of(whole.balls[0])
+        start = whole.start_of(ball)
         self._state: Any = np.array([np.broadcast_to(part, len(setups)) for part in start], float)
         self._wanted = np.full(len(setups), self._control.first)  # s, the next step
         self._again = np.zeros(len(setups), dtype=bool)  # the last step was too long and is repeated
-        self._how = np.full(len(setups), "", dtype="U8")  # why it leaves now, as in Left; "" if it stays
+        self._how = np.full(len(setups), _STAYS)  # why it leaves now: a place in _HOW
         self._met = np.full(len(setups), -1)  # surface that it has just met, or -1
         self._ends = np.zeros(len(setups), dtype=bool)  # its way of sliding or rolling has just ended
         self._surface = np.full(len(setups), -1)  # on which it slides or rolls; -1 in flight
@@ -149,7 +154,7 @@ class Batch:
                 self._advance_all(rounds % len(self._shot))
                 rounds += 1
                 pieces += len(self._paths[-1][0])
-        self._how = np.where(self._met >= 0, "after", np.where(self._ends, "ended", "flight"))
+        self._how = np.where(self._met >= 0, _AFTER, np.where(self._ends, _ENDED, _FLIGHT))
         self._drop()
         self._seconds = perf_counter() - started
 
@@ -200,7 +205,7 @@ class Batch:
         count, obstacle, near = self._outlines.near(self._shot, self._state[0], self._state[1])
         away = self._state[2] * near.nx + self._state[3] * near.ny
         self._met = np.where(count == 1, obstacle, -1)
-        self._how[~((count == 0) | ((count == 1) & (near.gap >= -1e-12) & (away >= -CLOSING)))] = "start"
+        self._how[~((count == 0) | ((count == 1) & (near.gap >= -1e-12) & (away >= -CLOSING)))] = _START
         self._drop()
 
     def _advance_all(self, watched: int) -> None:
@@ -224,9 +229,9 @@ class Batch:
         self._counts[REFINED, self._shot] += ~fits
         accepted = fits & self._now.bounds.hold(after)
         stuck = ~accepted & (fits | (following < shortest(self._t)))
-        self._how[stuck] = "flight"  # which raises the error
+        self._how[stuck] = _FLIGHT  # which raises the error
         wanted, self._wanted = self._wanted, np.where(stuck, h, following)
-        lanes = np.flatnonzero(accepted)
+        lanes = accepted.nonzero()[0]
         both: Any = self._state, known, after, last
         ends = [part[:, lanes] for part in both]
         arc = through(self._t[lanes], h[lanes], *ends)
@@ -235,7 +240,7 @@ class Batch:
         changes, lasts = self._changes(rows, accepted)
         if not lasts.all():
             unclear = lanes[~lasts]  # what follows the contact: this step is made again, alone
-            self._how[unclear], self._wanted[unclear] = "flight", wanted[unclear]
+            self._how[unclear], self._wanted[unclear] = _FLIGHT, wanted[unclear]
             self._counts[STEPS, self._shot[unclear]] -= 1
             lanes, rows, changes = lanes[lasts], rows[:, lasts], changes[lasts]
         if len(lanes):
@@ -246,7 +251,7 @@ class Batch:
 
     def _placed(self, held: np.ndarray, mode: str) -> _Held:
         """The shots of this mask, placed exactly on their surfaces as moving or resting there."""
-        lanes = np.flatnonzero(held)
+        lanes = held.nonzero()[0]
         shots, state = self._shot[lanes], tuple(self._state[:, lanes])
         obstacles, ball = self._outlines.of(self._surface[lanes], shots), self._select(shots).balls[0]
         contact = LastingContact(mode, obstacles, obstacles.on_feature(SIDE, *state[:2]), self._direction[lanes])
@@ -287,7 +292,7 @@ class Batch:
     def _settle(self, acceleration: np.ndarray) -> None:
         """Whether shots that have met a surface, or whose slide or roll has ended, fly on, or slide, roll or rest."""
         hit = self._met >= 0
-        at = np.flatnonzero(hit | self._ends)
+        at = (hit | self._ends).nonzero()[0]
         if not len(at):
             return
         hit, held, shots = hit[at], self._surface[at] >= 0, self._shot[at]
@@ -308,7 +313,7 @@ class Batch:
         holds = rests = np.zeros(len(at), dtype=bool)
         mode = direction = np.zeros(0)
         if not flies.all():
-            self._how[at[~flies]] = np.where(hit, "after", "ended")[~flies]
+            self._how[at[~flies]] = np.where(hit, _AFTER, _ENDED)[~flies]
             state = np.array((x, y, vx - away * nx, vy - away * ny, spin))
             ball = self._select(shots).balls[0]
             mode, direction = motion_on(ball, tuple(state), obstacles.surface, touching, applied)
@@ -318,27 +323,27 @@ class Batch:
             here = at[holds]
             self._state[:, here], self._mode[here] = state[:, holds], mode[holds]
             self._direction[here] = direction[holds]
-        for i in np.flatnonzero(flies | holds | rests).tolist():
+        for i in (flies | holds | rests).nonzero()[0].tolist():
             lane, shot, surface = int(at[i]), int(shots[i]), int(on[i])
             what = "rest" if rests[i] else "" if flies[i] != held[i] else "leave" if flies[i] else "contact"
             how = self._how[lane] = self._noted(lane, what, surface, bool(hit[i]))
-            if how in ("after", "ended"):
+            if how in (_AFTER, _ENDED):
                 continue  # run alone, the shot raises the error
             self._contact[lane] = -1 if flies[i] else len(self._contacts)
             if not flies[i]:
                 obstacle = self._outlines.obstacle(surface, shot)
                 side = obstacle.on_feature(SIDE, float(x[i]), float(y[i]))
                 self._contacts.append(LastingContact(str(mode[i]), obstacle, side, float(direction[i])))
-        ended = at[rests | (self._how[at] == "until")]  # the last state is included, though no arc follows
+        ended = at[rests | (self._how[at] == _UNTIL)]  # the last state is included, though no arc follows
         if rests.any():
             near = self._outlines.in_reach(shots[rests], x[None, rests], y[None, rests], on[rests])
             self._counts[QUERIES, shots[rests]] += near.sum(axis=0)
         if len(ended):
             self._paths.append((self._shot[ended], still_rows(self._t[ended], self._state[:, ended])))
 
-    def _noted(self, lane: int, what: str, surface: int, hit: bool) -> str:
+    def _noted(self, lane: int, what: str, surface: int, hit: bool) -> int:
         """Note what becomes of a shot on a surface, if that is an event, after an impact there if it ``hit`` it.
-        Returns why it leaves now, as in Left; "" if it stays."""
+        Returns why it leaves now, as a place in _HOW."""
         setup, events = self.setups[self._shot[lane]], self._events[self._shot[lane]]
         noted = len(events)
         try:
@@ -349,8 +354,8 @@ class Batch:
                 over = setup.ends_with(events) or over
         except FAILURES:
             del events[noted:]
-            return "after" if hit else "ended"
-        return "until" if over else "rest" if what == "rest" else ""
+            return _AFTER if hit else _ENDED
+        return _UNTIL if over else _REST if what == "rest" else _STAYS
 
     def _leaves(self, at: np.ndarray, most: np.ndarray) -> np.ndarray:
         """Whether these shots leave what they have met, on which no more than this presses them, in m/s^2."""
@@ -364,7 +369,7 @@ class Batch:
     def _travel(self, lanes: np.ndarray, rows: np.ndarray, changes: np.ndarray) -> None:
         """Take the accepted step of these lanes, up to the first touch, or to where the motion in contact changes."""
         shots, t0 = self._shot[lanes], rows[T0]
-        ends = np.flatnonzero(np.isfinite(changes))
+        ends = np.isfinite(changes).nonzero()[0]
         if len(ends):
             u = changes[ends]
             rows[:, ends] = cut(rows[:, ends], t0[ends] + u * (rows[T1, ends] - t0[ends]), u)
@@ -373,7 +378,7 @@ class Batch:
         )
         self._counts[QUERIES, shots] += looked_at
         t = t0 + u * (rows[T1] - t0)
-        hits = np.flatnonzero(t <= rows[T1])
+        hits = (t <= rows[T1]).nonzero()[0]
         if len(hits):
             self._wanted[lanes[hits]] = np.minimum(self._wanted[lanes[hits]], rows[T1, hits] - t0[hits])
             rows[:, hits] = cut(rows[:, hits], t[hits], u[hits])
@@ -385,12 +390,12 @@ class Batch:
             for held in self._held:
                 if (ended := self._ends & (self._mode == held.contact.mode)).any():
                     self._placed(ended, BECOMES[held.contact.mode])
-        how = np.where(rows[T1] >= np.broadcast_to(self._now.duration, self._t.shape)[lanes], "duration", "")
-        how[hits] = ""
+        how = np.where(rows[T1] >= self._duration[shots], _DURATION, _STAYS)
+        how[hits] = _STAYS
         if isinstance(self._now.until, Until):
             passed = self._until(shots).passed(tuple(rows[START]), tuple(rows[END]))
-            how[(how == "") & ~np.isfinite(changes) & passed] = "until"
-            hits = hits[how[hits] == ""]
+            how[(how == _STAYS) & ~np.isfinite(changes) & passed] = _UNTIL
+            hits = hits[how[hits] == _STAYS]
         self._how[lanes] = how
         if len(hits):
             self._impact(lanes[hits])
@@ -406,19 +411,20 @@ class Batch:
         along = vx * near.ny - vy * near.nx
         plain = (count == 1) & (approach > CLOSING)
         bounces = np.zeros((len(lanes), 4))  # as in Bounce
-        for i in np.flatnonzero(plain).tolist():
-            setup = self.setups[shots[i]]
-            surface, speed = setup.surfaces[obstacle[i]], float(approach[i])
+        grip = self._outlines.of(obstacle, shots).surface
+        bounces[:, 0], bounces[:, 1] = grip.restitution, grip.friction
+        for i in (plain & self._has_law[obstacle]).nonzero()[0].tolist():
+            surface = self.setups[shots[i]].surfaces[obstacle[i]]
             try:
-                bounces[i] = bounce_off(surface, speed, float(along[i]))
+                bounces[i] = bounce_off(surface, float(approach[i]), float(along[i]))
             except FAILURES:
                 plain[i] = False  # run alone, the shot reports what is wrong with the surface's law
         motion = self._exchanged(lanes, *tilted(near.nx, near.ny, bounces[:, 2], along), bounces)
-        held = np.flatnonzero(self._surface[lanes] >= 0)
+        held = (self._surface[lanes] >= 0).nonzero()[0]
         if len(held):  # what it is on may act, too, and does not if it is not pressed on that
             own = self._outlines.of(self._surface[lanes[held]], shots[held]).on_feature(SIDE, x[held], y[held])
             plain[held] &= motion[0][held] * own.nx + motion[1][held] * own.ny >= -CLOSING
-        self._how[lanes[~plain]] = "before"
+        self._how[lanes[~plain]] = _BEFORE
         lanes, shots, obstacle = lanes[plain], shots[plain], obstacle[plain]
         self._counts[IMPACTS, shots] += 1
         self._state[2:, lanes] = np.array(motion)[:, plain]
@@ -433,8 +439,8 @@ class Batch:
 
     def _exchanged(self, lanes: np.ndarray, nx: np.ndarray, ny: np.ndarray, bounces: np.ndarray) -> Acceleration:
         """The velocities and spins after impacts on surfaces with these normals."""
-        motion, ball = tuple(self._state[2:, lanes]), self._now.balls[0]
-        r, factor = (np.broadcast_to(part, self._t.shape)[lanes] for part in (ball.radius, ball.inertia_factor))
+        motion, shots = tuple(self._state[2:, lanes]), self._shot[lanes]
+        r, factor = self._radius[shots], self._factor[shots]
         approach, slip, _ = surface_speeds(motion, nx, ny, r)
         push, rub = impact_lanes(FEW if len(lanes) <= FEW else MANY).exchange_all(
             approach, (1.0 + bounces[:, 3]) * slip, np.column_stack((bounces[:, :2], factor))
@@ -445,14 +451,15 @@ class Batch:
 
     def _drop(self) -> np.ndarray:
         """Note how shots leave, and keep the others. Returns a mask of these."""
-        staying: np.ndarray = self._how == ""
-        for lane in np.flatnonzero(~staying).tolist():
+        staying: np.ndarray = self._how == _STAYS
+        leaving = (~staying).nonzero()[0].tolist()
+        for lane in leaving:
             state, number = tuple(self._state[:, lane].tolist()), int(self._contact[lane])
             contact = self._contacts[number] if number >= 0 else None
-            shot, how = int(self._shot[lane]), str(self._how[lane])
+            shot, how = int(self._shot[lane]), _HOW[self._how[lane]]
             arcs = [] if how in _ENDS else self._last_arc(shot)
             self._left[shot] = Left(float(self._t[lane]), how, state, float(self._wanted[lane]), contact, arcs)
-        if not staying.all():
+        if leaving:
             for name in _OF_EACH:
                 setattr(self, name, getattr(self, name)[..., staying])
             self._keep(self._select(self._shot))

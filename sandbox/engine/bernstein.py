@@ -87,8 +87,8 @@ def derivative(b: Sequence[float]) -> list[float]:
     return [n * (b[k + 1] - b[k]) for k in range(n)] or [0.0]
 
 
-def elevate(b: Sequence[Any], degree: int) -> Sequence[Any]:
-    """The same polynomial at a higher degree; or many, with arrays as coefficients."""
+def elevate(b: Sequence[float], degree: int) -> Sequence[float]:
+    """The same polynomial at a higher degree."""
     while len(b) - 1 < degree:
         n = len(b)
         b = [b[0], *((k * b[k - 1] + (n - k) * b[k]) / n for k in range(1, n)), b[-1]]
@@ -96,27 +96,32 @@ def elevate(b: Sequence[Any], degree: int) -> Sequence[Any]:
 
 
 def squared_length(x: Sequence[float], y: Sequence[float]) -> list[float]:
-    """Coefficients of x^2 + y^2; of one polynomial each, or of many with arrays as coefficients."""
+    """Coefficients of x^2 + y^2."""
     squares: list[float] = _squares(len(x))(x, y)
     return squares
+
+
+def products(count: int) -> Iterator[tuple[int, int, float]]:
+    """Each i and j, and the weight of b[i] b[j] in the (i + j)-th coefficient of the square of f."""
+    n = count - 1
+    for i in range(count):
+        for j in range(i, count):
+            both = 1 if i == j else 2  # b[i] b[j] and b[j] b[i]
+            yield i, j, both * comb(n, i) * comb(n, j) / comb(2 * n, i + j)
 
 
 @cache
 def _squares(count: int) -> Any:
     """The sum of the squares of two polynomials with so many coefficients, as straight Python."""
-    n = count - 1
-    rows: list[str] = [""] * (2 * n + 1)
-    for i in range(count):
-        for j in range(i, count):
-            both = 1 if i == j else 2  # b[i] b[j] and b[j] b[i]
-            weight = both * comb(n, i) * comb(n, j) / comb(2 * n, i + j)
-            rows[i + j] += f" + {weight!r} * (x{i} * x{j} + y{i} * y{j})"
+    rows: list[str] = [""] * (2 * count - 1)
+    for i, j, weight in products(count):
+        rows[i + j] += f" + {weight!r} * (x{i} * x{j} + y{i} * y{j})"
     lines = [f"{_names(name, count)} = {name}" for name in "xy"]
     return straight("squares(x, y)", [*lines, f"return [{', '.join(row[3:] for row in rows)}]"], __file__)
 
 
-def without_root_at_start(b: Sequence[Any]) -> list[Any]:
-    """Coefficients of f(u) / u, where f(0) is taken as exactly zero; of one polynomial or of many."""
+def without_root_at_start(b: Sequence[float]) -> list[float]:
+    """Coefficients of f(u) / u, where f(0) is taken as exactly zero."""
     n = len(b) - 1
     return [b[k + 1] * n / (k + 1) for k in range(n)]
 

@@ -10,7 +10,7 @@ from math import comb
 
 import numpy as np
 
-from sandbox.engine.bernstein import CONVERGED, elevate
+from sandbox.engine.bernstein import CONVERGED, elevate, products, without_root_at_start
 
 #: Bisections of a polynomial of which its signs do not tell how many roots it has.
 _HALVINGS = 4
@@ -52,6 +52,33 @@ def _elevation(n: int, degree: int) -> np.ndarray:
     return np.array([elevate(one, degree) for one in np.eye(n + 1).tolist()]).T
 
 
+def squared_length(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Coefficients of x^2 + y^2."""
+    first, second, weights = _products(len(x))
+    found: np.ndarray = weights @ (x[first] * x[second] + y[first] * y[second])
+    return found
+
+
+@lru_cache
+def _products(count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    first, second, weight = np.array(list(products(count))).T
+    first, second = first.astype(int), second.astype(int)
+    weights = np.zeros((2 * count - 1, len(weight)))
+    weights[first + second, np.arange(len(weight))] = weight
+    return first, second, weights
+
+
+def without_root(b: np.ndarray) -> np.ndarray:
+    """Coefficients of (f(u) - f(0)) / u, at the degree of f."""
+    found: np.ndarray = _dividing(len(b) - 1) @ (b - b[0])
+    return found
+
+
+@lru_cache
+def _dividing(n: int) -> np.ndarray:
+    return np.array([elevate(without_root_at_start(one), n) for one in np.eye(n + 1).tolist()]).T
+
+
 def until(b: np.ndarray, u: np.ndarray) -> np.ndarray:
     """Coefficients on [0, u], by de Casteljau. A polynomial of a lower degree may come first in a longer column."""
     part, rest = b.copy(), 1.0 - u
@@ -87,9 +114,9 @@ def downward_crossings(b: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarra
         positive = b > 0.0
         changes = (positive[1:] != positive[:-1]).sum(axis=0)
         doubtful = (changes > 1) | ((changes > 0) & (b == 0.0).any(axis=0))
-        falls = np.flatnonzero((changes == 1) & ~positive[-1] & ~doubtful)
+        falls = ((changes == 1) & ~positive[-1] & ~doubtful).nonzero()[0]
         falling.append((b[:, falls], path[falls], start[falls], np.full(len(falls), width)))
-        some = np.flatnonzero(doubtful)
+        some = doubtful.nonzero()[0]
         path, start = path[some], start[some]
         if not len(some) or halving == _HALVINGS:
             break

@@ -13,15 +13,15 @@ import numpy as np
 
 from sandbox.engine.accuracy import SKIN
 from sandbox.engine.arc import Arc
-from sandbox.engine.bernstein import elevate, squared_length, without_root_at_start
-from sandbox.engine.bernstein_many import elevated, evaluate, first_downward_crossing
+from sandbox.engine.bernstein_many import elevated, evaluate, first_downward_crossing, squared_length, without_root
 from sandbox.engine.stacking import Stack
 from sandbox.engine.touch import NOISE, TOUCHING_GAP, Obstacle, Outline, Touching, flush
 
 
 class Grip(NamedTuple):
-    """What lasting contact asks of many surfaces."""
+    """What contact asks of many surfaces."""
 
+    restitution: Any
     friction: Any
     rolling_resistance: Any
     lowest_bounce: Any  # m
@@ -93,7 +93,7 @@ class Outlines:
         what, path = np.nonzero(self.in_reach(shots, x, y, held))
         if len(path):
             u, unclear = _first_touch(Outline(*self._table[:, what, shots[path]]), x[:, path], y[:, path], self._skin)
-            for pair in np.flatnonzero(unclear).tolist():
+            for pair in unclear.nonzero()[0].tolist():
                 found = self.obstacle(int(what[pair]), int(shots[path[pair]])).first_touch(arc(int(path[pair])))
                 u[pair] = np.inf if found is None else found
             np.minimum.at(touch, path, u)
@@ -120,7 +120,7 @@ def _first_touch(outline: Outline, x: np.ndarray, y: np.ndarray, skin: float) ->
     """Where each path first touches its shape, as u, inf where it does not, and a mask of the unclear ones; both of
     shape (paths,)."""
     first, unclear = np.full(len(outline.reach), np.inf), np.zeros(len(outline.reach), dtype=bool)
-    straight = np.flatnonzero(outline.length > 0.0)
+    straight = (outline.length > 0.0).nonzero()[0]
     along, (corners, to_corner) = outline.along(x, y), _to_corners(outline, straight, x, y, skin)
     sides, to_side, starts = _to_sides(outline, straight, along[0], outline.across(x, y), skin)
     path = np.concatenate((corners, sides))
@@ -128,15 +128,14 @@ def _first_touch(outline: Outline, x: np.ndarray, y: np.ndarray, skin: float) ->
         return first, unclear
     gap = np.concatenate((to_corner, to_side), axis=1)
     u, doubtful = _closing(gap, np.concatenate((corners >= 0, starts)))
-    found = np.isfinite(u)
-    there = evaluate(along[:, path], np.where(found, u, 0.0))
-    missed = found & ((there < 0.0) | (there > outline.length[path]))
-    missed[: len(corners)] = False
-    if missed.any():  # it may touch later, after passing beyond the side's end
+    found = np.isfinite(u[len(corners) :])
+    there = evaluate(along[:, sides], np.where(found, u[len(corners) :], 0.0))
+    missed = len(corners) + (found & ((there < 0.0) | (there > outline.length[sides]))).nonzero()[0]
+    if len(missed):  # it may touch later, after passing beyond the side's end
         u[missed] = np.inf
-        positive = gap > 0.0
+        positive = gap[:, missed] > 0.0
         again = (positive[1:] != positive[:-1]).sum(axis=0) > 1
-        doubtful |= missed & (again | (gap[0] <= NOISE))
+        doubtful[missed] |= again | (gap[0, missed] <= NOISE)
     np.minimum.at(first, path, u)
     np.logical_or.at(unclear, path, doubtful)
     return first, unclear
@@ -157,10 +156,9 @@ def _to_corners(
     mx, my = dx[len(dx) // 2], dy[len(dy) // 2]
     length = np.hypot(mx, my)
     apart |= (length > radius) & ((dx * mx + dy * my).min(axis=0) > radius * length)
-    some = np.flatnonzero(~apart)
+    some = (~apart).nonzero()[0]
     radius = radius[some]
-    squares = np.array(squared_length(dx[:, some], dy[:, some]))
-    return path[some], (squares - radius * radius) / (2.0 * radius)
+    return path[some], (squared_length(dx[:, some], dy[:, some]) - radius * radius) / (2.0 * radius)
 
 
 def _to_sides(
@@ -168,12 +166,12 @@ def _to_sides(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The paths that may come to touch a side, from either side of its line; their gaps to it, of the same degree as
     those to corners; and whether they may start in touch. ``along`` is where they start."""
-    path = np.tile(straight, 2)
+    path = np.concatenate((straight, straight))
     across = np.concatenate((across[:, straight], -across[:, straight]), axis=1)
     reach, beside = outline.reach[path], across[0] > 0.0
     gap = across - (reach - skin)
     reached = (across.min(axis=0) <= reach) & (across.max(axis=0) >= -reach)
-    some = np.flatnonzero(reached & (beside | (gap.max(axis=0) > -NOISE)))
+    some = (reached & (beside | (gap.max(axis=0) > -NOISE))).nonzero()[0]
     path = path[some]
     within = (along[path] >= -TOUCHING_GAP) & (along[path] <= outline.length[path] + TOUCHING_GAP)
     return path, elevated(gap[:, some], 2 * (len(gap) - 1)), within & beside[some]
@@ -182,8 +180,8 @@ def _to_sides(
 def _closing(gap: np.ndarray, starts_touching: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """When gaps first close, as u, and a mask of the unclear ones. One that is closed at the start, within rounding,
     counts only if it closes further."""
-    closed = np.flatnonzero(starts_touching & (gap[0] <= NOISE))
-    opening = np.array(elevate(without_root_at_start(gap[:, closed] - gap[0, closed]), len(gap) - 1))
+    closed = (starts_touching & (gap[0] <= NOISE)).nonzero()[0]
+    opening = without_root(gap[:, closed])
     ahead = gap.copy()
     ahead[:, closed] = opening + NOISE
     u, unclear = first_downward_crossing(ahead)

@@ -84,20 +84,23 @@ class Integrator(NamedTuple):
         """One step of many balls at once, whose states are an array. A ball's step does not depend on the others."""
         import numpy as np  # here, not above: single runs do not need it
 
+        stages = [(each.time, np.array(each.weights), np.array(each.of_velocities)) for each in self.stages]
+        off = np.array(self.error)
+
         def step(t: Any, state: Any, acceleration: Any, dt: Any) -> Any:
-            rates = np.empty((len(self.stages) + 1, *state.shape))  # vx, vy, ax, ay and alpha in each stage
+            rates = np.empty((len(stages) + 1, *state.shape))  # vx, vy, ax, ay and alpha in each stage
             rates[0, :2], rates[0, 2:] = state[2:4], acceleration
 
-            def grown(weights: tuple[float, ...], some: slice) -> Any:
-                return dt * np.einsum("s,scn->cn", weights, rates[: len(weights), some])
+            def grown(weights: Any, components: int) -> Any:
+                return dt * np.einsum("s,scn->cn", weights, rates[: len(weights), :components])
 
-            for number, stage in enumerate(self.stages, 1):
-                end = state + grown(stage.weights, slice(None))
+            for number, (time, weights, of_velocities) in enumerate(stages, 1):
+                end = state + grown(weights, 5)
                 rates[number, :2] = end[2:4]
-                if stage.of_velocities:
-                    end[:2] = state[:2] + grown(stage.of_velocities, slice(2))
-                rates[number, 2:] = law(t + stage.time * dt, end)
-            return end, rates[-1, 2:], grown(self.error, slice(None)) if self.error else None
+                if len(of_velocities):
+                    end[:2] = state[:2] + grown(of_velocities, 2)
+                rates[number, 2:] = law(t + time * dt, end)
+            return end, rates[-1, 2:], grown(off, 5) if len(off) else None
 
         return step
 
