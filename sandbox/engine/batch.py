@@ -40,7 +40,7 @@ FLIGHT = ("balls", "surfaces", "patches", "bounds", "duration", "breaks")
 
 #: What is known of each shot in flight: attributes of Batch, arrays with shots along the last axis.
 _OF_EACH = ["_shot", "_t", "_state", "_wanted", "_again", "_how"]
-_OF_EACH += ["_met", "_ends", "_surface", "_mode", "_direction", "_contact"]  # after touches and in contact
+_OF_EACH += ["_met", "_normal", "_ends", "_surface", "_mode", "_direction", "_contact"]  # after touches and in contact
 
 #: Rows of the counters.
 STEPS, REFINED, IMPACTS, QUERIES = range(4)
@@ -134,6 +134,7 @@ class Batch:
         self._again = np.zeros(len(setups), dtype=bool)  # the last step was too long and is repeated
         self._how = np.full(len(setups), _STAYS)  # why it leaves now: a place in _HOW
         self._met = np.full(len(setups), -1)  # surface that it has just met, or -1
+        self._normal = np.zeros((3, len(setups)))  # of that: nx, ny and the curvature of the ball's path along it
         self._ends = np.zeros(len(setups), dtype=bool)  # its way of sliding or rolling has just ended
         self._surface = np.full(len(setups), -1)  # on which it slides or rolls; -1 in flight
         self._mode = np.full(len(setups), FLYING, dtype="U8")
@@ -204,7 +205,7 @@ class Batch:
     def _begin(self) -> None:
         count, obstacle, near = self._outlines.near(self._shot, self._state[0], self._state[1])
         away = self._state[2] * near.nx + self._state[3] * near.ny
-        self._met = np.where(count == 1, obstacle, -1)
+        self._met, self._normal = np.where(count == 1, obstacle, -1), np.array(near[1:4])
         self._how[~((count == 0) | ((count == 1) & (near.gap >= -1e-12) & (away >= -CLOSING)))] = _START
         self._drop()
 
@@ -298,10 +299,11 @@ class Batch:
         hit, held, shots = hit[at], self._surface[at] >= 0, self._shot[at]
         on = np.where(held, self._surface[at], self._met[at])
         (x, y, vx, vy, spin), applied = self._state[:, at], tuple(acceleration[:, at])
-        obstacles = self._outlines.of(on, shots)
-        touching = obstacles.near(x, y)
-        nx, ny = touching.nx, touching.ny
-        pressed = press((x, y, vx, vy, spin), applied, nx, ny, touching.curvature)
+        obstacles, (nx, ny, curvature) = self._outlines.of(on, shots), self._normal[:, at]
+        if held.any():
+            touching = obstacles.near(x, y)
+            nx, ny, curvature = np.where(held, touching[1:4], self._normal[:, at])
+        pressed = press((x, y, vx, vy, spin), applied, nx, ny, curvature)
         away = vx * nx + vy * ny
         stays = away <= leaves_at(pressed, np.maximum(self._accuracy.settle, obstacles.surface.lowest_bounce))
         known = ~(hit & held)
@@ -316,6 +318,7 @@ class Batch:
             self._how[at[~flies]] = np.where(hit, _AFTER, _ENDED)[~flies]
             state = np.array((x, y, vx - away * nx, vy - away * ny, spin))
             ball = self._select(shots).balls[0]
+            touching = obstacles.near(x, y)
             mode, direction = motion_on(ball, tuple(state), obstacles.surface, touching, applied)
             along = obstacles.outline.along(x, y)
             inside = known & stays & (along > SEAM) & (along < obstacles.outline.length - SEAM)
@@ -428,7 +431,7 @@ class Batch:
         lanes, shots, obstacle = lanes[plain], shots[plain], obstacle[plain]
         self._counts[IMPACTS, shots] += 1
         self._state[2:, lanes] = np.array(motion)[:, plain]
-        self._met[lanes] = obstacle
+        self._met[lanes], self._normal[:, lanes] = obstacle, np.array(near[1:4])[:, plain]
         places = zip(
             self._t[lanes].tolist(), approach[plain].tolist(), x[plain].tolist(), y[plain].tolist(), strict=True
         )
@@ -442,7 +445,8 @@ class Batch:
         motion, shots = tuple(self._state[2:, lanes]), self._shot[lanes]
         r, factor = self._radius[shots], self._factor[shots]
         approach, slip, _ = surface_speeds(motion, nx, ny, r)
-        push, rub = impact_lanes(FEW if len(lanes) <= FEW else MANY).exchange_all(
+        count = min(MANY, max(FEW, 1 << (len(lanes) - 1).bit_length()))
+        push, rub = impact_lanes(count).exchange_all(
             approach, (1.0 + bounces[:, 3]) * slip, np.column_stack((bounces[:, :2], factor))
         )
         return after_impulse(motion, nx, ny, r, factor, (push, rub, 0.0))

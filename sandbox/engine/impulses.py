@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Sequence
+from functools import cached_property
 from math import copysign, hypot, log, sqrt
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -37,8 +38,8 @@ _ITERATIONS, _ITERATIONS_TURNING = 200, 2_000
 #: Distance between lanes, how many lie side by side, and the height of a disc that is not in use.
 _SPACING, _SIDE, _PARKED = 4.0, 8, 1.5
 
-#: Lanes for a few and for many contacts: a step costs about 0.4 us for each, used or not. More contacts are done in
-#: several steps.
+#: Fewest and most lanes for contacts of several shots: a step costs about 0.4 us for each, used or not. More contacts
+#: are done in several steps.
 FEW, MANY = 8, 64
 
 _MOTION = batch.BodyFields.VELOCITY | batch.BodyFields.ANGULAR_VELOCITY
@@ -119,31 +120,38 @@ class Lanes:
         factor."""
         import numpy as np  # here, not above: single runs do not need it
 
-        impulses = np.empty((2, len(slip)))
-        places, count = np.array(self._places), len(self._places)
-        parked = np.zeros((count + 1, 5))  # x, y, vx, vy, spin; the last is the static body
-        parked[:count, :2] = places + np.array([0.0, _PARKED])
+        impulses, parked = np.empty((2, len(slip))), self._parked
         entering, leaving = self._buffers
-        for first in range(0, len(slip), count):
-            some = slice(first, first + count)
+        for first in range(0, len(slip), len(self._places)):
+            some = slice(first, first + len(self._places))
             here = slice(len(slip[some]))
             for lane, pair in enumerate(map(tuple, bounces[some].tolist())):
                 self._prepare(lane, pair)
             entered = parked.copy()
-            entered[here, 1:4] = np.column_stack((places[here, 1], slip[some], -approach[some]))
+            entered[here, 1] -= _PARKED
+            entered[here, 2], entered[here, 3] = slip[some], -approach[some]
             entering.set_float_buf(entered)
             try:
                 batch.set_space_bodies(self._space, _ALL, entering)
                 self._space.step(INSTANT)
                 leaving.clear()
                 batch.get_space_bodies(self._space, _MOTION, leaving)
-                along, away, _ = np.frombuffer(leaving.float_buf()).reshape(count + 1, 3)[here].T
+                along, away, _ = np.frombuffer(leaving.float_buf()).reshape(-1, 3)[here].T
                 impulses[:, some] = away + approach[some], along - slip[some]
             finally:  # apart, so that pymunk forgets the contacts
                 entering.set_float_buf(parked)
                 batch.set_space_bodies(self._space, _ALL, entering)
                 self._space.step(INSTANT)
         return impulses
+
+    @cached_property
+    def _parked(self) -> np.ndarray:
+        """x, y, vx, vy and spin of discs that are not in use, and of the static body."""
+        import numpy as np
+
+        parked = np.zeros((len(self._places) + 1, 5))
+        parked[:-1, :2] = np.array(self._places) + np.array([0.0, _PARKED])
+        return parked
 
     def _prepare(self, lane: int, pair: tuple[float, float, float]) -> None:
         """Set restitution, friction and inertia factor of a lane; most are those of the contact before."""
