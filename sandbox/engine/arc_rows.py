@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import cached_property
+from itertools import chain
 from math import inf
 from typing import Any
 
@@ -141,13 +142,25 @@ def cut(rows: np.ndarray, t: np.ndarray, u: np.ndarray) -> np.ndarray:
     return rows
 
 
-def row_of(arc: Arc, contact: int) -> list[float]:
-    """The row of an arc whose contact has this number."""
-    x, y, vx, vy, spin = (elevate(curve, degree) for curve, degree in zip(arc.curves, (5, 5, 4, 4, 3), strict=True))
-    return [arc.t0, arc.t1, *arc.start, *x, *y, *vx, *vy, *spin, *arc.state(arc.t1), contact]
+def columns_of(arcs: Sequence[Arc], contacts: Sequence[int]) -> np.ndarray:
+    """Arcs as columns; their contacts have these numbers."""
+    rows = []
+    for arc, contact in zip(arcs, contacts, strict=True):
+        curves = (elevate(curve, part.stop - part.start - 1) for curve, part in zip(arc.curves, CURVES, strict=True))
+        rows.append([arc.t0, arc.t1, *arc.start, *chain(*curves), *arc.state(arc.t1), contact])
+    return np.array(rows, float).reshape(-1, COLUMNS).T
 
 
-def still_rows(t: np.ndarray, state: np.ndarray) -> np.ndarray:
+def stepped(arc: Arc, contacts: np.ndarray) -> np.ndarray:
+    """The same of arcs in one, with arrays, as after a step."""
+    columns = np.empty((COLUMNS, len(contacts)))
+    columns[T0], columns[T1], columns[CONTACT] = arc.t0, arc.t1, contacts
+    columns[START], columns[END] = arc.start, arc.end
+    columns[START.stop : END.start] = list(chain(*arc.curves))
+    return columns
+
+
+def still(t: np.ndarray, state: np.ndarray) -> np.ndarray:
     """Arcs without duration, as columns."""
     x, y, _, _, spin = state
     return np.vstack((t, t, state, *[x] * 6, *[y] * 6, *[0.0 * x] * 10, *[spin] * 4, state, 0.0 * x - 1.0))

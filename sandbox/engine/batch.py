@@ -17,7 +17,7 @@ import numpy as np
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.acting import by_cause, law_of
 from sandbox.engine.arc import Arc, through
-from sandbox.engine.arc_rows import COLUMNS, CURVES, END, START, T0, T1, Paths, X, Y, arc_of, cut, row_of, still_rows
+from sandbox.engine.arc_rows import CURVES, END, START, T0, T1, Paths, X, Y, arc_of, columns_of, cut, stepped, still
 from sandbox.engine.bernstein_many import elevated, first_downward_crossing
 from sandbox.engine.event import Event
 from sandbox.engine.impulses import FEW, MANY
@@ -121,7 +121,7 @@ class Batch:
         self._events: list[list[Event]] = [[] for _ in setups]
         self._left: dict[int, Left] = {}
         self._contacts: list[Any] = []
-        nothing = (np.zeros(0, dtype=int), np.zeros((COLUMNS, 0)))
+        nothing = (np.zeros(0, dtype=int), columns_of([], []))
         self._paths = [nothing]  # of each round: shots, and the rows of their arcs as columns
         self._counts = np.zeros((4, len(setups)), dtype=int)  # of all shots
 
@@ -234,10 +234,8 @@ class Batch:
         wanted, self._wanted = self._wanted, np.where(stuck, h, following)
         lanes = accepted.nonzero()[0]
         both: Any = self._state, known, after, last
-        ends = [part[:, lanes] for part in both]
-        arc = through(self._t[lanes], h[lanes], *ends)
-        curves = [part for curve in arc.curves for part in curve]
-        rows = np.vstack((arc.t0, arc.t1, ends[0], *curves, ends[2], self._contact[lanes]))
+        arc = through(self._t[lanes], h[lanes], *(part[:, lanes] for part in both))
+        rows = stepped(arc, self._contact[lanes])
         changes, lasts = self._changes(rows, accepted)
         if not lasts.all():
             unclear = lanes[~lasts]  # what follows the contact: this step is made again, alone
@@ -342,7 +340,7 @@ class Batch:
             near = self._outlines.in_reach(shots[rests], x[None, rests], y[None, rests], on[rests])
             self._counts[QUERIES, shots[rests]] += near.sum(axis=0)
         if len(ended):
-            self._paths.append((self._shot[ended], still_rows(self._t[ended], self._state[:, ended])))
+            self._paths.append((self._shot[ended], still(self._t[ended], self._state[:, ended])))
 
     def _noted(self, lane: int, what: str, surface: int, hit: bool) -> int:
         """Note what becomes of a shot on a surface, if that is an event, after an impact there if it ``hit`` it.
@@ -497,6 +495,5 @@ class Batch:
         arcs = list(run.arcs[setup.balls[0].name])[len(left.arcs) :]
         contacts = range(len(self._contacts), len(self._contacts) + len(arcs))
         self._contacts += [arc.contact for arc in arcs]
-        rows = np.array([row_of(arc, at) for arc, at in zip(arcs, contacts, strict=True)]).reshape(-1, COLUMNS).T
-        self._paths.append((np.full(len(arcs), number), rows))
+        self._paths.append((np.full(len(arcs), number), columns_of(arcs, contacts)))
         return run
