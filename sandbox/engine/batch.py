@@ -324,14 +324,15 @@ class Batch:
             here = at[holds]
             self._state[:, here], self._mode[here] = state[:, holds], mode[holds]
             self._direction[here] = direction[holds]
-        for i in (flies | holds | rests).nonzero()[0].tolist():
-            lane, shot, surface = int(at[i]), int(shots[i]), int(on[i])
-            what = "rest" if rests[i] else "" if flies[i] != held[i] else "leave" if flies[i] else "contact"
-            how = self._how[lane] = self._noted(lane, what, surface, bool(hit[i]))
+        some = (flies | holds | rests).nonzero()[0]
+        parts = [part[some].tolist() for part in (at, shots, on, hit, held, flies, rests)]
+        for i, lane, shot, surface, has_hit, was_held, leaves, stops in zip(some.tolist(), *parts, strict=True):
+            what = "rest" if stops else "" if leaves != was_held else "leave" if leaves else "contact"
+            how = self._how[lane] = self._noted(lane, what, surface, has_hit)
             if how in (_AFTER, _ENDED):
                 continue  # run alone, the shot raises the error
-            self._contact[lane] = -1 if flies[i] else len(self._contacts)
-            if not flies[i]:
+            self._contact[lane] = -1 if leaves else len(self._contacts)
+            if not leaves:
                 obstacle = self._outlines.obstacle(surface, shot)
                 side = obstacle.on_feature(SIDE, float(x[i]), float(y[i]))
                 self._contacts.append(LastingContact(str(mode[i]), obstacle, side, float(direction[i])))

@@ -8,7 +8,7 @@ from typing import Any
 
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.setup import Setup
-from sandbox.physics.elementwise import anywhere, choose, clip, least, most
+from sandbox.physics.elementwise import anywhere, at_once, choose, clip, least, most, smallest
 from sandbox.physics.integrators import INTEGRATORS, Acceleration, Method, State
 
 #: Local error of a step relative to the tolerance at the end. Each impact on a round shape multiplies an error by ten
@@ -111,13 +111,13 @@ def allowed(setup: Setup, t: Any, h: Any, state: State, acceleration: Accelerati
             (y, end_y, vy, ay, patch.bottom, patch.top),
         ):
             turns = speed * (speed + whole * change) < 0.0
-            for line in lines:
+            for line in at_once(lines, whole):
                 passes = near & (turns | ((place < line) ^ (end < line)))
                 if anywhere(passes):
                     across = (lines[1] - lines[0]) / (abs(speed) + _TINY)
                     soonest = _AT_BORDER * clip(across, _THINNEST * patch.step, patch.step)
-                    reached = _gone(line - place, speed, change, soonest)
-                    h = choose(passes & (reached < h), reached, h)
+                    reached = choose(passes, _gone(line - place, speed, change, soonest), inf)
+                    h = least(h, smallest(reached))
         half = 0.5 * h
         inside = patch.holds(x + half * (vx + 0.5 * half * ax), y + half * (vy + 0.5 * half * ay))
         h = choose(near & inside & (h > patch.step), patch.step, h)

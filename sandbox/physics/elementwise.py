@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import reduce
 from typing import Any
 
@@ -72,6 +72,23 @@ def anywhere(condition: Any) -> bool:
     import numpy as np
 
     return bool(np.count_nonzero(condition))  # in a third of the time of any()
+
+
+def at_once(values: Sequence[Any], like: Any) -> Sequence[Any]:
+    """These for a float; for an array of shape (n,) one array of shape (values, n), for what is asked of each."""
+    if isinstance(like, float):
+        return values
+    import numpy as np
+
+    found = np.empty((len(values), len(like)))
+    for row, value in zip(found, values, strict=True):
+        row[:] = value
+    return (found,)
+
+
+def smallest(x: Any) -> Any:
+    """A float; of an array of shape (values, n) the smallest of each column."""
+    return x if isinstance(x, float) else x.min(axis=0)
 
 
 def everywhere(condition: Any) -> bool:

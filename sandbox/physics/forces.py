@@ -14,7 +14,7 @@ from math import pi
 from typing import Any, Protocol
 
 from sandbox.physics.air import VISCOSITY, density_share
-from sandbox.physics.coefficients import Coefficient
+from sandbox.physics.coefficients import Coefficient, Constant
 from sandbox.physics.elementwise import clip
 
 Wind = Callable[[float, Any], tuple[Any, Any]]
@@ -81,9 +81,13 @@ class Drag(_InAir):
 
     def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
         ux, uy = velocity if self.wind is None else in_wind(self.wind, t, position, velocity)
-        speed = (ux * ux + uy * uy) ** 0.5
-        spin_ratio = self.radius * abs(spin) / (speed + _ALMOST_ZERO)
-        k = -self._half_density_area * self.coefficient(self._reynolds_per_speed * speed, spin_ratio) * speed
+        speed, coefficient = (ux * ux + uy * uy) ** 0.5, self.coefficient
+        if type(coefficient) is Constant:
+            value = coefficient.value
+        else:
+            spin_ratio = self.radius * abs(spin) / (speed + _ALMOST_ZERO)
+            value = coefficient(self._reynolds_per_speed * speed, spin_ratio)
+        k = -self._half_density_area * value * speed
         return k * ux, k * uy
 
 
