@@ -269,8 +269,10 @@ class Batch:
         """Where on these arcs, of shots whose step is ``accepted``, slip or speed ends, as u, inf where it does not;
         and a mask of those that stay on their surface until then, as far as can be told here."""
         changes, lasts = np.full(rows.shape[1], np.inf), np.ones(rows.shape[1], dtype=bool)
+        if not (self._held and accepted.any()):
+            return changes, lasts
         place = accepted.cumsum() - 1
-        for lanes, ball, contact in self._held if accepted.any() else ():
+        for lanes, ball, contact in self._held:
             here = rows[:, place[lanes]]
             x, y, vx, vy, spin = (here[part] for part in CURVES)
             end: Any = here[END]
