@@ -21,8 +21,7 @@ from sandbox.errors import RequestError, RunError
 from sandbox.parameters import Group
 from sandbox.picture.ball import SMALLEST, Flat, Look, Silhouette, Turning, least_radius, mark_radius, seams, turned
 from sandbox.picture.camera import Camera
-from sandbox.picture.ghosts import Ghost
-from sandbox.picture.marks import draw_trace, mark_impacts
+from sandbox.picture.marks import Ghost, draw_trace, mark_impacts
 from sandbox.picture.painter import Painter, Point, blank
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.path import FINEST, Mark, Path, apart
