@@ -74,6 +74,8 @@ class Simulation:
         self._order = count()
         self._over = False
         self._tracks = self._make_tracks()
+        every = range(len(self._tracks))
+        self._others = [[*every[:index], *every[index + 1 :]] for index in every]  # than each ball
         self._moving = {*range(len(self._tracks))}  # the balls that neither rest nor are caught
         slowest = 0.0 if setup.plane is None else slowest_hop(setup, accuracy.hop)
         self._impacts = Impacts(setup, self._tracks, self._numerics, slowest)
@@ -330,7 +332,7 @@ class Simulation:
             return  # nothing left to plan
         self._note_rest(index, t)
         own = None if track.contact is None else track.contact.obstacle
-        self._predict(index, t, kind, lambda other: other is own, range(len(self._tracks)))
+        self._predict(index, t, kind, lambda other: other is own, self._others[index])
 
     def _neighbours(self, stepped: Mapping[int, Arc], t: float) -> dict[int, list[int]]:
         """For each ball of a heap the others that it may meet on its new arc from t; of two in the heap for the first.
@@ -377,10 +379,12 @@ class Simulation:
         if track.catches and (caught := self._first_touch(index, arc, track.catches, at)) is not None:
             at, kind = caught, "catch"
         self._push(at, kind, index)
+        if not others:
+            return
         left, bottom, right, top = arc.box()
         for other in others:
             neighbour = self._tracks[other]
-            if other == index or neighbour.caught:
+            if neighbour.caught:
                 continue
             reach = track.ball.radius + neighbour.ball.radius
             a, b, c, d = neighbour.arc.box()
@@ -406,7 +410,7 @@ class Simulation:
         first, (left, bottom, right, top) = None, arc.box()
         for obstacle in obstacles:
             west, south, east, north = obstacle.box
-            if left <= east and right >= west and bottom <= north and top >= south and not in_contact(obstacle):
+            if right >= west and left <= east and bottom <= north and top >= south and not in_contact(obstacle):
                 self._numerics.queries += 1
                 touch = self._tracks[index].first_touch(obstacle, arc)
                 if touch is not None and touch <= until:

@@ -231,9 +231,10 @@ Near = tuple[Obstacle, Touching]
 def touched(obstacles: Sequence[Obstacle], x: float, y: float, gap: float = TOUCHING_GAP) -> list[Near]:
     """Those that a ball centred at (x, y) touches, up to a ``gap`` in m, each at its nearest feature."""
     found = []
+    west, south, east, north = x - gap, y - gap, x + gap, y + gap
     for obstacle in obstacles:
         left, bottom, right, top = obstacle.box
-        if left - gap <= x <= right + gap and bottom - gap <= y <= top + gap:
+        if right >= west and left <= east and bottom <= north and top >= south:
             touching = obstacle.near(x, y)
             if touching.gap <= gap:
                 found.append((obstacle, touching))

@@ -137,9 +137,9 @@ class Track:
 
         Raises RunError with the time, the ball and the quantity if the state is not finite or out of bounds.
         """
-        contact, ball = self.contact, self.ball
-        if contact is None:
+        if self.contact is None:
             return self._integrate(t, until, self._law, self._step), ""
+        contact, ball = self.contact, self.ball
         if contact.mode == RESTING:
             return still(t, until, self.state, contact), ""
         arc = self._under(lambda at, state: contact.forces(ball, self._law(at, state), state)[0], t, until)
