@@ -478,20 +478,20 @@ class Kills:
             out.unlink()
         command.append(str(out))
         story: list[str] = []
-        while not self.is_over and draw.random() > 0.08:
-            if draw.random() < 0.06:
-                self.two_at_once(command)
-                break
-            by = draw.choice([signal.SIGKILL, *SIGNALS])
-            end(command, by, draw.choice((draw.uniform(0.0, 0.4), draw.uniform(0.3, 1.2))))
-            self.done += 1
-            story.append(by.name)
-            if out.exists() and not (here / "rows.csv.resume").exists():  # it was already done
-                break
-            if out.exists() and draw.random() < 0.1:
-                damage(draw, out)
-                story.append("damaged")
         try:
+            while not self.is_over and draw.random() > 0.08:
+                if draw.random() < 0.06:
+                    self.two_at_once(command)
+                    break
+                by = draw.choice([signal.SIGKILL, *SIGNALS])
+                end(command, by, draw.choice((draw.uniform(0.0, 0.4), draw.uniform(0.3, 1.2))))
+                self.done += 1
+                story.append(by.name)
+                if out.exists() and not (here / "rows.csv.resume").exists():  # it was already done
+                    break
+                if out.exists() and draw.random() < 0.1:
+                    damage(draw, out)
+                    story.append("damaged")
             finished(command)
         except Wrong as wrong:
             if "damaged" in story and "its first line is not what" in str(wrong):
