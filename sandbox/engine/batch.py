@@ -112,8 +112,8 @@ class Batch:
         self._control = StepControl(accuracy)
         self._step = self._control.integrator.step_of_many(self._law)
         whole, ball = setups.whole, setups.whole.balls[0]
-        numbers = (whole.duration, ball.radius, ball.inertia_factor)
-        self._duration, self._radius, self._factor = (np.broadcast_to(each, len(setups)) for each in numbers)  # of all
+        numbers = whole.duration, ball.radius, ball.inertia_factor  # of all shots, in or out of flight
+        self._duration, self._radius, self._factor = (np.broadcast_to(each, len(setups)) for each in numbers)
         self._has_law = np.array([surface.law is not None for surface in whole.surfaces], dtype=bool)
         self._select = selector(whole)
         self._until = selector(whole.until)
@@ -233,8 +233,8 @@ class Batch:
         self._how[stuck] = _FLIGHT  # which raises the error
         wanted, self._wanted = self._wanted, np.where(stuck, h, following)
         lanes = accepted.nonzero()[0]
-        both: Any = self._state, known, after, last
-        arc = through(self._t[lanes], h[lanes], *(part[:, lanes] for part in both))
+        ends: Any = self._state, known, after, last
+        arc = through(self._t[lanes], h[lanes], *(part[:, lanes] for part in ends))
         rows = stepped(arc, self._contact[lanes])
         changes, lasts = self._changes(rows, accepted)
         if not lasts.all():
