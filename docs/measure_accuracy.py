@@ -1,7 +1,7 @@
 """Measures the tables and pictures of accuracy.md again: ``python docs/measure_accuracy.py``.
 
-Or only some of them, by name: ``trade`` (two minutes on an idle machine), ``stress`` (two minutes), ``validate`` (a
-second), ``rim`` (half a minute). The page is written after each.
+Or only some of them, by name: ``trade`` (two minutes on an idle machine), ``stress`` (ten minutes and more),
+``validate`` (a second), ``rim`` (half a minute). The page is written after each.
 """
 
 from __future__ import annotations
