@@ -9,9 +9,10 @@ The force of damping, ``c d^(1/4) dd/dt``, is the rate of ``c 4/5 d^(5/4)``, whi
 taken in all. So the velocities without that part are integrated: their forces have no steep start, and equal steps are
 accurate though contacts close and open within them.
 
-All contacts are treated at once, as entries of arrays, so that the outcome does not depend on the order of the bodies.
-Vectors in the plane are complex numbers, x + iy. Products with matrices are by ``vecdot``: with ``@`` large ones are
-shared by threads, a hundred times as slow where other programs keep the processors busy.
+All contacts are treated at once, as entries of arrays, so that the outcome does not depend on the order of the bodies;
+and several clusters, such as the racks of a fan's breaks, as their rows. Vectors in the plane are complex numbers,
+x + iy. Products with matrices are by ``vecdot``: with ``@`` large ones are shared by threads, a hundred times as slow
+where other programs keep the processors busy.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
-from sandbox.engine.rubbing import Rubbing
+from sandbox.engine.rubbing import Law, Rubbing
 from sandbox.engine.surfaces import CLOSING
 from sandbox.errors import RunError, no_exit
 from sandbox.physics.hertz import contact_time, damping
@@ -92,7 +93,8 @@ class Link(NamedTuple):
     second: int | None  # None for a wall
     stiffness: float  # N/m^1.5
     restitution: float
-    friction: Callable[[float], float]  # of the slip in m/s
+    law: Law  # of its friction
+    approach: float = 0.0  # m/s, at which it is asked
     #: Gap (m), normal, and curvature (1/m) of the path along the wall, and what else, of a body at (x, y).
     wall: Callable[[float, float], Sequence[Any]] | None = None
 
@@ -107,11 +109,6 @@ class ClusterOutcome:
     approach: np.ndarray  # m/s, when it first closed, shape (links,)
     closed: np.ndarray  # s, time when it first closed, shape (links,)
 
-    def part(self, bodies: slice, links: slice) -> ClusterOutcome:
-        """That of some of the bodies and links."""
-        each = self.impulse[links], self.approach[links], self.closed[links]
-        return ClusterOutcome(self.times, self.motion[:, bodies], *each)
-
     @property
     def velocity(self) -> np.ndarray:
         """At the end, in m/s, shape (bodies, 2)."""
@@ -123,37 +120,17 @@ class ClusterOutcome:
         return self.motion[-1, :, 4:]
 
 
+@dataclass(frozen=True)
 class Cluster:
     """Bodies and the links between them. The cost grows with all of them: leave out what cannot be reached."""
 
-    def __init__(self, bodies: Sequence[Body], links: Sequence[Link], groups: Sequence[int] = ()) -> None:
-        """``groups`` has a number, from 0 on, for each link: those of one group share bodies with no other."""
-        count, every = len(bodies), range(len(links))
-        self.bodies, self.links = bodies, links
-        self._groups = np.array(groups or [0] * len(links))
-        first = self._first = np.array([link.first for link in links])
-        second = self._second = np.array([count if link.second is None else link.second for link in links])
-        self._weights = np.array([(body.mass, body.inertia) for body in bodies]).T
-        light, easy = np.column_stack((1.0 / self._weights, (0.0, 0.0)))  # the last body is what walls belong to
-        radius = np.array([*(body.radius for body in bodies), np.inf])
-        self._room = np.array([*(body.room for body in bodies), np.inf])
-        self._push = np.array([*(complex(*body.push) for body in bodies), 0.0])
-        self._mass = 1.0 / (light[first] + light[second])  # kg, reduced
-        self._stiffness = np.array([link.stiffness for link in links])
-        self._damping = np.array([damping(link.restitution) for link in links]) * np.sqrt(self._mass * self._stiffness)
-        self._taken = 0.8 * self._damping
-        self._pushed = np.zeros((count + 1, len(links)), complex)  # 1/kg: by an impulse at each link
-        self._pushed[first, every], self._pushed[second, every] = light[first], -light[second]
-        self._deepest = _TOO_DEEP * np.minimum(radius[first], radius[second])
-        radius[count] = 0.0
-        self._reach = radius[first] + radius[second]
-        self._rubbing = Rubbing(first, second, radius, light, easy, [link.friction for link in links], self._groups)
-        self._walls = [(place, link.wall, link.first) for place, link in enumerate(links) if link.wall is not None]
+    bodies: Sequence[Body]
+    links: Sequence[Link]
 
     @property
     def is_apart(self) -> bool:
         """Whether it takes steps of its own, or has walls."""
-        return len(self.links) == 1 or bool(self._walls)
+        return len(self.links) == 1 or any(link.wall is not None for link in self.links)
 
     def pass_through(self, share: float, faint: float = 0.0) -> ClusterOutcome:
         """Simulate the contact until nothing touches, in steps of this fraction of the shortest possible contact, or
@@ -161,54 +138,101 @@ class Cluster:
 
         Raises Unresolved if it does not end, or after too many steps; Entered if a body moves farther than it may.
         """
+        return _Passage([self]).outcomes(share, faint)[0]
+
+
+#: What takes the place of the second body of a link to a wall, and of what a cluster has fewer of than others.
+_NOTHING = Body(np.inf, 0.0, np.inf, (0.0, 0.0), (0.0, 0.0), (0.0, 0.0, 0.0))
+_FAR = 1e3  # m, from all others
+
+
+class _Passage:
+    """Clusters that are passed through with steps in common: rows of arrays."""
+
+    def __init__(self, clusters: Sequence[Cluster]) -> None:
+        self._clusters = clusters
+        count, most = max(len(each.bodies) for each in clusters), max(len(each.links) for each in clusters)
+        self._bodies = [[*each.bodies, *[_NOTHING] * (count + 1 - len(each.bodies))] for each in clusters]
+        # more links are of the first body, to nothing
+        links = [[*each.links, *[each.links[0]._replace(second=None)] * (most - len(each.links))] for each in clusters]
+        first = np.array([[link.first for link in row] for row in links])
+        second = np.array([[count if link.second is None else link.second for link in row] for row in links])
+        self._first, self._second = (each + (count + 1) * np.arange(len(clusters))[:, None] for each in (first, second))
+        self._weights = np.array([[(body.mass, body.inertia) for body in row] for row in self._bodies]).transpose(
+            2, 0, 1
+        )
+        self._absent = np.isinf(self._weights[0])
+        light, easy = 1.0 / self._weights
+        radius = np.array([[body.radius for body in row] for row in self._bodies])
+        self._room = np.array([[body.room for body in row] for row in self._bodies])
+        self._push = np.array([[complex(*body.push) for body in row] for row in self._bodies])
+        self._mass = 1.0 / (light.take(self._first) + light.take(self._second))  # kg, reduced
+        self._stiffness = np.array([[link.stiffness for link in row] for row in links])
+        damped = np.array([[damping(link.restitution) for link in row] for row in links])
+        self._damping = damped * np.sqrt(self._mass * self._stiffness)
+        self._taken = 0.8 * self._damping
+        one, other = radius.take(self._first), radius.take(self._second)
+        self._deepest = _TOO_DEEP * np.where(other > 0.0, np.minimum(one, other), one)
+        self._reach = one + other
+        laws = [[(link.law, link.approach) for link in row] for row in links]
+        self._rubbing = Rubbing(first, second, radius, light, easy, laws)
+        self._pushed = self._rubbing.pull  # 1/kg: by an impulse at each link
+        self._walls = [(place, link.wall, link.first) for place, link in enumerate(links[0]) if link.wall is not None]
+
+    def outcomes(self, share: float, faint: float) -> list[ClusterOutcome]:
+        """Of each; raises what one of them does."""
         while (passage := self._stepped_through(share, faint)) is None:
             share *= 0.5
         return passage
 
-    def _stepped_through(self, share: float, faint: float) -> ClusterOutcome | None:
+    def _stepped_through(self, share: float, faint: float) -> list[ClusterOutcome] | None:
         """The same with steps that are not repeated; None if one has too large an error."""
-        count, links = len(self.bodies), len(self.links)
+        shape = self._first.shape
         rows = [
-            (complex(*body.position), complex(*body.velocity), complex(*body.spin[:2]), 1j * body.spin[2])
-            for body in self.bodies
+            [
+                (complex(*body.position), complex(*body.velocity), complex(*body.spin[:2]), 1j * body.spin[2])
+                for body in row
+            ]
+            for row in self._bodies
         ]
-        state = np.array([*rows, (0.0, 0.0, 0.0, 0.0)]).T
-        self._origin = state[_PLACE, 0]
+        state = np.array(rows).transpose(2, 0, 1).copy()
+        self._origin = state[_PLACE, :, :1].copy()
         state[_PLACE] -= self._origin
-        state[_PLACE, count] = 1e3  # m: a placeholder for walls, never read
+        state[_PLACE, self._absent] = _FAR
         fastest = max(2.0 * float(np.abs(state[_VELOCITY]).max()), CLOSING)
-        quickest = max(fastest, *(hypot(*body.spin) * body.radius for body in self.bodies))
+        quickest = max(fastest, *(hypot(*body.spin) * body.radius for row in self._bodies for body in row))
         at = partial(contact_time, self._mass, self._stiffness)
         slowest = _SLOWEST + _TIMES * np.abs(self._push).max() * at(_SLOWEST).max()
         shortest, longest = at(fastest).min(), at(min(slowest, fastest)).max()
         started = state[_PLACE].copy()
-        scale = np.repeat([fastest * shortest, fastest], count + 1)
+        scale = np.repeat([fastest * shortest, fastest], started.size)
         whole, h, t = share * shortest, 0.0, 0.0
-        rates, elastic = np.empty((5, 2, count + 1), complex), np.empty((5, links))
+        rates, elastic = np.empty((5, 2, *started.shape), complex), np.empty((5, *shape))
         flat = rates.reshape(5, -1)
         # Links that are closed at the start store no energy: their distance then is where their force begins.
-        self._overlap = np.zeros(links)
+        self._overlap = np.zeros(shape)
         self._rates(state[:2], rates[0])
         self._overlap = np.minimum(self._gap, 0.0)
         elastic[0] = self._rates(state[:2], rates[0])
-        pushed, rubbed, closed = (np.zeros(links) for _ in range(3))  # N s: elastic, and what has had its friction
+        pushed, rubbed, closed = (np.zeros(shape) for _ in range(3))  # N s: elastic, and what has had its friction
         force, closing, normal = elastic[0], self._closing, self._normal
         approach = np.where(self._gap < _TOUCH, np.maximum(closing, 0.0), 0.0)
         moments, states, ends = [0.0], list[np.ndarray](), False
         while True:
             # Friction of the previous and next half step: second order, and mu times the impulse in total.
             back, h = 0.5 * h, whole
-            if links == 1:
-                kink = abs(float(self._gap[0])) / max(abs(float(closing[0])), CLOSING)  # s, from here
+            if self._first.size == 1:
+                kink = abs(self._gap.item()) / max(abs(closing.item()), CLOSING)  # s, from here
                 h *= _OF_A_PAIR * min(1.0, max(_FINEST, kink / h))
             ahead = 0.0 if ends else 0.5 * h
             reached = np.maximum(pushed + self._held + ahead * force, rubbed)
-            gain = np.vecdot(self._pushed, force * self._normal) + self._push  # m/s^2
-            state[1:] = self._rubbing.after(state[1:], self._normal, reached - rubbed, gain, back, ahead, quickest)
+            gain = self._pushing(force * self._normal) + self._push  # m/s^2
+            normals, pressed = self._normal, reached - rubbed
+            state[1:] = self._rubbing.after(state[1:], normals, pressed, gain, back, ahead, quickest, share)
             states.append(state)
             if ends:
                 break
-            if t > (_PATIENCE[0] * count + _PATIENCE[1]) * longest or len(moments) > _MOST_STEPS:
+            if t > (_PATIENCE[0] * (started.shape[1] - 1) + _PATIENCE[1]) * longest or len(moments) > _MOST_STEPS:
                 raise Unresolved(f"bodies do not separate within {t:.3g} s")
             if ((self._depth > self._deepest) | ((normal.conj() * self._normal).real < 0.0)).any():
                 raise Unresolved(f"bodies pass through each other after {t:.3g} s")
@@ -216,19 +240,19 @@ class Cluster:
                 raise Entered(f"a body has left its place after {t:.3g} s")
             rubbed, before, gap, normal = reached, closing, self._gap, self._normal
             start = state[:2].copy()
-            start[1] -= np.vecdot(self._pushed, self._held * self._normal)
+            start[1] -= self._pushing(self._held * self._normal)
             elastic[0] = self._rates(start, rates[0])
             for stage, weights in enumerate(_STAGES, 1):
-                moved = start + (h * weights @ flat[:stage]).reshape(2, -1)
+                moved = start + (h * weights @ flat[:stage]).reshape(start.shape)
                 elastic[stage] = self._rates(moved, rates[stage])
             if np.abs(_ERROR @ flat / scale).max() * h > _LARGEST_ERROR:
                 return None
             state = state.copy()
             state[:2] = moved[0], rates[4, 0]
-            pushed, closing = pushed + h * (_STAGES[-1] @ elastic[:4]), self._closing
+            pushed, closing = pushed + h * (_STAGES[-1] @ elastic[:4].reshape(4, -1)).reshape(shape), self._closing
             force = elastic[4] + self._damping * np.sqrt(np.sqrt(self._depth)) * closing
-            first = np.flatnonzero((self._depth > 0.0) & (approach == 0.0))
-            if first.size:  # sped up evenly until then
+            first = np.nonzero((self._depth > 0.0) & (approach == 0.0))
+            if first[0].size:  # sped up evenly until then
                 was, left, gained = np.maximum(before, 0.0)[first], np.maximum(gap, 0.0)[first], closing - before
                 approach[first] = np.sqrt(was**2 + 2.0 * left * np.maximum(gained[first], 0.0) / h) + CLOSING
                 closed[first] = t + np.minimum(2.0 * left / (was + approach[first]), h)
@@ -247,11 +271,17 @@ class Cluster:
             state[_VELOCITY] -= early * self._push
         impulse = pushed + self._held
         self._remove_excess_energy(states[0], state, impulse, t * fastest)
-        motion = np.array(states)[:, :, :count]
+        motion = np.array(states)
         motion[:, _PLACE] += self._origin
         place, velocity, roll, out = motion.swapaxes(0, 1)
         parts = place.real, place.imag, velocity.real, velocity.imag, out.imag, roll.real, roll.imag
-        return ClusterOutcome(np.array(moments), np.stack(parts, axis=-1), impulse, approach, closed)
+        times, motion, of_links = np.array(moments), np.stack(parts, axis=-1), (impulse, approach, closed)
+        return [
+            ClusterOutcome(
+                times, motion[:, row, : len(each.bodies)], *(its[row, : len(each.links)] for its in of_links)
+            )
+            for row, each in enumerate(self._clusters)
+        ]
 
     def _rates(self, moving: np.ndarray, rates: np.ndarray) -> np.ndarray:
         """Find the ``rates`` of places and of velocities without what damping has taken; returns the elastic forces in
@@ -265,42 +295,44 @@ class Cluster:
         distance = np.abs(apart)
         normal, curvature, gap = apart / distance, 1.0 / distance, distance - self._reach
         for link, wall, body in self._walls:
-            there = place[body] + self._origin
-            gap[link], nx, ny, curvature[link], *_ = wall(there.real, there.imag)
-            normal[link] = complex(nx, ny)
+            there = complex(place[0, body] + self._origin[0, 0])
+            gap[0, link], nx, ny, curvature[0, link], *_ = wall(there.real, there.imag)
+            normal[0, link] = complex(nx, ny)
         gap -= self._overlap
         depth = np.maximum(-gap, 0.0)
         root = np.sqrt(depth)
         held, elastic = self._taken * depth * np.sqrt(root), self._stiffness * depth * root
-        velocity = velocity + np.vecdot(self._pushed, held * normal)
+        velocity = velocity + self._pushing(held * normal)
         along = (velocity.take(self._first) - velocity.take(self._second)) * normal.conj()
         turned = (elastic - 1j * (held * curvature * along.imag)) * normal  # damping's impulse turns with the normal
-        rates[0], rates[1] = velocity, np.vecdot(self._pushed, turned) + self._push
+        rates[0], rates[1] = velocity, self._pushing(turned) + self._push
         self._gap, self._depth, self._normal, self._closing, self._held = gap, depth, normal, -along.real, held
         return elastic
 
+    def _pushing(self, impulses: np.ndarray) -> np.ndarray:
+        """What they change of the bodies' velocities."""
+        changes: np.ndarray = np.vecdot(self._pushed, impulses[:, None])
+        return changes
+
     def _remove_excess_energy(self, start: np.ndarray, end: np.ndarray, impulse: np.ndarray, way: float) -> None:
-        """Slow the bodies that were touched towards the common motion of their group if numerical errors have raised
+        """Slow the bodies that were touched towards the common motion of their cluster if numerical errors have raised
         its energy; other causes may have added what they do along the ``way`` in m."""
-        for group in range(self._groups.max() + 1):
-            acted = (impulse > 0.0) & (self._groups == group)
-            touched = np.flatnonzero(self._pushed[:-1, acted].any(axis=1))
-            mass, _ = weights = self._weights[:, touched]
-            common = np.zeros((4, touched.size), complex)
-            if touched.size and not self._walls:
-                common[_VELOCITY] = mass @ end[_VELOCITY, touched] / mass.sum()
-            apart, worked = end[:, touched] - common, float(np.abs(self._push[touched]) @ mass) * way
-            most = _energy(weights, start[:, touched]) + worked - _energy(weights, common)
-            has = _energy(weights, apart)
-            if has > most:
-                end[1:, touched] = (common + np.sqrt(max(0.0, most / has)) * apart)[1:]
+        touched = (self._pushed.real * (impulse > 0.0)[:, None]).any(axis=2)
+        weights = np.where(touched, self._weights, 0.0)
+        mass, common = weights[0], np.zeros_like(end)
+        if not self._walls:
+            common[_VELOCITY] = (np.vecdot(mass, end[_VELOCITY]) / np.maximum(mass.sum(axis=1), 1e-300))[:, None]
+        most = _energy(weights, start) + np.vecdot(mass, np.abs(self._push)) * way - _energy(weights, common)
+        has = _energy(weights, end - common)
+        share = np.where(has > most, np.sqrt(np.maximum(0.0, most / np.maximum(has, 1e-300))), 1.0)[:, None]
+        end[1:] = np.where(touched & (share < 1.0), common + share * (end - common), end)[1:]
 
 
-def _energy(weights: np.ndarray, motion: np.ndarray) -> float:
-    """Of bodies in J; the ``weights`` are their masses (kg) and inertias (kg m^2), shape (2, bodies)."""
+def _energy(weights: np.ndarray, motion: np.ndarray) -> np.ndarray:
+    """Of the bodies of each cluster in J; the ``weights`` are their masses (kg) and inertias (kg m^2)."""
     (mass, inertia), (_, velocity, roll, out) = weights, motion
     moving, turning = np.abs(velocity) ** 2 + out.real**2, np.abs(roll) ** 2 + out.imag**2
-    return 0.5 * float(mass @ moving + inertia @ turning)
+    return 0.5 * (np.vecdot(mass, moving) + np.vecdot(inertia, turning))
 
 
 T = TypeVar("T")
@@ -322,21 +354,5 @@ def pass_through(asked: Sequence[tuple[Cluster, float, float]]) -> list[ClusterO
     clusters = [one, *(cluster for cluster, *_ in others)]
     if all(its == how for _, *its in others) and not any(cluster.is_apart for cluster in clusters):
         with suppress(Exception), no_exit():  # it is found below whose it is
-            return _pass_together(clusters, *how)
+            return [*_Passage(clusters).outcomes(*how)]
     return [found for each in asked for found in pass_through([each])]
-
-
-def _pass_together(clusters: Sequence[Cluster], share: float, faint: float) -> list[ClusterOutcome | Exception]:
-    """The outcomes of several clusters that are passed through as one, with steps in common."""
-    bodies, links, groups, parts = list[Body](), list[Link](), list[int](), list[tuple[slice, slice]]()
-    for group, cluster in enumerate(clusters):
-        moved = [
-            link._replace(first=len(bodies) + link.first, second=len(bodies) + link.second)
-            for link in cluster.links
-            if link.second is not None
-        ]
-        before = len(bodies), len(links)
-        bodies, links, groups = [*bodies, *cluster.bodies], [*links, *moved], groups + [group] * len(moved)
-        parts.append((slice(before[0], len(bodies)), slice(before[1], len(links))))
-    outcome = Cluster(bodies, links, groups).pass_through(share, faint)
-    return [outcome.part(*part) for part in parts]

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
-from itertools import combinations, pairwise
+from collections.abc import Collection, Iterator, Sequence
+from itertools import combinations
 from math import hypot, inf
 
 import numpy as np
@@ -11,7 +11,7 @@ import numpy as np
 from sandbox.engine.arc import Arc
 from sandbox.engine.clusters import Asking, Body, Cluster, Entered, Link, Unresolved
 from sandbox.engine.impacts import Hit, Outcome
-from sandbox.engine.setup import Setup
+from sandbox.engine.setup import Always, Setup
 from sandbox.engine.surfaces import bounce_of_balls, bounce_off
 from sandbox.engine.touch import TOUCHING_GAP, Obstacle
 from sandbox.engine.track import Pressing, Track
@@ -191,10 +191,9 @@ class Pressed:
         closed, approach = (t + outcome.closed).tolist(), outcome.approach.tolist()
         hits = [Hit(closed[link], contacts[link][0][0], contacts[link][1], approach[link]) for link in touched]
         times = t + outcome.times
-        arcs = {
-            index: _arcs(times, outcome.motion[:, place[index], : len(members[index])])
-            for index in {ball for link in touched for ball in contacts[link][0]}
-        }
+        hit = [*{ball: None for link in touched for ball in contacts[link][0]}]
+        motion, components = outcome.motion[:, [place[index] for index in hit]], [len(members[index]) for index in hit]
+        arcs = dict(zip(hit, _arcs(times, motion, components), strict=True))
         until = float(times[-1])
         return Outcome(until, {index: each[-1].state(until) for index, each in arcs.items()}, sorted(hits), arcs)
 
@@ -210,31 +209,34 @@ class Pressed:
         bounce = bounce_of_balls(self._setup, approach, 0.0, first.name, second.name)
         law = self._setup.between(first.name, second.name)
         stiffness = self._setup.contact.between(first.radius, second.radius)
-        return Link(place[i], place[j], stiffness, bounce.restitution, lambda slip: law(approach, slip).friction)
+        return Link(place[i], place[j], stiffness, bounce.restitution, law, approach)
 
     def _wall_link(self, place: int, state: State, obstacle: Obstacle, stiffness: float) -> Link:
         touching = obstacle.near(state[0], state[1])
         approach = max(0.0, -(state[2] * touching.nx + state[3] * touching.ny))
         bounce = bounce_off(obstacle.surface, approach, state[2] * touching.ny - state[3] * touching.nx)
-        return Link(place, None, stiffness, bounce.restitution, lambda slip: bounce.friction, obstacle.near)
+        return Link(place, None, stiffness, bounce.restitution, Always(bounce), approach, obstacle.near)
 
 
-def _arcs(times: np.ndarray, motion: np.ndarray) -> list[Arc]:
-    """The path of a ball through its states at these times: places are the cubics that match velocities, too."""
-    times, motion = (np.concatenate((each[:-1:_STEPS], each[-1:])) for each in (times, motion))
-    here, there, h = motion[:-1], motion[1:], np.diff(times)[:, None]
-    (a, u), (b, v) = ((states[:, :2], states[:, 2:4] * h / 3.0) for states in (here, there))
+def _arcs(times: np.ndarray, motion: np.ndarray, components: Sequence[int]) -> Iterator[list[Arc]]:
+    """The path of each ball through its states at these times, shape (times, balls, 7), of which it has so many
+    ``components``: places are the cubics that match velocities, too."""
+    times, motion = np.concatenate((times[:-1:_STEPS], times[-1:])), np.concatenate((motion[:-1:_STEPS], motion[-1:]))
+    here, there, h = motion[:-1], motion[1:], np.diff(times)[:, None, None]
+    (a, u), (b, v) = ((states[..., :2], states[..., 2:4] * h / 3.0) for states in (here, there))
     places = np.stack((a, a + u, b - v, b), axis=-1)
-    speeds = 3.0 * np.diff(places) / h[:, :, None]
-    spins = np.stack((here[:, 4:], there[:, 4:]), axis=-1)
-    curves = zip(places.tolist(), speeds.tolist(), spins.tolist(), strict=True)
-    contact, moments, states = Pressing(*times[[0, -1]].tolist()), times.tolist(), [*map(tuple, motion.tolist())]
-    return [
-        Arc(t0, t1, start, (*place, *speed, *spin), contact, end)
-        for (t0, t1), (start, end), (place, speed, spin) in zip(
-            pairwise(moments), pairwise(states), curves, strict=True
-        )
-    ]
+    speeds = 3.0 * np.diff(places) / h[..., None]
+    spins = np.stack((here[..., 4:], there[..., 4:]), axis=-1)
+    curves = zip(*(each.swapaxes(0, 1).tolist() for each in (places, speeds, spins)), strict=True)
+    contact, moments, ways = Pressing(*times[[0, -1]].tolist()), times.tolist(), motion.swapaxes(0, 1).tolist()
+    for way, pieces, count in zip(ways, curves, components, strict=True):
+        states = [tuple(state[:count]) for state in way]
+        yield [
+            Arc(t0, t1, start, (*place, *speed, *spin[: count - 4]), contact, end)
+            for t0, t1, start, end, place, speed, spin in zip(
+                moments[:-1], moments[1:], states[:-1], states[1:], *pieces, strict=True
+            )
+        ]
 
 
 def _nearest(x: float, y: float, dx: float, dy: float) -> float:

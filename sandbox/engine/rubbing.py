@@ -9,25 +9,35 @@ outcome does not depend on their order.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
+from math import log2
 from typing import Any
 
 import numpy as np
+
+from sandbox.engine.setup import Bounce
 
 #: Most iterations, and the change of a slip relative to the fastest speed at which they stop; after some iterations it
 #: is clear whether the interval has a kink.
 _ITERATIONS, _CONVERGED, _CLEAR = 50, 5e-5, 3
 
+#: Links up to which their laws are asked one by one, which is quicker.
+_FEW = 16
+
+#: How often an interval is halved around a kink; and the step, as a fraction of the shortest contact, from which on
+#: both errors grow as that of the step, with its square.
+_HALVINGS, _FINE = 3, 0.07
+
 #: Length of an iteration's step over the inverse row sum; from 2 on it may diverge.
 _SHARE = 1.5
 
-#: How often an interval is halved around a kink.
-_HALVINGS = 3
-
-Law = Callable[[float], float]
+#: The bounce at a speed of approach and one of slip, in m/s; arrays of them where it can take arrays.
+Law = Callable[[Any, Any], Bounce]
 
 
 class Rubbing:
-    """Friction in the links of a cluster.
+    """Friction in the links of clusters, which are rows of arrays: a kink in one does not shorten the intervals of the
+    others.
 
     A motion has three rows of complex numbers, one for each body: ``vx + i vy``, ``wx + i wy`` and ``vz + i wz`` (m/s
     and rad/s). Slips and impulses are complex, too: along the contact in the plane, and out of it.
@@ -40,21 +50,32 @@ class Rubbing:
         radius: np.ndarray,
         light: np.ndarray,
         easy: np.ndarray,
-        laws: Sequence[Law],
-        groups: np.ndarray,
+        laws: Sequence[Sequence[tuple[Law, float]]],
     ) -> None:
         """``first`` and ``second`` are the bodies of each link; ``light`` and ``easy`` are the inverse masses (1/kg)
-        and inertias (1/(kg m^2)) of bodies; ``laws`` have the friction of each link at a slip in m/s. Links of
-        different ``groups`` share no body: a kink in one does not shorten the intervals of the others."""
-        every = range(len(laws))
-        self._links, self._arms, self._laws = (first, second), (radius[first], radius[second]), laws
-        self._groups = groups
-        signs, arms = np.zeros((2, len(laws), len(radius)))
-        signs[every, first], signs[every, second] = 1.0, -1.0
-        arms[every, first], arms[every, second] = self._arms
-        self._pull, self._turn = (signs * light).T.astype(complex), (arms * easy).T.astype(complex)
-        self._shifts, self._twists = signs * light @ signs.T, arms * easy @ arms.T  # 1/kg: links that share a body
-        self._used = np.zeros(len(laws), complex)  # of the normal impulses, in the last interval: a first guess
+        and inertias (1/(kg m^2)) of bodies; ``laws`` has that of each link, and the approach in m/s at which it is
+        asked."""
+        rows = np.arange(len(first))[:, None]
+        bodies = first + radius.shape[1] * rows, second + radius.shape[1] * rows  # of all rows
+        self._links, self._arms = bodies, (radius.take(bodies[0]), radius.take(bodies[1]))
+        signs, arms = np.zeros((2, *first.shape, radius.shape[1]))
+        every = rows, np.arange(first.shape[1])
+        signs[*every, first], signs[*every, second] = 1.0, -1.0
+        arms[*every, first], arms[*every, second] = self._arms
+        pulls, turns = signs * light[:, None], arms * easy[:, None]
+        self.pull, self._turn = (each.transpose(0, 2, 1).astype(complex, order="C") for each in (pulls, turns))
+        # 1/kg: links that share a body
+        self._shifts, self._twists = pulls @ signs.transpose(0, 2, 1), turns @ arms.transpose(0, 2, 1)
+        self._used = np.zeros(first.shape, complex)  # of the normal impulses, in the last interval: a first guess
+        self._approach = np.array([[approach for _, approach in row] for row in laws])
+        self._laws, self._only_floats = list[Law](), set[int]()
+        self._law_of = np.array([[self._number(law) for law, _ in row] for row in laws])
+
+    def _number(self, law: Law) -> int:
+        """Of a law among all."""
+        if law not in self._laws:
+            self._laws.append(law)
+        return self._laws.index(law)
 
     def after(
         self,
@@ -65,59 +86,81 @@ class Rubbing:
         back: float,
         ahead: float,
         fastest: float,
+        share: float,
     ) -> np.ndarray:
         """The motion after the friction of the time from ``back`` s before now to ``ahead`` s after.
 
-        ``pressed`` are the normal impulses (N s) of that time, ``gain`` the accelerations (m/s^2) by normal forces.
+        ``pressed`` are the normal impulses (N s) of that time, ``gain`` the accelerations (m/s^2) by normal forces;
+        ``share`` is the step as a fraction of the shortest contact.
         """
-        acting = np.flatnonzero(pressed > 0.0)
+        acting = np.flatnonzero((pressed > 0.0).any(axis=0))
         if not acting.size:
             return motion
-        first, second = (bodies[acting] for bodies in self._links)
-        arm, other_arm = (arms[acting] for arms in self._arms)
-        normal, pressed = normal[acting], pressed[acting]
-        one, other = motion.take(first, 1), motion.take(second, 1)
+        first, second = (bodies.take(acting, 1) for bodies in self._links)
+        arm, other_arm = (arms.take(acting, 1) for arms in self._arms)
+        normal, pressed = normal.take(acting, 1), pressed.take(acting, 1)
+        bodies = motion.reshape(3, -1)
+        one, other = bodies.take(first, 1), bodies.take(second, 1)
         velocity, _, out = one - other
         _, roll, spin = one * arm + other * other_arm
         across = normal.conj()
         slip = spin.imag - (velocity * across).imag + 1j * (out.real + (roll * across).imag)
-        laws = [self._laws[link] for link in acting.tolist()]
-        if not any(law(speed) for law, speed in zip(laws, np.abs(slip).tolist(), strict=True)):
+        laws, approach = self._law_of.take(acting, 1), self._approach.take(acting, 1)
+        if not self._friction(laws, approach, slip).any():
             return motion
         drift = -((gain.take(first) - gain.take(second)) * across).imag  # m/s^2
-        turned = (normal[:, None] * across).real
-        shifts, twists = (mobility.take(acting, 0).take(acting, 1) for mobility in (self._shifts, self._twists))
-        mobility = np.zeros((2 * acting.size,) * 2)  # 1/kg: of the parts along, and of those out of the plane
-        mobility[::2, ::2], mobility[1::2, 1::2] = shifts * turned + twists, shifts + twists * turned
-        total, used = np.zeros_like(slip), self._used[acting]
-        every, groups = slice(None), self._groups[acting]
-        waiting: list[tuple[float, float, int, Any]] = [(-back, ahead, _HALVINGS, every)]
+        turned = (normal[:, :, None] * across[:, None]).real
+        shifts, twists = (mobility.take(acting, 1).take(acting, 2) for mobility in (self._shifts, self._twists))
+        # 1/kg: of the parts along, and of those out of the plane
+        mobility = np.zeros((len(slip), 2 * acting.size, 2 * acting.size))
+        mobility[:, ::2, ::2], mobility[:, 1::2, 1::2] = shifts * turned + twists, shifts + twists * turned
+        coarse = max(1.0, share / _FINE)
+        total, used = np.zeros_like(slip), self._used.take(acting, 1)
+        waiting: list[tuple[float, float, int, Any]] = [(-back, ahead, round(_HALVINGS - log2(coarse)), slice(None))]
         while waiting:
             begun, ended, halvings, some = waiting.pop()
-            own = mobility if some is every else _of_some(mobility, some)
-            its = laws if some is every else [laws[link] for link in some.tolist()]
-            part = (ended - begun) / (ahead + back) * pressed[some]
+            own, part = mobility[some], (ended - begun) / (ahead + back) * pressed[some]
             before, after = slip[some] + begun * drift[some], slip[some] + ended * drift[some]
-            guess, close = used[some] * part, _CONVERGED * fastest
-            impulse, kinked = _slid(before, after, own, part, its, guess, close, halvings, groups[some])
+            guess, close = used[some] * part, _CONVERGED * coarse * coarse * fastest
+            law = partial(self._friction, laws[some], approach[some])
+            impulse, kinked = _slid(before, after, own, part, law, guess, close, halvings)
             if not kinked.all():
                 impulse[kinked] = 0.0
                 total[some] += impulse
                 slip[some] += _times(own, impulse)
-                used[some] = np.where(kinked, used[some], impulse / part)
+                used[some] = np.where(kinked[:, None], used[some], impulse / np.maximum(part, 1e-300))
             if kinked.any():
-                middle = 0.5 * (begun + ended)
-                again = some if kinked.all() else np.arange(acting.size)[some][kinked]
+                middle, again = 0.5 * (begun + ended), np.arange(len(slip))[some][kinked]
                 waiting += [(middle, ended, halvings - 1, again), (begun, middle, halvings - 1, again)]
-        self._used[acting] = used
-        pull, turn = self._pull.take(acting, 1), self._turn.take(acting, 1)
+        self._used[:, acting] = used
+        pull, turn = self.pull.take(acting, 2), self._turn.take(acting, 2)
         along, upward = total.real, total.imag
         change = (
-            np.vecdot(pull, -1j * along * normal),
-            np.vecdot(turn, 1j * upward * normal),
-            np.vecdot(pull, upward) + 1j * np.vecdot(turn, along),
+            np.vecdot(pull, (-1j * along * normal)[:, None]),
+            np.vecdot(turn, (1j * upward * normal)[:, None]),
+            np.vecdot(pull, upward[:, None]) + 1j * np.vecdot(turn, along[:, None]),
         )
         return np.add(motion, change)
+
+    def _friction(self, laws: np.ndarray, approach: np.ndarray, slip: np.ndarray) -> np.ndarray:
+        """The coefficients of friction by the laws of these numbers."""
+        speed = np.abs(slip)
+        if speed.size <= _FEW:
+            each = zip(laws.ravel().tolist(), approach.ravel().tolist(), speed.ravel().tolist(), strict=True)
+            return np.array([self._laws[number](*speeds).friction for number, *speeds in each]).reshape(speed.shape)
+        found = np.empty_like(speed)
+        for number, law in enumerate(self._laws):
+            its = laws == number if len(self._laws) > 1 else ...
+            if number not in self._only_floats:
+                try:
+                    found[its] = law(approach[its], speed[its]).friction
+                    continue
+                except Exception:
+                    self._only_floats.add(number)
+            found[its] = np.vectorize(lambda *speeds, law=law: law(*speeds).friction, [float])(
+                approach[its], speed[its]
+            )
+        return found
 
 
 def _slid(
@@ -125,54 +168,45 @@ def _slid(
     end: np.ndarray,
     mobility: np.ndarray,
     pressed: np.ndarray,
-    laws: Sequence[Law],
+    friction: Callable[[np.ndarray], np.ndarray],
     impulse: np.ndarray,
     tolerance: float,
     halvings: int,
-    groups: np.ndarray,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Friction impulses (N s) in an interval in which the slips (m/s) would otherwise go from ``before`` to ``end``,
-    and which are of a group with a kink, if it can be halved: these are of no use.
+    and which rows have a kink in it, if it can be halved: theirs are of no use.
 
     By projected gradient steps from a guess; their lengths are a share of what the row sums of the matrix ``mobility``
     (1/kg) allow.
     """
-    sums = np.abs(mobility).sum(axis=1)
-    ease = np.maximum(sums[::2], sums[1::2])
-    step, kinked = _SHARE / ease, np.zeros(len(laws), bool)
+    sums = np.abs(mobility).sum(axis=2)
+    ease = np.maximum(sums[:, ::2], sums[:, 1::2])
+    step, kinked = _SHARE / ease, np.zeros(len(before), bool)
     end = end + _times(mobility, impulse)
     for iteration in range(_ITERATIONS):
         middle = 0.5 * (before + end)
         if iteration < 2:  # from then on the speeds change too little to matter
-            limit = pressed * [law(speed) for law, speed in zip(laws, np.abs(middle).tolist(), strict=True)]
+            limit = pressed * friction(middle)
         holds, slides = impulse - end * step, impulse - middle * step
         held = np.abs(holds) <= limit
         wanted = slides * (limit / np.maximum(np.abs(slides), 1e-300))
         np.copyto(wanted, holds, where=held)
         change, impulse = wanted - impulse, wanted
         end += _times(mobility, change)
-        done = np.maximum.reduce(np.abs(change) * ease) <= tolerance
+        done = np.maximum.reduce(np.abs(change) * ease, axis=None) <= tolerance
         if done or iteration == _CLEAR:
-            own = mobility.diagonal()
-            least = (end - before).real / own[::2] + 1j * ((end - before).imag / own[1::2])
+            own = mobility.diagonal(axis1=1, axis2=2)
+            least = (end - before).real / own[:, ::2] + 1j * ((end - before).imag / own[:, 1::2])
             keeps = np.abs(least - impulse) <= limit
             turns = (before * end.conj()).real < 0.5 * np.abs(before) * np.abs(end)
-            if halvings:
-                has_kink = np.zeros(groups.max() + 1, bool)
-                has_kink[groups[~np.where(held, keeps, ~turns)]] = True
-                kinked = has_kink[groups]
+            if halvings > 0:
+                kinked = (np.where(held, ~keeps, turns) & (pressed > 0.0)).any(axis=1)
             if done or kinked.all():
                 break
     return impulse, kinked
 
 
-def _of_some(mobility: np.ndarray, links: np.ndarray) -> np.ndarray:
-    """The rows and columns of these links."""
-    both = (2 * links[:, None] + np.array([0, 1])).ravel()
-    return mobility.take(both, 0).take(both, 1)
-
-
 def _times(mobility: np.ndarray, impulse: np.ndarray) -> np.ndarray:
     """The slips (m/s) that impulses (N s) change."""
-    slips: np.ndarray = np.vecdot(mobility, impulse.view(float)).view(complex)
+    slips: np.ndarray = np.vecdot(mobility, impulse.view(float)[:, None]).view(complex)
     return slips

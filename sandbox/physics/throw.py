@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from math import exp
+from typing import Any
+
+from sandbox.physics.elementwise import exp
 
 
-def friction_by_speed(slip_speed: float) -> float:
+def friction_by_speed(slip_speed: Any) -> Any:
     """Coefficient of friction of two clean pool balls: ``mu = 0.009951 + 0.108 exp(-1.088 s)``.
 
     ``slip_speed`` s in m/s is the relative speed of the surfaces at the contact: slow shots have the most throw.
