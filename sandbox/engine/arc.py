@@ -33,6 +33,7 @@ class Arc:
     end: State | None = None  # the state at t1, if known without evaluation
     _box: tuple[float, float, float, float] | None = None
     _fastest: float | None = None
+    _last: float | None = None
 
     @property
     def x(self) -> Sequence[float]:
@@ -56,7 +57,7 @@ class Arc:
         """x and y at time t, in m."""
         h = self.t1 - self.t0
         x, y = self.curves[0], self.curves[1]
-        if h <= 0.0 or len(x) == 1:
+        if h <= 0.0 or t <= self.t0 or len(x) == 1:
             return x[0], y[0]
         u = min(1.0, max(0.0, (t - self.t0) / h))
         return evaluate(x, u), evaluate(y, u)
@@ -81,9 +82,15 @@ class Arc:
             self._box = min(x), min(y), max(x), max(y)
         return self._box
 
+    @property
+    def followed(self) -> float:
+        """The time in s up to which it is followed."""
+        return self.t1 if self._last is None else self._last
+
     def follow(self, t: float) -> None:
         """It will not be followed farther than to t."""
         if t < self.t1:
+            self._last = t
             u = (t - self.t0) / (self.t1 - self.t0)
             x, y = until(self.curves[0], u), until(self.curves[1], u)
             self._box = min(x), min(y), max(x), max(y)

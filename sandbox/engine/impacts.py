@@ -188,6 +188,8 @@ class Impacts:
             asked = (index, soft)
             if asked not in self._walls:
                 self._walls[asked] = [o for o in track.obstacles if soft is None or self._soft(o.surface) is soft]
+            if not self._walls[asked]:
+                continue
             for obstacle, found in surfaces_met(track.ball, self._walls[asked], states[index], self.gap):
                 for number, point in enumerate(found.points):
                     place = *point, *(track.ball.radius * part for part in found.normal)

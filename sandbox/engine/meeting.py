@@ -223,7 +223,7 @@ def pair_touches(one: Track, other: Track, t: float, skin: float) -> float | Non
     """The first time from t on, while both arcs last, at which two balls or bodies overlap by ``skin``, or None."""
     reach = one.ball.radius + other.ball.radius
     if discs(one.ball, other.ball):
-        return balls_touch(one.arc, other.arc, reach, t, skin)
+        return balls_touch(one.way, other.way, reach, t, skin)
     (x, y), (u, v) = one.arc.position(t), other.arc.position(t)
     if hypot(x - u, y - v) > reach:
         start = balls_touch(one.arc, other.arc, reach, t, skin)

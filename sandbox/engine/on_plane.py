@@ -31,6 +31,11 @@ class OnPlane(Track):
 
     _ends_spin = False  # with its current arc
     _on: Plane | None = None  # the law of the last arc
+    _way: tuple[int, Arc] | None = None  # that of the arc of this version
+
+    @property
+    def way(self) -> Arc:
+        return self._way[1] if self._way is not None and self._way[0] == self.version else self.arc
 
     def advance(self, t: float, until: float) -> tuple[Arc, str]:
         """The next arc from t, at most to ``until``: a whole phase in closed form, or a step; within one strip."""
@@ -47,6 +52,8 @@ class OnPlane(Track):
             h = min(phase.duration, until - t)
             arc = self._in_closed_form(law, phase, t, h)
             out = _leaves(arc, low, high)
+            if h < phase.moves_for < inf and t + h < until and (low, high) == (-inf, inf):
+                self._moves_on(phase, t, min(phase.moves_for, until - t))
             return arc if out is None else self._in_closed_form(law, phase, t, out * h), ""
         stops_in = hypot(*state[2:4]) / (hypot(phase.ax, phase.ay) or 1.0)
         arc = self._under(phase.law, t, min(until, t + _LONGEST * stops_in))
@@ -76,6 +83,19 @@ class OnPlane(Track):
         )
         return Arc(t, t + h, state, curves, end=end)
 
+    def _moves_on(self, phase: Phase, t: float, h: float) -> None:
+        """It moves the same way for h s, though its spin ends before that."""
+        x, y, vx, vy, *_ = self.state
+        ux, uy = vx + h * phase.ax, vy + h * phase.ay
+        ways = (x, x + 0.5 * h * vx, x + 0.5 * h * (vx + ux)), (y, y + 0.5 * h * vy, y + 0.5 * h * (vy + uy))
+        self._way = self.version, Arc(t, t + h, self.state, (*ways, (vx, ux), (vy, uy)))
+
+    def spun(self, t: float) -> None:
+        """Go on along the same way without spin."""
+        way = self.way
+        self.arc, _ = self.advance(t, way.t1)
+        self.arc.t1 = way.t1  # to the last bit
+
     def conclude(self, reason: str) -> None:
         """Make the spin exactly zero where it ends."""
         if self._ends_spin:
@@ -88,6 +108,8 @@ class OnPlane(Track):
 def _leaves(arc: Arc, low: float, high: float) -> float | None:
     """The first u at which the path leaves a strip from ``low`` to ``high`` (m) along x, or None."""
     left, _, right, _ = arc.box()
+    if low <= left and right <= high:
+        return None
     found = []
     if right > high:
         found.append(next(downward_crossings([high - x for x in arc.x]), None))

@@ -169,8 +169,8 @@ class Simulation:
             if self._numerics.steps > MOST_STEPS:
                 what = "its forces are very stiff: raise accuracy.tolerance, or shorten the duration"
                 raise failed(t, track.ball.name, f"{MOST_STEPS:,} steps without an end; {what}")
-            if kind == "" and t < duration:
-                self._go_on(t, i)
+            if kind in ("", "spun") and t < duration:
+                self._go_on(t, i, kind)
             elif kind == "touch":
                 seeds = [i] if j < 0 else [i, j]
                 self._over = any(self._passed(t, index) for index in seeds)
@@ -188,13 +188,17 @@ class Simulation:
                 yield from self._change(t, i, kind)
         return t, "until" if self._over else "rest"
 
-    def _go_on(self, t: float, index: int) -> None:
-        """Plan the next arc where one ends only because of its length."""
+    def _go_on(self, t: float, index: int, kind: str) -> None:
+        """Plan the next arc where one ends only because of its length; where only the spin changes, what is on its way
+        is known."""
         track = self._tracks[index]
         self._over = self._passed(t, index)
         track.arrive(t, track.arc.state(t))
         track.conclude("")
-        self._plan(index, t)
+        if kind == "spun":
+            track.spun(t)
+        else:
+            self._plan(index, t)
 
     def _change(self, t: float, index: int, reason: str) -> Asking[None]:
         """Go on where an arc ends because the contact changes."""
@@ -371,7 +375,7 @@ class Simulation:
         """Predict the first event on a ball's new arc, which ends for the reason ``kind``, alone or with ``others``; it
         does not meet what it is ``in_contact`` with: obstacles, and balls by index."""
         track = self._tracks[index]
-        arc = track.arc
+        arc = track.way
         at = arc.t1
         touch = self._first_touch(index, arc, track.obstacles, at, in_contact)
         if touch is not None:
@@ -379,6 +383,8 @@ class Simulation:
         if track.catches and (caught := self._first_touch(index, arc, track.catches, at)) is not None:
             at, kind = caught, "catch"
         self._push(at, kind, index)
+        if track.arc.t1 < at:
+            self._push(track.arc.t1, "spun", index)
         if not others:
             return
         left, bottom, right, top = arc.box()
@@ -387,7 +393,7 @@ class Simulation:
             if neighbour.caught:
                 continue
             reach = track.ball.radius + neighbour.ball.radius
-            a, b, c, d = neighbour.arc.box()
+            a, b, c, d = neighbour.way.box()
             if left <= c + reach and right >= a - reach and bottom <= d + reach and top >= b - reach:
                 dx, dy = max(0.0, left - c, a - right), max(0.0, bottom - d, b - top)
                 if dx * dx + dy * dy > reach * reach or in_contact(other):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from math import dist
 
 from sandbox.engine.meeting import meeting, surfaces_met
 from sandbox.engine.setup import Ball
@@ -54,7 +55,8 @@ def _overlaps(
         (i, j, found)
         for i, ball in enumerate(balls)
         for j, other in enumerate(balls[:i])
-        if (found := meeting(ball, states[i], other, states[j])).gap < -TOUCHING_GAP
+        if dist(states[i][:2], states[j][:2]) < ball.radius + other.radius
+        and (found := meeting(ball, states[i], other, states[j])).gap < -TOUCHING_GAP
     ]
     for i, j, found in overlapping:
         yield i, j, balls[j].name, balls[i].radius + balls[j].radius, -found.gap, *found.normal

@@ -193,20 +193,19 @@ class Obstacle:
 
     def first_touch(self, arc: Arc) -> float | None:
         """The first u in [0, 1] of the arc at which the ball starts to touch, or None."""
-        ax, ay, bx, by, reach, length, _, _ = self.outline
+        ax, ay, bx, by, reach, length, tx, ty = self.outline
         radius = reach - self._skin
         if length == 0.0:
             return _corner(arc, ax, ay, radius)
-        touches = (_corner(arc, ax, ay, radius), self._side(arc), _corner(arc, bx, by, radius))
-        return min((u for u in touches if u is not None), default=None)
-
-    def _side(self, arc: Arc) -> float | None:
-        ax, ay, _, _, reach, _, tx, ty = self.outline
-        xs, ys = arc.curves[0], arc.curves[1]
-        across = [(y - ay) * tx - (x - ax) * ty for x, y in zip(xs, ys, strict=True)]
+        across = [(y - ay) * tx - (x - ax) * ty for x, y in zip(arc.curves[0], arc.curves[1], strict=True)]
         low, high = min(across), max(across)
         if low > reach or high < -reach:
             return None
+        touches = (_corner(arc, ax, ay, radius), self._side(arc, across, low, high), _corner(arc, bx, by, radius))
+        return min((u for u in touches if u is not None), default=None)
+
+    def _side(self, arc: Arc, across: Sequence[float], low: float, high: float) -> float | None:
+        xs, ys, reach = arc.curves[0], arc.curves[1], self.outline.reach
         first = None
         for side in (1.0, -1.0):
             farthest = high if side > 0.0 else -low
@@ -283,16 +282,23 @@ def _closings(gap: list[float], starts_touching: bool) -> Iterable[float]:
 
 
 def balls_touch(first: Arc, second: Arc, reach: float, t: float, skin: float = SKIN) -> float | None:
-    """The first time from t on, while both arcs last, at which two balls overlap by ``skin``, or None.
+    """The first time from t on, while both arcs are followed, at which two balls overlap by ``skin``, or None.
 
     ``reach`` is the distance in m of their centres when they touch.
     """
-    until = min(first.t1, second.t1)
+    until = min(first.followed, second.followed)
     if until <= t:
         return None
     (ax, ay), (bx, by) = first.position(t), second.position(t)
-    apart = sqrt((ax - bx) * (ax - bx) + (ay - by) * (ay - by)) - reach
-    if apart > (until - t) * (first.fastest() + second.fastest()):
+    ex, ey = ax - bx, ay - by
+    apart = sqrt(ex * ex + ey * ey)
+    _, _, vx, vy, *_ = first.curves
+    _, _, ux, uy, *_ = second.curves
+    # along the line of their centres at t
+    fastest = max([x * ex + y * ey for x, y in zip(ux, uy, strict=True)]) - min(
+        [x * ex + y * ey for x, y in zip(vx, vy, strict=True)]
+    )
+    if (apart - reach) * apart > (until - t) * fastest:
         return None
     xs, ys = _between(first, t, until)
     us, vs = _between(second, t, until)

@@ -85,6 +85,14 @@ class Track:
         return None if u is None else arc.t0 + u * (arc.t1 - arc.t0)
 
     @property
+    def way(self) -> Arc:
+        """Where it will go, on its arc and on those after it that only its spin will separate from it."""
+        return self.arc
+
+    def spun(self, t: float) -> None:
+        """Go on along its way after the first arc of it."""
+
+    @property
     def on(self) -> str:
         """The name of the surface that it is in lasting contact with, if any."""
         return "" if self.contact is None else self.contact.obstacle.surface.name

@@ -26,6 +26,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from math import inf
 from typing import ClassVar
 
 from sandbox.physics.checks import check
@@ -74,7 +75,7 @@ class Cloth:
         turn = 1.0 / self.inertia
         _, _, vx, vy, _, wx, wy = state
         ux, uy = vx - radius * wy, vy + radius * wx
-        mode, stop, alphas = "resting", Phase.stopping(0.0, 0.0, 0.0), (0.0, 0.0)
+        mode, stop, alphas = "resting", (inf, 0.0, 0.0), (0.0, 0.0)
         if ux * ux + uy * uy > STILL * STILL:
             mode, stop = "sliding", Phase.stopping(ux, uy, self.strongest, 1.0 + turn)  # as it also turns
             # torque of the force at the lowest point, over the moment of inertia

@@ -42,6 +42,7 @@ class Phase(NamedTuple):
     ends_motion: bool = False  # at its end, sliding becomes rolling if it rolls, or motion becomes rest
     ends_spin: bool = False  # at its end, the spin about the vertical is zero
     law: Callable[[float, PlaneState], tuple[Any, Any, Any]] | None = None
+    moves_for: float = 0.0  # s, for which it moves so whether it spins or not, if that is longer
 
     @classmethod
     def slowed(
@@ -62,7 +63,7 @@ class Phase(NamedTuple):
             spin_time = abs(wz) / spin_slows if spin_slows > 0.0 else inf
         duration = min(time, spin_time)
         ends = duration == time < inf, duration == spin_time < inf
-        return cls(mode, state, duration, *stop[1:], alpha_z, *alphas, radius, *ends)
+        return cls(mode, state, duration, *stop[1:], alpha_z, *alphas, radius, *ends, moves_for=time)
 
     @staticmethod
     def stopping(vx: float, vy: float, deceleration: float, sooner: float = 1.0) -> tuple[float, float, float]:

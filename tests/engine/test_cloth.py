@@ -167,6 +167,27 @@ def test_a_slip_too_small_to_square_is_no_trouble():
     assert run.events[0].partner in ("1", "cue")
 
 
+def test_a_ball_goes_where_it_goes_whether_its_spin_ends_on_the_way_or_not():
+    """Into a ball that rolls, too, one at rest, a cushion and a pocket; with smooth ones spin changes nothing else."""
+    places = {"cue": (0.0, 0.0), "1": (0.6, 0.03), "2": (0.9, 0.01)}
+    speeds = {"cue": (1.0, 0.0), "1": (0.3, 0.0), "2": (0.0, 0.0)}
+    wall = Surface("cushion", Segment((1.2, -1.0), (1.2, 1.0)), 0.8, 0.0)
+    runs = []
+    for spin in (0.0, 4.0):  # rad/s, which ends after 0.4 s
+        balls = [replace(rolling(name, places[name], speeds[name]), spin=spin) for name in places]
+        catches = [Catch("pocket", (0.5, 0.35), 0.06)]
+        setup = Setup(balls, [wall], plane=CLOTH, catches=catches, between_balls=of(0.95, 0.0))
+        runs.append(simulate(setup, resolve()))
+    plain, spun = ([(e.kind, e.ball, e.partner) for e in run.events] for run in runs)
+    assert [e for e in spun if e[0] != "rest"] == [e for e in plain if e[0] != "rest"]
+    assert {"impact", "rest"} <= {kind for kind, *_ in plain}
+    for name in places:
+        assert runs[1].state(name, runs[1].duration) == pytest.approx(runs[0].state(name, runs[1].duration), abs=1e-9)
+        assert [arc.start[4] for arc in runs[1].arcs[name]].count(0.0) > 0
+        assert all(one.t1 == other.t0 for one, other in pairwise(runs[1].arcs[name]))
+    assert runs[1].duration == pytest.approx(runs[0].duration, abs=1e-9)
+
+
 def test_a_pocket_takes_a_ball_and_the_run_ends_when_the_rest_are_still():
     setup = Setup([rolling("cue", (0.0, 0.0), (1.0, 0.0))], plane=CLOTH, catches=[Catch("pocket", (0.5, 0.0), 0.06)])
     run = simulate(setup, resolve())
