@@ -24,13 +24,15 @@ SHOTS = 100
 #: process that may have to compute the path at once.
 FEWEST, QUICK, BRIEF = 8, 0.3, 0.05
 #: So many are computed at once where their balls fly one by one.
-AT_ONCE = 5
+AT_ONCE = 8
 #: Spread if the scene gives none: of the speed, as a share of it, and of the angle, in deg.
 SPEED, ANGLE = 0.01, 0.5
 #: Opacity of one path; and how far from the picture, in px, a path is still followed.
 FAINT, FAR = 0.3, 2000
 #: Size in px of the mark at the end of a path.
 END = 3
+#: A point has so many parts: their sums are exact, in whatever order paths are added.
+PARTS = 1 << 16
 
 
 #: Parameters that differ, and their standard deviations.
@@ -87,6 +89,7 @@ class Fan:
         if not self.together:
             scene = scene.changed({"accuracy.level": "fast"})
         self.flown: list[Flown | None] = []  # None where it could not be computed
+        self._drawn: tuple[Any, list[int], np.ndarray] = None, [0, 0], np.empty(0)  # how, how many, and their densities
         self._scene = scene
         ordered = points[::-1] if backwards else points
         self._runs = runs(scene, list(spread), ordered, asked=asked, at_once=AT_ONCE)
@@ -105,6 +108,22 @@ class Fan:
         self.left -= len(shots)
         paths = iter(points([(shot.run, shot.ball) for shot in shots if shot]) if any(shots) else ())
         self.flown += [Flown(next(paths)[:, 1:], shot.scored, shot.run.result) if shot else None for shot in shots]
+
+    def densities(self, others: Sequence[Flown | None], camera: Camera, size: tuple[int, int]) -> np.ndarray:
+        """How many paths of shots that score, and of the rest, go through each pixel, shape (2, height, width); with
+        those of ``others``. Those that are in this picture already are only added to."""
+        how, counts, sums = self._drawn
+        if how != (camera, size) or len(others) < counts[1]:
+            counts, sums = [0, 0], np.zeros((2, *size[::-1]))
+            self._drawn = (camera, size), counts, sums
+        for source, shots in enumerate((self.flown, others)):
+            new = [shot for shot in shots[counts[source] :] if shot is not None]
+            counts[source] = len(shots)
+            for rest in (False, True):
+                paths = [camera.pixels(shot.path) for shot in new if shot.scored != rest]
+                if paths:
+                    sums[int(rest)] += density([np.clip(path, -FAR, max(size) + FAR) for path in paths], size)
+        return sums
 
 
 #: The fans that this process has begun, forwards and backwards.
@@ -156,10 +175,9 @@ def cloud(
         asked = [early]
     fan = _fan(scene, spread, asked, quick)
     fan.go_on(fan.left - len(elsewhere), FEWEST, QUICK)
-    shots = [shot for shot in (*fan.flown, *reversed(elsewhere[: fan.left])) if shot is not None]
-    lines = [np.clip(camera.pixels(shot.path), -FAR, max(size) + FAR) for shot in shots]
-    good = density([line for line, shot in zip(lines, shots, strict=True) if shot.scored], size)
-    rest = density([line for line, shot in zip(lines, shots, strict=True) if not shot.scored], size)
+    elsewhere = elsewhere[: fan.left]
+    shots = [shot for shot in (*fan.flown, *reversed(elsewhere)) if shot is not None]
+    good, rest = fan.densities(elsewhere, camera, size)
     sigmas = [f"{key.rpartition('.')[2]} ± {short(sigma)} {p.unit or ''}" for key, (p, sigma) in spread.items()]
     said = _said(scene, asked, shots), ", ".join(map(str.rstrip, sigmas))
     scored, left = sum(shot.scored for shot in shots), max(0, fan.left - len(elsewhere))
@@ -193,15 +211,8 @@ def density(lines: Sequence[np.ndarray], size: tuple[int, int]) -> np.ndarray:
     width, height = size
     if not lines:
         return np.zeros((height, width))
-    joined, last = np.concatenate(lines), np.cumsum([len(line) for line in lines]) - 1
-    lengths = np.hypot(*np.diff(joined, axis=0).T)
-    lengths[last[:-1]] = 0.0  # from the end of one line to the next
-    along = np.concatenate([[0.0], np.cumsum(lengths)])
-    every = np.arange(0.0, along[-1], 1.0)
-    square = np.mgrid[:END, :END].reshape(2, 1, -1) - END // 2  # around each end
-    places = [np.interp(every, along, joined[:, axis]) for axis in (0, 1)]
-    ends = (joined[last].T[:, :, None] + square).reshape(2, -1)
-    x, y = np.concatenate([places, ends], axis=1) - 0.5
+    square = np.mgrid[:END, :END].reshape(2, -1).T - END // 2  # around each end
+    x, y = np.concatenate([part for line in lines for part in (_evenly(line), line[-1] + square)]).T - 0.5
     inside = (x >= 0) & (x < width - 1) & (y >= 0) & (y < height - 1)
     x, y = x[inside], y[inside]
     column, row = x.astype(int), y.astype(int)
@@ -209,7 +220,14 @@ def density(lines: Sequence[np.ndarray], size: tuple[int, int]) -> np.ndarray:
     at = row * width + column
     pixels = np.concatenate([at, at + 1, at + width, at + width + 1])
     shares = np.concatenate([(1 - right) * (1 - down), right * (1 - down), (1 - right) * down, right * down])
-    return np.bincount(pixels, shares, width * height).reshape(height, width)
+    return np.bincount(pixels, np.rint(PARTS * shares), width * height).reshape(height, width) / PARTS
+
+
+def _evenly(line: np.ndarray) -> np.ndarray:
+    """Points along a line (px), 1 px apart."""
+    along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))])
+    every = np.arange(0.0, along[-1], 1.0)
+    return np.column_stack([np.interp(every, along, places) for places in line.T])
 
 
 def _drawn(

@@ -16,7 +16,7 @@ import random
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
-from math import asin, atan2, cos, degrees, dist, hypot, pi, radians, sin, sqrt
+from math import asin, atan2, cos, degrees, dist, hypot, pi, sin, sqrt
 from typing import Any, Literal
 
 from sandbox.engine.run import Run
@@ -281,9 +281,8 @@ def struck(parameters: Parameters) -> tuple[Vector, float, Vector]:
             f"cue.follow = {cue.follow:g}, cue.english = {cue.english:g}: the tip is {offset:.3g} radii off the ball's "
             f"centre, and beyond {MISCUE:g} it slips off"
         )
-    spin, angle = 2.5 * cue.speed / parameters.ball.radius, radians(cue.angle)
-    roll = spin * cue.follow
-    return cue.velocity, spin * cue.english, (-roll * sin(angle), roll * cos(angle))
+    (vx, vy), turn = cue.velocity, 2.5 / parameters.ball.radius
+    return (vx, vy), turn * cue.speed * cue.english, (-turn * cue.follow * vy, turn * cue.follow * vx)
 
 
 def touches(run: Run, parameters: Parameters) -> list[str]:
