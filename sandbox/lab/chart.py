@@ -92,13 +92,14 @@ def legend(axes: Any, **options: Any) -> None:
 
 
 def mark(axes: Any, place: tuple[float, ...], text: str, card: dict[str, str], beside: bool = False) -> None:
-    """A diamond with its name, to its right, or above it and within the axes, whose limits must be set."""
+    """A diamond with its name above it and within the axes, whose limits must be set; or above it to the right, where
+    nothing is drawn that is better in both."""
     low, high = axes.get_xlim()
     side = (
         "left" if place[0] < low + 0.1 * (high - low) else "right" if place[0] > high - 0.1 * (high - low) else "center"
     )
     axes.plot(*place, marker="D", markersize=9, markerfacecolor=card["accent"], markeredgecolor=card["ink"], zorder=5)
-    where = {"xytext": (11, 0), "va": "center"} if beside else {"xytext": (0, 11), "ha": side, "va": "bottom"}
+    where = {"xytext": (8, 8), "va": "bottom"} if beside else {"xytext": (0, 11), "ha": side, "va": "bottom"}
     axes.annotate(text, place, textcoords="offset points", fontsize=10.5, fontweight="bold", zorder=6, bbox=PLATE,
                   **where)  # fmt: skip
 

@@ -17,6 +17,7 @@ from sandbox.engine.setup import Ball, Setup
 from sandbox.lab import timing, verdicts
 from sandbox.lab import trade as lab
 from sandbox.lab.ablation import Ablated, ablation, variants
+from sandbox.lab.chart import draw_trade
 from sandbox.lab.reference import DIVERGED, REFERENCE, Reference, converge
 from sandbox.lab.tables import length_above
 from sandbox.lab.verdicts import shot_map, verdict
@@ -301,6 +302,26 @@ def test_the_command_prints_json_and_draws(capsys: pytest.CaptureFixture[str], t
     assert {"method", "setting", "error_m", "wall_s", "force_evaluations", "times_real_time", "stable"} <= set(point)
     with Image.open(chart) as picture:
         assert min(picture.size) > 600
+
+
+def test_names_of_levels_hide_no_point(basketball: lab.Trade, monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
+    """Also where the levels have one error, that of the reference, and stand in a row among points."""
+    from matplotlib.figure import Figure
+    from matplotlib.text import Annotation
+
+    drawn: list[Figure] = []
+    monkeypatch.setattr(Figure, "savefig", lambda figure, *_, **__: drawn.append(figure))
+    points = [replace(basketball.points[-1], times_real_time=float(speed), error_m=0.0) for speed in range(1, 9)]
+    levels = {name: replace(points[place], method="level") for place, name in ((1, "precise"), (4, "balanced"))}
+    draw_trade(replace(basketball, points=points, levels=levels), tmp_path / "trade.png")
+    (axes,) = drawn[0].axes
+    drawn[0].draw_without_rendering()
+    names = [text for text in axes.texts if isinstance(text, Annotation) and text.get_text() in levels]
+    places = [axes.transData.transform(line.get_xydata()) for line in axes.lines if line.get_marker() in ("o", "D")]
+    assert len(names) == 2
+    for name in names:
+        box = name.get_window_extent()
+        assert not any(box.contains(*place) for line in places for place in line)
 
 
 def test_the_command_prints_tables(
