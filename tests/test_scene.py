@@ -346,6 +346,7 @@ def test_what_python_shows_of_a_run_fits_a_line():
         ("Golf", "unknown scene Golf; did you mean golf?"),
         ("qqqqqq", "unknown scene qqqqqq; sandbox list shows them all"),
         ("", "unknown scene"),
+        ("./qqqqqq", "./qqqqqq: there is no such folder or file"),
         ("golf/qqqqqq", "golf has no preset qqqqqq"),
         ("golf/../golf", "unknown scene golf/../golf"),
         ("nowhere/shot.toml", "nowhere/shot.toml: cannot be read: no such file or directory"),

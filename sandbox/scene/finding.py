@@ -137,7 +137,7 @@ def _named(source: str) -> Found:
             raise RequestError(f"unknown scene {shortened(source)}; for the one in this folder write ./{source}")
         if not path.exists():
             raise RequestError(_unknown(source))
-    return _at(path)
+    return _at(path, source)
 
 
 def _is_path(text: str) -> bool:
@@ -145,7 +145,8 @@ def _is_path(text: str) -> bool:
     return text in (".", "..") or text.startswith(("./", "../")) or Path(text).is_absolute()
 
 
-def _at(path: Path) -> Found:
+def _at(path: Path, given: str = "") -> Found:
+    """What a path refers to, ``given`` in these words."""
     path = path.parent if path.name == "scene.py" else path
     if (path / "scene.py").is_file():
         return _in_folder(path.resolve().name, path)
@@ -155,7 +156,7 @@ def _at(path: Path) -> Found:
         return _in_folder(path.parent.resolve().name, path.parent, path.name)
     if path.is_dir():
         raise RequestError(f"{path}: a folder without scene.py is not a scene")
-    raise RequestError(_unknown(str(path)))
+    raise RequestError(f"{shortened(given or str(path))}: there is no such folder or file")
 
 
 def _in_folder(name: str, path: Path, preset: str = "") -> Found:
