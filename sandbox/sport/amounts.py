@@ -108,13 +108,13 @@ def converted(value: float, unit: str, other: str) -> str:
     return written(units.convert(value, unit, other), other, LADDERS.get(other, (Step(0, other, 2),)))
 
 
-def in_both(value: float, unit: str, other: str) -> tuple[str, str]:
-    """A number of ``unit`` as it is written, and for those who count in ``other``: which comes first where another
-    system of units was chosen."""
+def in_both(value: float, unit: str, other: str, digits: int | None = None) -> tuple[str, str]:
+    """A number of ``unit`` as it is written, with ``digits`` after the point where they are given, and for those who
+    count in ``other``: which comes first where another system of units was chosen."""
     second = converted(value, unit, other)
     own = _chosen.get().get(units.KIND_OF[unit])
     if own is None:
-        return amount(value, unit), second
+        return amount(value, unit, digits), second
     first = second if any(step.unit == other for step in own) else amount(value, unit)
     return first, written(value, unit, LADDERS[unit]) if unit in LADDERS else f"{value:.3g} {unit}"
 

@@ -54,6 +54,7 @@ class Fact:
     sides: tuple[str, str] | None = None  # words for below and above zero, in place of a sign
     where: Callable[[Run, Any], bool] | None = None  # on cards only where this holds
     in_order: bool = True  # whether the order of a list matters where many runs are compared
+    digits: int | None = None  # after the point, where its unit usually has others
     names: bool = False  # whether its words are names of balls, surfaces and catches
 
     def text(self, value: Any, error: float | None = None, also: bool = False) -> str:
@@ -73,7 +74,9 @@ class Fact:
 
     def _number(self, value: float, error: float | None, also: bool) -> str:
         size = abs(value) if self.sides else value
-        first, second = in_both(size, self.unit, self.also) if self.also else (amount(size, self.unit), "")
+        first, second = amount(size, self.unit, self.digits), ""
+        if self.also:
+            first, second = in_both(size, self.unit, self.also, self.digits)
         words = [first]
         if error is not None and self.settled != "start":
             words.append(margin(error, self.unit, isinstance(value, int)))

@@ -7,9 +7,8 @@ from functools import cached_property
 from sandbox.picture.palette import scene_colours
 from sandbox.picture.places import Person, Post, Shape, Stands, turf
 from sandbox.picture.views import Box, Length, Look, Place, SideView
-from sandbox.sport.amounts import metres
 
-from .scene import Parameters
+from .scene import THROWN, Parameters
 
 COLOURS = scene_colours(__file__)
 FIELD = COLOURS["field"]
@@ -42,4 +41,4 @@ class Picture(SideView[Parameters]):
         return Place(Stands(**COLOURS["stands"]), ground, [flag, board, athlete])
 
     def lengths(self) -> list[Length]:
-        return [Length(f"mark {metres(self.parameters.record)}", 0.0, self.parameters.record)]
+        return [Length(f"mark {THROWN.text(self.parameters.record)}", 0.0, self.parameters.record)]

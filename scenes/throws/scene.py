@@ -7,6 +7,7 @@ not the best angle for one speed (Lenz & Rappl 2010, arXiv:1007.3689); discus an
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import atan2, degrees, hypot, sqrt
 
 from sandbox.engine.run import Run
@@ -64,9 +65,11 @@ def vacuum_distance(run: Run, parameters: Parameters) -> float | None:
     return x + vx * (vy + sqrt(vy * vy + 2.0 * gravity * y)) / gravity if gravity > 0.0 else None
 
 
+#: Throws are measured to the cm.
+THROWN = replace(DISTANCE, digits=2)
 FACTS = (
-    DISTANCE,
-    Fact("vacuum_distance", "without air", "m", vacuum_distance, settled="start"),
+    THROWN,
+    Fact("vacuum_distance", "without air", "m", vacuum_distance, "start", also="ft", digits=2),
     APEX,
     FLIGHT_TIME,
     LANDING_ANGLE,
@@ -84,4 +87,6 @@ def verdict(run: Run, parameters: Parameters) -> str:
     if distance is None:
         return "Did not come down"
     beyond = distance - record
-    return f"{distance:.2f} m, {roughly(abs(beyond))} {'beyond' if beyond > 0.0 else 'short of'} the mark"
+    if abs(beyond) < 0.005:
+        return f"{THROWN.text(distance)} equals the mark"
+    return f"{THROWN.text(distance)}, {roughly(abs(beyond))} {'beyond' if beyond > 0.0 else 'short of'} the mark"

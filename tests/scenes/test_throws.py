@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+import sandbox
 from tests.scenes.play import results_of
 
 throw = results_of("throws")
@@ -24,3 +25,13 @@ def test_the_best_angle_is_the_best():
 def test_air_costs_a_shot_little():
     result = throw()
     assert 0.05 < result["vacuum_distance"] - result["distance"] < 0.3
+
+
+@pytest.mark.parametrize(
+    ("ahead", "said"), [(0.0, "equals the mark"), (-0.004, "equals the mark"), (0.3, ", 0.30 m short of the mark")]
+)
+def test_the_headline_says_the_distance_as_the_card_does_and_where_the_mark_is(ahead: float, said: str):
+    run = sandbox.simulate(sandbox.load("throws", {"record": throw()["distance"] + ahead}))
+    distance = dict(run.scene.rows(run))["distance"]
+    assert distance == f"{run.result['distance']:.2f} m"
+    assert run.scene.verdict(run) == f"{distance} {said}".replace(" ,", ",")
