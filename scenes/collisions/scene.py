@@ -255,5 +255,5 @@ def verdict(run: Run, parameters: Parameters) -> str:
         rest = ", and comes to rest" if falls and said["ended"] == "rest" else ""
         return f"Strikes the floor {falls} times{rest}" if falls > 1 else "No two balls meet"
     loss = "nothing is lost" if said["lost"] < 0.05 else f"{said['lost']:.0f} % lost"
-    rest = ", all at rest in the end" if said["ended"] == "rest" else ""
+    rest = ", all come to rest" if said["ended"] == "rest" else ""
     return f"{said['approach']:.2f} m/s together, {said['separation']:.2f} apart; {loss}{rest}"

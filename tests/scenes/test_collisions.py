@@ -142,3 +142,13 @@ def test_the_strip_between_boxes_says_why_they_touch_or_not():
     assert "apart: a strip 40.0 cm wide" in strip(run, 0.0).why
     assert "in touch along a side" in strip(run, t).why
     assert len(strip(run, t).met.points) == 2
+
+
+@pytest.mark.parametrize("preset", ["bowl", "dominoes"])
+def test_a_long_headline_is_as_large_as_any(preset: str):
+    run = run_of(f"collisions/{preset}")
+    picture = run.scene.picture(run, (1280, 720))
+    for _ in picture.layers():
+        pass
+    text, _, room = picture.heading
+    assert picture.sheet.lettering.width(text, "large", bold=True) <= room
