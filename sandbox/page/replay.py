@@ -77,9 +77,9 @@ def page_of(run: Run, ghosts: Mapping[str, Run] | None = None) -> str:
         "run.html",
         title=html(f"{scene.title}: {verdict}"),
         verdict=html(verdict),
-        notes=html("   ·   ".join(view.heading[1])),
+        notes=html("   ·   ".join(view.heading.notes)),
         ground="dark" if view.on_dark else "light",
-        picture=html(f"{scene.title}: {verdict}. The path of the {view.THING}; the numbers are in the table below."),
+        picture=html(f"{scene.title}: {verdict}. The path of the {view.thing}; the numbers are in the table below."),
         poster=wide,
         poster_narrow=narrow,
         card=table(card, scene.title, "card", {scene.title: css(CARD["accent"]), **others} if others else None),
@@ -139,7 +139,7 @@ def _layout(view: View[Any]) -> dict[str, Any]:
         "unit": view.unit,
         "least": view.least,
         "lift": too_large if isinstance(view, SideView) and not isinf(view.STRETCHES) else None,
-        "room": view.heading[2],
+        "room": view.heading.room,
         "poster": picture(poster),
         "place": picture(Image.fromarray(place)),
         "along": picture(what_changed(paths, along), exact=True),
@@ -162,6 +162,7 @@ def _static(view: View[Any], run: Run) -> dict[str, Any]:
                 "name": name,
                 "radius": view.radii[name],
                 "colour": css(view.colour_of(name)),
+                "thickness": view.thickness(name),
                 "look": numbers[id(view.looks[name])],
                 "lying": view.lying(name).tolist(),
                 "rolls": view.rolls(name),
@@ -176,6 +177,7 @@ def _static(view: View[Any], run: Run) -> dict[str, Any]:
             "towards": (balls.LIGHT / np.linalg.norm(balls.LIGHT)).tolist(),
             "dark": balls.DARK,
             "edge": balls.EDGE,
+            "rim": balls.RIM,
         },
         "ghosts": [
             {
@@ -198,7 +200,6 @@ def _static(view: View[Any], run: Run) -> dict[str, Any]:
         "spins": view.SPINS,
         "ladders": {unit: _ladder(unit) for unit in UNITS},
         "heaped": HEAPED,
-        "others": view.OTHERS,
         "unsaid": UNSAID,
         "earlier": palette("trace")["earlier"],
         "rim": css(palette("trace")["rim"]),
@@ -251,7 +252,8 @@ def _turned(view: View[Any], name: str, until: float) -> dict[str, Any] | None:
 def _look(look: balls.Look, view: View[Any]) -> dict[str, Any]:
     """What is flat as its shapes, and of a ball the two halves of its skin next to each other, as large as needed."""
     if isinstance(look, balls.Silhouette):
-        return {"shapes": [[np.asarray(corners), css(colour)] for corners, colour in look.shapes]}
+        shapes = [[np.asarray(corners), css(colour)] for corners, colour in look.shapes]
+        return {"shapes": shapes, "rimmed": look.rimmed}
     radius = max(view.least, view.radius * view.camera.scale)
     halves = look.skin(sum(radius >= mark.least for mark in look.marks))  # by half, column, row
     skin = np.concatenate(list(halves), axis=0).transpose(1, 0, 2)

@@ -220,7 +220,7 @@ class Player {
     this.main = data.balls.find((ball) => ball.name === data.ball);
     for (const ball of [...data.balls, ...data.ghosts]) ball.path = new Path(ball.path, data.heaped);
     for (const ball of data.balls) {
-      ball.shapes = data.looks[ball.look].shapes;
+      ({ shapes: ball.shapes, rimmed: ball.rimmed } = data.looks[ball.look]);
       ball.sprite = new Sprite(data.looks[ball.look], data.light);
       if (ball.rolls) ball.turning = new Turning(ball.path, ball.lying);
     }
@@ -331,7 +331,7 @@ class Player {
     for (const ghost of data.ghosts) this.trace(ghost.line, 0, Infinity, 4.5 * unit, ghost.colour, data.earlier);
     const balls = [...data.balls.filter((ball) => ball !== this.main), this.main];
     for (const ball of balls) {
-      const width = (ball === this.main ? 1 : data.others) * Math.max(2.5, 4.5 * unit), rim = 2 * Math.max(0.75, unit);
+      const width = ball.thickness * Math.max(2.5, 4.5 * unit), rim = 2 * Math.max(0.75, unit);
       const here = [...this.spot(...ball.path.state(t)), t];
       if (faint < 1) this.trace(ball.line, 0, Infinity, width, ball.colour, faint);
       this.trace(faint < 1 ? [...ball.line.filter((point) => point[2] < t), here] : ball.line, 0, Infinity, width, ball.colour, 1, rim);
@@ -364,8 +364,8 @@ class Player {
   round(ball, t, x, y, px, py, radius) {
     const { context, view, data } = this;
     this.shadow(ball, x, y, px, py, radius);
-    context.globalAlpha = 0.65;
-    this.disc(px, py, radius + Math.max(0.7, 0.8 * view.unit), data.rim);
+    context.globalAlpha = data.light.rim;
+    this.disc(px, py, radius + this.rim, data.rim);
     context.globalAlpha = 1;
     const turn = ball.turning ? ball.turning.at(t) : times(turnedBy([0, 0, this.angle(ball, t)]), ball.lying);
     ball.sprite.draw(context, px, py, radius, turn);
@@ -378,12 +378,23 @@ class Player {
     return angles[i] + (place - i) * (angles[i + 1] - angles[i]);
   }
 
+  /** The width of the thin dark rim around balls and bodies, in px. */
+  get rim() {
+    return Math.max(0.7, 0.8 * this.view.unit);
+  }
+
   /** What is not round: shapes with corners in radii around (px, py). */
   flat(ball, px, py, radius, angle) {
-    const { context } = this, c = radius * Math.cos(angle), s = radius * Math.sin(angle);
-    for (const [corners, colour] of ball.shapes) {
+    const { context, data } = this, c = radius * Math.cos(angle), s = radius * Math.sin(angle);
+    for (const [i, [corners, colour]] of ball.shapes.entries()) {
       context.beginPath();
       for (const [a, b] of corners) context.lineTo(px + c * a - s * b, py - s * a - c * b);
+      if (ball.rimmed && !i) {
+        context.closePath();
+        Object.assign(context, { globalAlpha: data.light.rim, lineWidth: 2 * this.rim, lineJoin: "round", strokeStyle: data.rim });
+        context.stroke();
+        context.globalAlpha = 1;
+      }
       context.fillStyle = colour;
       context.fill();
     }

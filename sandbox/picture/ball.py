@@ -9,7 +9,7 @@ from bisect import bisect_right
 from collections.abc import Callable, Sequence
 from functools import cache, lru_cache
 from math import ceil, cos, floor, hypot, pi, sin, tau
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 import pygame
@@ -32,6 +32,8 @@ PHASE = 1 / 4
 LIGHT = np.array([-0.42, 0.50, 0.76])
 #: How much of its colour a ball shows where no light falls, and where its surface turns away.
 DARK, EDGE = 0.55, 0.7
+#: Opacity of the thin dark rim around balls and bodies.
+RIM = 0.65
 #: Width of the darker edge of a flat body, as a share of its radius.
 BEVEL = 0.07
 #: s over which a spin whose axis turns is taken as even.
@@ -59,6 +61,9 @@ class Mark(NamedTuple):
 class Look:
     """How a ball looks: its colour, the marks on it, later ones on top, and how bright the light's image on it is."""
 
+    #: Up to this share of its radius it hides what lies behind it, however it is turned.
+    solid: float = 1.0
+
     def __init__(self, colour: Colour, *marks: Mark, gloss: float = 0.2):
         self.colour, self.marks, self.gloss = colour, marks, gloss
         self.skin = cache(self._skin)
@@ -67,7 +72,7 @@ class Look:
         self, painter: Painter, centre: Point, radius: float, turn: np.ndarray, unit: float, enlarged: bool = False
     ) -> None:
         """Draw it, turned by a matrix; the ring says that it is enlarged."""
-        painter.disc(centre, radius + max(0.7, 0.8 * unit), TRACE["rim"], 0.65)
+        painter.disc(centre, radius + max(0.7, 0.8 * unit), TRACE["rim"], RIM)
         x, y = (round(value / PHASE) * PHASE for value in centre)
         column, row = floor(x), floor(y)
         phase = x - column - 0.5, y - row - 0.5
@@ -93,6 +98,8 @@ class Look:
 class Silhouette(Look):
     """Not a ball but something flat that points where it is turned: shapes of a colour, with corners in radii."""
 
+    rimmed: ClassVar[bool] = False  # the first shape has a thin dark rim, as balls have
+
     def __init__(self, colour: Colour, *shapes: tuple[Sequence[Point], Colour]):
         super().__init__(colour)
         self.shapes = shapes
@@ -100,8 +107,15 @@ class Silhouette(Look):
     def draw(
         self, painter: Painter, centre: Point, radius: float, turn: np.ndarray, unit: float, enlarged: bool = False
     ) -> None:
-        for corners, colour in self.shapes:
-            painter.polygon(np.asarray(centre) + radius * (np.asarray(corners) @ turn[:2, :2].T) * (1.0, -1.0), colour)
+        shapes = [
+            (np.asarray(centre) + radius * (np.asarray(corners) @ turn[:2, :2].T) * (1.0, -1.0), colour)
+            for corners, colour in self.shapes
+        ]
+        if self.rimmed:
+            outline = shapes[0][0]
+            painter.line([*outline, outline[0]], 2 * max(0.7, 0.8 * unit), TRACE["rim"], RIM)
+        for corners, colour in shapes:
+            painter.polygon(corners, colour)
         if enlarged:
             reach = max(hypot(*corner) for corners, _ in self.shapes for corner in corners)
             painter.ring(centre, reach * radius + 2.0 * unit, max(1.2, 1.7 * unit), CARD["accent"])
@@ -110,9 +124,13 @@ class Silhouette(Look):
 class Flat(Silhouette):
     """A body of any outline: corners in radii around its centre, a darker edge, and a cross where its mass is."""
 
+    rimmed = True  # so that a thin one stands out on its path
+
     def __init__(self, colour: Colour, rim: Sequence[Point]):
         edge, mark = (tuple(round(share * part) for part in colour) for share in (0.62, 0.78))
         corners = np.asarray(rim)
+        sides = np.roll(corners, -1, axis=0) - corners
+        self.solid = float(np.min(abs(corners[:, 0] * sides[:, 1] - corners[:, 1] * sides[:, 0]) / np.hypot(*sides.T)))
         inner = corners * (1.0 - BEVEL * np.abs(corners).max() / np.maximum(np.hypot(*corners.T), BEVEL))[:, None]
         arm, thick = 0.16 * np.hypot(*corners.T).min(), 0.05 * np.hypot(*corners.T).min()
         bars = [[(-x, -y), (x, -y), (x, y), (-x, y)] for x, y in ((arm, thick), (thick, arm))]

@@ -164,7 +164,7 @@ class LongView(AboveView[P]):
         """Impacts that are in the near part, with their speeds."""
         near = self.near_camera
         marks = [mark for mark in self.impacts(near) if self.lens.collidepoint(near.pixel(*mark.at))]
-        mark_impacts(sheet, near, marks, last=self._placed(near, self.told).get(self.ball))
+        mark_impacts(sheet, near, marks, self.last(near))
 
     def scale(self, sheet: Sheet, camera: Camera) -> None:
         """A scale bar under the strip."""

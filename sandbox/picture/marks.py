@@ -13,6 +13,7 @@ import numpy as np
 from sandbox.engine.run import Run
 from sandbox.picture.camera import Camera
 from sandbox.picture.lettering import around
+from sandbox.picture.painter import Point
 from sandbox.picture.palette import Colour, mix, palette
 from sandbox.picture.path import FINEST, Mark, apart
 from sandbox.picture.sheet import Sheet
@@ -46,16 +47,21 @@ def draw_mark(sheet: Sheet, at: tuple[float, float]) -> None:
     sheet.painter.disc(at, 0.4 * radius, CARD["background"])
 
 
-def mark_impacts(
-    sheet: Sheet, camera: Camera, marks: Iterable[Mark], last: tuple[tuple[float, float], float] | None = None
-) -> None:
-    """Impacts as marks with the speed at which the ball came.
+def is_under(at: Point, ball: tuple[Point, float], edge: float) -> bool:
+    """Whether a ball, at a place with a radius, hides a mark or bead: its middle, by more than an ``edge``; in px.
 
-    The ball in its ``last`` place, of a radius, lies over them; in px.
+    Where a ball touches something is on its rim, or by rounding a little inside.
     """
+    return dist(at, ball[0]) < ball[1] - edge
+
+
+def mark_impacts(
+    sheet: Sheet, camera: Camera, marks: Iterable[Mark], last: tuple[Point, float] = ((0.0, 0.0), 0.0)
+) -> None:
+    """Impacts as marks with the speed at which the ball came; the ball in its ``last`` place lies over them."""
     places = [(camera.pixel(*mark.at), mark) for mark in marks]
     for at, _ in places:
-        if last is None or dist(at, last[0]) > last[1]:
+        if not is_under(at, last, sheet.unit):
             draw_mark(sheet, at)
         sheet.labels.take_path([at], 4 * sheet.unit)
     for at, mark in places:

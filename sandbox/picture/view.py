@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property, wraps
 from math import atan2, ceil, degrees, dist, hypot, pi
-from typing import Any, ClassVar, Generic, TypeVar
+from typing import Any, ClassVar, Generic, NamedTuple, TypeVar
 
 import numpy as np
 import pygame
@@ -21,7 +21,7 @@ from sandbox.errors import RequestError, RunError
 from sandbox.parameters import Group
 from sandbox.picture.ball import SMALLEST, Flat, Look, Silhouette, Turning, least_radius, mark_radius, seams, turned
 from sandbox.picture.camera import Camera
-from sandbox.picture.marks import Ghost, draw_trace, mark_impacts
+from sandbox.picture.marks import Ghost, draw_trace, is_under, mark_impacts
 from sandbox.picture.painter import Painter, Point, blank
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.path import FINEST, Mark, Path, apart
@@ -74,6 +74,14 @@ def _returning(needed: str, how: Callable[..., Any]) -> Callable[..., Any]:
     return checked
 
 
+class Heading(NamedTuple):
+    """What is said above a poster: the headline, the notes under it, and the room for them in px."""
+
+    text: str
+    notes: list[str]
+    room: float
+
+
 class View(Generic[P]):
     """One run of a scene at ``size`` px: whole, as a poster, or as it is at a time t.
 
@@ -82,9 +90,9 @@ class View(Generic[P]):
 
     # What a scene may say
 
-    #: How the ball looks, and what it is called.
+    #: How the ball looks, and what it is called: "" for a ball, or a body where it is a ``Body``.
     LOOK: ClassVar[Look] = Look(PLAIN["ball"], seams(PLAIN["marks"]))
-    THING: ClassVar[str] = "ball"
+    THING: ClassVar[str] = ""
     #: What must be said of the result wherever it is shown, such as that nothing measured stands behind it.
     CAVEAT: ClassVar[str] = ""
     #: Colours of the path, of the thin line of it that stays behind in frames (None: the same), and of other runs.
@@ -100,7 +108,7 @@ class View(Generic[P]):
     #: Impacts are marked that are at least so hard, in m/s, and as a share of the hardest.
     LEAST_IMPACT: ClassVar[float] = 0.3
     SOFT: ClassVar[float] = 0.03
-    #: The paths of balls besides the one that is played are so much as thick.
+    #: The paths of balls besides the one that is played, and those of bodies, which may be thin, are so much as thick.
     OTHERS: ClassVar[float] = 0.6
 
     #: What is stretched where a camera stretches one.
@@ -156,7 +164,12 @@ class View(Generic[P]):
     @property
     def thing(self) -> str:
         """What the ball that is played is called."""
-        return self.THING
+        return self.THING or ("body" if isinstance(self.looks[self.ball], Flat) else "ball")
+
+    @property
+    def things(self) -> str:
+        """Several of them."""
+        return "bodies" if self.thing == "body" else f"{self.thing}s"
 
     def progress(self, t: float) -> tuple[str, str]:
         """Headline and note of a frame at time t in s, before the verdict is in."""
@@ -368,7 +381,7 @@ class View(Generic[P]):
 
     def layers(self) -> Iterator[str]:
         """Draw the poster on ``sheet``, from the lowest layer to the highest; the name of each is said when it is
-        drawn. Then all is there but text, and ``heading`` is known: headline, notes, and the room for them in px."""
+        drawn. Then all is there but text, and ``heading`` is known."""
         camera = self.camera
         sheet = self.sheet = Sheet(self.size, self.on_dark, self._still(camera).copy())
         painter = sheet.painter
@@ -389,11 +402,11 @@ class View(Generic[P]):
         self.dimensions(sheet, camera)
         self.measure(sheet, camera)
         self.annotate(sheet, camera)
-        mark_impacts(sheet, camera, self.impacts(camera), last=placed.get(self.ball))
+        mark_impacts(sheet, camera, self.impacts(camera), self.last(camera))
         room = self._room(sheet, camera, None)
         yield "over"
         notes = [*(ghost.note for ghost in self.ghosts), *self.aligned, *every[:1], *self.notes(camera), *every[1:]]
-        self.heading = self.run.scene.verdict(self.run), notes, room
+        self.heading = Heading(self.run.scene.verdict(self.run), notes, room)
 
     def frame(self, t: float) -> pygame.Surface:
         """The scene at time t in s."""
@@ -446,7 +459,7 @@ class View(Generic[P]):
         factor = self._least(in_frame) / (radius * camera.scale)
         whose, are = ("its", "it is") if alone else ("their", "they are")
         how = f"larger than {are}" if in_frame else f"{times(factor)} {whose} size"
-        return [f"{self.thing if alone else f'{self.THING}s'} drawn {how}"] if factor > UNSAID else []
+        return [f"{self.thing if alone else self.things} drawn {how}"] if factor > UNSAID else []
 
     def _least(self, in_frame: bool) -> float:
         """The least radius of a ball in px: of one alone, larger in frames."""
@@ -470,6 +483,10 @@ class View(Generic[P]):
         """Of the path of a ball, or of anything else that moves."""
         others = [ball.name for ball in self.run.setup.balls if ball.name != self.ball]
         return self.TRACE if name == self.ball else self.EARLIER[others.index(name) % len(self.EARLIER)]
+
+    def thickness(self, name: str) -> float:
+        """Of the path of a ball, as a share of that of one alone."""
+        return 1.0 if name == self.ball and not isinstance(self.looks[name], Flat) else self.OTHERS
 
     def faint_of(self, name: str) -> Colour:
         """Of the thin line that stays where a ball has been, in frames."""
@@ -525,18 +542,21 @@ class View(Generic[P]):
         radius, look = max(self.radius * camera.scale, mark_radius(self.rows)), self.looks[self.ball]
         states = np.array([self.run.state(self.ball, t)[:2] for t in [*moments, self.told]])
         *places, end = self.spots(camera, states, radius)
+        over = self.last(camera)
         bead, last, crowded = min(BEAD * radius, max(2.0, LARGEST_BEAD * self.unit)), None, False
         for t, at in zip(moments, places, strict=True):
             near = [2.2 * radius > dist(at, other) for other in ([end] if last is None else [end, last])]
             if t > 0 and any(near):
                 painter.disc(at, bead + max(0.7, 0.8 * self.unit), RIM, 0.8)
                 painter.disc(at, bead, look.colour)
-                crowded |= dist(at, end) > radius - bead  # where the last ball does not hide it
+                crowded |= not is_under(at, over, self.unit)
             else:
                 look.draw(painter, at, radius, self.turn(self.ball, t), self.unit)
                 last = at
-        things = "bodies" if self.thing == "body" else f"{self.thing}s"
-        return [f"a {self.thing} every {every:g} s", *([f"a bead where {things} would overlap"] if crowded else [])]
+        return [
+            f"a {self.thing} every {every:g} s",
+            *([f"a bead where {self.things} would overlap"] if crowded else []),
+        ]
 
     def place_balls(self, painter: Painter, camera: Camera, t: float) -> None:
         """All that are there at time t in s, over their shadows."""
@@ -552,8 +572,8 @@ class View(Generic[P]):
         for ghost in self.ghosts:
             ghost.draw(sheet, self.traced(camera, ghost.points))
         for name, points in traces.items():
-            draw_trace(sheet, points, self.colour_of(name), self.OTHERS)
-        draw_trace(sheet, self.trace, self.colour_of(self.ball))
+            draw_trace(sheet, points, self.colour_of(name), self.thickness(name))
+        draw_trace(sheet, self.trace, self.colour_of(self.ball), self.thickness(self.ball))
 
     def _strings(self, painter: Painter, camera: Camera, t: float) -> None:
         """Of the balls that hang."""
@@ -601,6 +621,11 @@ class View(Generic[P]):
             x, y = self.spots(camera, np.array([self.run.state(name, t)[:2]]), radius)[0]
             placed[name] = (float(x), float(y)), radius
         return placed
+
+    def last(self, camera: Camera) -> tuple[Point, float]:
+        """Where the ball that is played hides what is behind it, and its radius there, in px: 0 once it is caught."""
+        at, radius = self._placed(camera, self.told).get(self.ball, ((0.0, 0.0), 0.0))
+        return at, radius * self.looks[self.ball].solid
 
     def present(self, t: float) -> list[str]:
         """The balls that have not been caught at time t in s."""

@@ -15,7 +15,7 @@ from sandbox.engine.setup import Body, Segment
 from sandbox.picture.palette import Colour, palette, scene_colours
 from sandbox.picture.places.plan import Plan
 from sandbox.picture.places.things import unit_of
-from sandbox.picture.views import AboveView, Area, Camera, Look, Mark, Painter, Sheet, Silhouette, near, nice
+from sandbox.picture.views import AboveView, Area, Camera, Look, Mark, Painter, Sheet, near, nice
 from sandbox.sport.amounts import signed
 
 from .boxes import TOUCH, strip
@@ -68,10 +68,6 @@ class Picture(AboveView[Parameters]):
     def met(self) -> Blow | None:
         """The blow."""
         return blow(self.run, self.parameters)
-
-    @property
-    def thing(self) -> str:
-        return "body" if isinstance(self.looks[self.ball], Silhouette) else "ball"
 
     def look_of(self, name: str) -> Look:
         place = self.balls.index(name)

@@ -19,7 +19,7 @@ UPRIGHT, APART, TALL, DEEP = 10.67, 5.64, 1.85, 48.8  # m: above the bar and bet
 class Picture(SideView[Parameters]):
     LOOK = Look(COLOURS["ball"])
     TRACE, EARLIER = COLOURS["trace"], COLOURS["earlier"]
-    LENGTHS, FROM = 1, "from the kick"
+    LENGTHS, FROM, THING = 1, "from the kick", "ball"
 
     @property
     def near_view(self) -> float:

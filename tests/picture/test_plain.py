@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from math import dist
 from pathlib import Path
 
 import numpy as np
@@ -91,3 +92,33 @@ def test_surfaces_are_where_they_are(bare):
         assert sum(paper) - sum(colour(stage, at)) > 200
     middle = picture.camera.pixel(hoop.distance, hoop.height)
     assert abs(sum(paper) - sum(colour(stage, middle))) < 50
+
+
+PLANK = '''"""A plank that flies and slides along its length."""
+from sandbox.engine.setup import Body, Segment, Setup, Surface
+from sandbox.engine.shapes import box
+from sandbox.parameters import SceneParameters as Parameters
+from sandbox.physics.forces import Gravity
+
+
+def build(it):
+    plank = Body("plank", position=(0.0, 0.5), velocity=(12.0, 0.5), shape=box(1.0, 0.01), mass=1.0,
+                 forces=[Gravity(1.0, 9.81)])
+    return Setup([plank], [Surface("floor", Segment((-20.0, 0.0), (20.0, 0.0)), 0.3, 0.5)], 1.0)
+'''
+
+
+def test_a_thin_body_is_called_one_and_stands_out_on_its_path(tmp_path: Path):
+    (tmp_path / "plank").mkdir()
+    (tmp_path / "plank" / "scene.py").write_text(PLANK)
+    run = sandbox.simulate(sandbox.load(tmp_path / "plank"))
+    picture = run.scene.picture(run, (1280, 720))
+    poster = picture.poster()
+    assert "a body every 0.05 s   ·   a bead where bodies would overlap" in [text for text, _ in picture.sheet.written]
+    assert picture.thickness("plank") < 1.0
+    x, y, *_ = run.state("plank", run.duration)
+    across, middle = picture.camera.pixel(x - 0.35, y)  # over the path that it came along
+    column = [colour(poster, (across, middle + i)) for i in range(-8, 9)]
+    light, dark = (max(column[6:11], key=sum), min(column[6:11], key=sum))
+    assert sum(light) - sum(dark) > 200
+    assert dist(light, picture.LOOK.colour) < 60

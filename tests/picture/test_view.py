@@ -11,6 +11,7 @@ import pygame
 import pytest
 
 import sandbox
+from sandbox.picture import marks
 from sandbox.picture.ball import Look
 from sandbox.picture.painter import Painter
 from sandbox.picture.places import Landscape, Stands, Stripes
@@ -58,6 +59,20 @@ def test_beads_are_said_where_they_are_seen(name: str, said: bool):
     picture = picture_of(name)
     picture.poster()
     assert ("a bead where balls would overlap" in written(picture)) == said
+
+
+@pytest.mark.parametrize("name", ["billiards/stop", "soccer/goal-kick-in-a-gale", "golf/putt"])
+def test_an_impact_on_the_rim_of_the_last_ball_is_marked_and_one_under_it_is_not(
+    name: str, monkeypatch: pytest.MonkeyPatch
+):
+    drawn: list[tuple[float, float]] = []
+    monkeypatch.setattr(marks, "draw_mark", lambda sheet, at: drawn.append(at))
+    picture = picture_of(name)
+    picture.poster()
+    at, radius = picture.last(picture.camera)
+    places = [picture.camera.pixel(*mark.at) for mark in picture.impacts(picture.camera)]
+    assert [place for place in places if place in drawn] == [p for p in places if dist(p, at) > radius - 1.0]
+    assert any(dist(place, at) < radius for place in places)
 
 
 @pytest.mark.parametrize("name", ["golf", "golf/topped", "soccer", "basketball"])
