@@ -10,9 +10,9 @@ taken in all. So the velocities without that part are integrated: their forces h
 accurate though contacts close and open within them.
 
 All contacts are treated at once, as entries of arrays, so that the outcome does not depend on the order of the bodies;
-and several clusters, such as the racks of a fan's breaks, as their rows. Vectors in the plane are complex numbers,
-x + iy. Products with matrices are by ``vecdot``: with ``@`` large ones are shared by threads, a hundred times as slow
-where other programs keep the processors busy.
+and several clusters, such as the racks of a fan's breaks, one after another in the same arrays. Vectors in the plane
+are complex numbers, x + iy. Products with matrices are by ``vecdot``: with ``@`` large ones are shared by threads, a
+hundred times as slow where other programs keep the processors busy.
 """
 
 from __future__ import annotations
@@ -147,37 +147,36 @@ _FAR = 1e3  # m, from all others
 
 
 class _Passage:
-    """Clusters that are passed through with steps in common: rows of arrays."""
+    """Clusters that are passed through with steps in common: one after another in arrays, each with as many bodies and
+    links as the largest has."""
 
     def __init__(self, clusters: Sequence[Cluster]) -> None:
-        self._clusters = clusters
-        count, most = max(len(each.bodies) for each in clusters), max(len(each.links) for each in clusters)
-        self._bodies = [[*each.bodies, *[_NOTHING] * (count + 1 - len(each.bodies))] for each in clusters]
-        # more links are of the first body, to nothing
-        links = [[*each.links, *[each.links[0]._replace(second=None)] * (most - len(each.links))] for each in clusters]
-        first = np.array([[link.first for link in row] for row in links])
-        second = np.array([[count if link.second is None else link.second for link in row] for row in links])
-        self._first, self._second = (each + (count + 1) * np.arange(len(clusters))[:, None] for each in (first, second))
-        self._weights = np.array([[(body.mass, body.inertia) for body in row] for row in self._bodies]).transpose(
-            2, 0, 1
-        )
-        self._absent = np.isinf(self._weights[0])
+        self._clusters, rows = clusters, len(clusters)
+        count, most = 1 + max(len(each.bodies) for each in clusters), max(len(each.links) for each in clusters)
+        self._bodies, links = list[Body](), list[Link]()
+        for each in clusters:
+            self._bodies += [*each.bodies, *[_NOTHING] * (count - len(each.bodies))]
+            # more links are of the first body, to nothing
+            links += [*each.links, *[each.links[0]._replace(second=None)] * (most - len(each.links))]
+        begun: np.ndarray = np.repeat(count * np.arange(rows), most)
+        self._first = begun + [link.first for link in links]
+        self._second = begun + [count - 1 if link.second is None else link.second for link in links]
+        self._weights = np.array([(body.mass, body.inertia) for body in self._bodies]).T
         light, easy = 1.0 / self._weights
-        radius = np.array([[body.radius for body in row] for row in self._bodies])
-        self._room = np.array([[body.room for body in row] for row in self._bodies])
-        self._push = np.array([[complex(*body.push) for body in row] for row in self._bodies])
+        radius = np.array([body.radius for body in self._bodies])
+        self._room = np.array([body.room for body in self._bodies])
+        self._push = np.array([complex(*body.push) for body in self._bodies])
         self._mass = 1.0 / (light.take(self._first) + light.take(self._second))  # kg, reduced
-        self._stiffness = np.array([[link.stiffness for link in row] for row in links])
-        damped = np.array([[damping(link.restitution) for link in row] for row in links])
-        self._damping = damped * np.sqrt(self._mass * self._stiffness)
+        self._stiffness = np.array([link.stiffness for link in links])
+        self._damping = np.array([damping(link.restitution) for link in links]) * np.sqrt(self._mass * self._stiffness)
         self._taken = 0.8 * self._damping
         one, other = radius.take(self._first), radius.take(self._second)
         self._deepest = _TOO_DEEP * np.where(other > 0.0, np.minimum(one, other), one)
         self._reach = one + other
-        laws = [[(link.law, link.approach) for link in row] for row in links]
-        self._rubbing = Rubbing(first, second, radius, light, easy, laws)
+        laws = [(link.law, link.approach) for link in links]
+        self._rubbing = Rubbing(rows, self._first, self._second, radius, light, easy, laws)
         self._pushed = self._rubbing.pull  # 1/kg: by an impulse at each link
-        self._walls = [(place, link.wall, link.first) for place, link in enumerate(links[0]) if link.wall is not None]
+        self._walls = [(place, link.wall, link.first) for place, link in enumerate(links) if link.wall is not None]
 
     def outcomes(self, share: float, faint: float) -> list[ClusterOutcome]:
         """Of each; raises what one of them does."""
@@ -187,42 +186,40 @@ class _Passage:
 
     def _stepped_through(self, share: float, faint: float) -> list[ClusterOutcome] | None:
         """The same with steps that are not repeated; None if one has too large an error."""
-        shape = self._first.shape
-        rows = [
-            [
-                (complex(*body.position), complex(*body.velocity), complex(*body.spin[:2]), 1j * body.spin[2])
-                for body in row
-            ]
-            for row in self._bodies
+        rows, links = len(self._clusters), len(self._first)
+        each = [
+            (complex(*body.position), complex(*body.velocity), complex(*body.spin[:2]), 1j * body.spin[2])
+            for body in self._bodies
         ]
-        state = np.array(rows).transpose(2, 0, 1).copy()
-        self._origin = state[_PLACE, :, :1].copy()
+        state = np.array(each).T.copy()
+        count = state.shape[1] // rows
+        self._origin = np.repeat(state[_PLACE, ::count], count)
         state[_PLACE] -= self._origin
-        state[_PLACE, self._absent] = _FAR
+        state[_PLACE, np.isinf(self._weights[0])] = _FAR
         fastest = max(2.0 * float(np.abs(state[_VELOCITY]).max()), CLOSING)
-        quickest = max(fastest, *(hypot(*body.spin) * body.radius for row in self._bodies for body in row))
+        quickest = max(fastest, *(hypot(*body.spin) * body.radius for body in self._bodies))
         at = partial(contact_time, self._mass, self._stiffness)
         slowest = _SLOWEST + _TIMES * np.abs(self._push).max() * at(_SLOWEST).max()
         shortest, longest = at(fastest).min(), at(min(slowest, fastest)).max()
         started = state[_PLACE].copy()
-        scale = np.repeat([fastest * shortest, fastest], started.size)
+        scale = np.repeat([fastest * shortest, fastest], len(started))
         whole, h, t = share * shortest, 0.0, 0.0
-        rates, elastic = np.empty((5, 2, *started.shape), complex), np.empty((5, *shape))
+        rates, elastic = np.empty((5, 2, len(started)), complex), np.empty((5, links))
         flat = rates.reshape(5, -1)
         # Links that are closed at the start store no energy: their distance then is where their force begins.
-        self._overlap = np.zeros(shape)
+        self._overlap = np.zeros(links)
         self._rates(state[:2], rates[0])
         self._overlap = np.minimum(self._gap, 0.0)
         elastic[0] = self._rates(state[:2], rates[0])
-        pushed, rubbed, closed = (np.zeros(shape) for _ in range(3))  # N s: elastic, and what has had its friction
+        pushed, rubbed, closed = (np.zeros(links) for _ in range(3))  # N s: elastic, and what has had its friction
         force, closing, normal = elastic[0], self._closing, self._normal
         approach = np.where(self._gap < _TOUCH, np.maximum(closing, 0.0), 0.0)
         moments, states, ends = [0.0], list[np.ndarray](), False
         while True:
             # Friction of the previous and next half step: second order, and mu times the impulse in total.
             back, h = 0.5 * h, whole
-            if self._first.size == 1:
-                kink = abs(self._gap.item()) / max(abs(closing.item()), CLOSING)  # s, from here
+            if links == 1:
+                kink = abs(float(self._gap[0])) / max(abs(float(closing[0])), CLOSING)  # s, from here
                 h *= _OF_A_PAIR * min(1.0, max(_FINEST, kink / h))
             ahead = 0.0 if ends else 0.5 * h
             reached = np.maximum(pushed + self._held + ahead * force, rubbed)
@@ -232,7 +229,7 @@ class _Passage:
             states.append(state)
             if ends:
                 break
-            if t > (_PATIENCE[0] * (started.shape[1] - 1) + _PATIENCE[1]) * longest or len(moments) > _MOST_STEPS:
+            if t > (_PATIENCE[0] * (count - 1) + _PATIENCE[1]) * longest or len(moments) > _MOST_STEPS:
                 raise Unresolved(f"bodies do not separate within {t:.3g} s")
             if ((self._depth > self._deepest) | ((normal.conj() * self._normal).real < 0.0)).any():
                 raise Unresolved(f"bodies pass through each other after {t:.3g} s")
@@ -243,16 +240,16 @@ class _Passage:
             start[1] -= self._pushing(self._held * self._normal)
             elastic[0] = self._rates(start, rates[0])
             for stage, weights in enumerate(_STAGES, 1):
-                moved = start + (h * weights @ flat[:stage]).reshape(start.shape)
+                moved = start + (h * weights @ flat[:stage]).reshape(2, -1)
                 elastic[stage] = self._rates(moved, rates[stage])
             if np.abs(_ERROR @ flat / scale).max() * h > _LARGEST_ERROR:
                 return None
             state = state.copy()
             state[:2] = moved[0], rates[4, 0]
-            pushed, closing = pushed + h * (_STAGES[-1] @ elastic[:4].reshape(4, -1)).reshape(shape), self._closing
+            pushed, closing = pushed + h * (_STAGES[-1] @ elastic[:4]), self._closing
             force = elastic[4] + self._damping * np.sqrt(np.sqrt(self._depth)) * closing
-            first = np.nonzero((self._depth > 0.0) & (approach == 0.0))
-            if first[0].size:  # sped up evenly until then
+            first = np.flatnonzero((self._depth > 0.0) & (approach == 0.0))
+            if first.size:  # sped up evenly until then
                 was, left, gained = np.maximum(before, 0.0)[first], np.maximum(gap, 0.0)[first], closing - before
                 approach[first] = np.sqrt(was**2 + 2.0 * left * np.maximum(gained[first], 0.0) / h) + CLOSING
                 closed[first] = t + np.minimum(2.0 * left / (was + approach[first]), h)
@@ -275,12 +272,11 @@ class _Passage:
         motion[:, _PLACE] += self._origin
         place, velocity, roll, out = motion.swapaxes(0, 1)
         parts = place.real, place.imag, velocity.real, velocity.imag, out.imag, roll.real, roll.imag
-        times, motion, of_links = np.array(moments), np.stack(parts, axis=-1), (impulse, approach, closed)
+        times, motion = np.array(moments), np.stack(parts, axis=-1).reshape(len(moments), rows, count, -1)
+        of_links = [its.reshape(rows, -1) for its in (impulse, approach, closed)]
         return [
-            ClusterOutcome(
-                times, motion[:, row, : len(each.bodies)], *(its[row, : len(each.links)] for its in of_links)
-            )
-            for row, each in enumerate(self._clusters)
+            ClusterOutcome(times, motion[:, row, : len(one.bodies)], *(its[row, : len(one.links)] for its in of_links))
+            for row, one in enumerate(self._clusters)
         ]
 
     def _rates(self, moving: np.ndarray, rates: np.ndarray) -> np.ndarray:
@@ -295,9 +291,9 @@ class _Passage:
         distance = np.abs(apart)
         normal, curvature, gap = apart / distance, 1.0 / distance, distance - self._reach
         for link, wall, body in self._walls:
-            there = complex(place[0, body] + self._origin[0, 0])
-            gap[0, link], nx, ny, curvature[0, link], *_ = wall(there.real, there.imag)
-            normal[0, link] = complex(nx, ny)
+            there = complex(place[body] + self._origin[body])
+            gap[link], nx, ny, curvature[link], *_ = wall(there.real, there.imag)
+            normal[link] = complex(nx, ny)
         gap -= self._overlap
         depth = np.maximum(-gap, 0.0)
         root = np.sqrt(depth)
@@ -311,18 +307,24 @@ class _Passage:
 
     def _pushing(self, impulses: np.ndarray) -> np.ndarray:
         """What they change of the bodies' velocities."""
-        changes: np.ndarray = np.vecdot(self._pushed, impulses[:, None])
-        return changes
+        changes: np.ndarray = np.vecdot(self._pushed, impulses.reshape(len(self._clusters), 1, -1))
+        return changes.ravel()
 
     def _remove_excess_energy(self, start: np.ndarray, end: np.ndarray, impulse: np.ndarray, way: float) -> None:
         """Slow the bodies that were touched towards the common motion of their cluster if numerical errors have raised
         its energy; other causes may have added what they do along the ``way`` in m."""
-        touched = (self._pushed.real * (impulse > 0.0)[:, None]).any(axis=2)
-        weights = np.where(touched, self._weights, 0.0)
+        rows = len(self._clusters)
+        start, end = start.reshape(4, rows, -1), end.reshape(4, rows, -1)
+        touched = (self._pushed.real * (impulse > 0.0).reshape(rows, 1, -1)).any(axis=2)
+        weights = np.where(touched, self._weights.reshape(2, rows, -1), 0.0)
         mass, common = weights[0], np.zeros_like(end)
         if not self._walls:
             common[_VELOCITY] = (np.vecdot(mass, end[_VELOCITY]) / np.maximum(mass.sum(axis=1), 1e-300))[:, None]
-        most = _energy(weights, start) + np.vecdot(mass, np.abs(self._push)) * way - _energy(weights, common)
+        most = (
+            _energy(weights, start)
+            + np.vecdot(mass, np.abs(self._push).reshape(rows, -1)) * way
+            - _energy(weights, common)
+        )
         has = _energy(weights, end - common)
         share = np.where(has > most, np.sqrt(np.maximum(0.0, most / np.maximum(has, 1e-300))), 1.0)[:, None]
         end[1:] = np.where(touched & (share < 1.0), common + share * (end - common), end)[1:]

@@ -36,8 +36,8 @@ Law = Callable[[Any, Any], Bounce]
 
 
 class Rubbing:
-    """Friction in the links of clusters, which are rows of arrays: a kink in one does not shorten the intervals of the
-    others.
+    """Friction in the links of clusters, one after another in arrays: a kink in one does not shorten the intervals of
+    the others.
 
     A motion has three rows of complex numbers, one for each body: ``vx + i vy``, ``wx + i wy`` and ``vz + i wz`` (m/s
     and rad/s). Slips and impulses are complex, too: along the contact in the plane, and out of it.
@@ -45,31 +45,32 @@ class Rubbing:
 
     def __init__(
         self,
+        clusters: int,
         first: np.ndarray,
         second: np.ndarray,
         radius: np.ndarray,
         light: np.ndarray,
         easy: np.ndarray,
-        laws: Sequence[Sequence[tuple[Law, float]]],
+        laws: Sequence[tuple[Law, float]],
     ) -> None:
         """``first`` and ``second`` are the bodies of each link; ``light`` and ``easy`` are the inverse masses (1/kg)
         and inertias (1/(kg m^2)) of bodies; ``laws`` has that of each link, and the approach in m/s at which it is
-        asked."""
-        rows = np.arange(len(first))[:, None]
-        bodies = first + radius.shape[1] * rows, second + radius.shape[1] * rows  # of all rows
-        self._links, self._arms = bodies, (radius.take(bodies[0]), radius.take(bodies[1]))
-        signs, arms = np.zeros((2, *first.shape, radius.shape[1]))
-        every = rows, np.arange(first.shape[1])
-        signs[*every, first], signs[*every, second] = 1.0, -1.0
-        arms[*every, first], arms[*every, second] = self._arms
-        pulls, turns = signs * light[:, None], arms * easy[:, None]
+        asked. All ``clusters`` have as many bodies, and as many links."""
+        bodies, every = len(radius) // clusters, np.arange(len(first))
+        self._links = first.reshape(clusters, -1), second.reshape(clusters, -1)
+        self._arms = radius.take(self._links[0]), radius.take(self._links[1])
+        signs, arms = np.zeros((2, len(first), bodies))
+        signs[every, first % bodies], signs[every, second % bodies] = 1.0, -1.0
+        arms[every, first % bodies], arms[every, second % bodies] = radius.take(first), radius.take(second)
+        signs, arms = signs.reshape(clusters, -1, bodies), arms.reshape(clusters, -1, bodies)
+        pulls, turns = signs * light.reshape(clusters, 1, -1), arms * easy.reshape(clusters, 1, -1)
         self.pull, self._turn = (each.transpose(0, 2, 1).astype(complex, order="C") for each in (pulls, turns))
         # 1/kg: links that share a body
         self._shifts, self._twists = pulls @ signs.transpose(0, 2, 1), turns @ arms.transpose(0, 2, 1)
-        self._used = np.zeros(first.shape, complex)  # of the normal impulses, in the last interval: a first guess
-        self._approach = np.array([[approach for _, approach in row] for row in laws])
+        self._used = np.zeros((clusters, len(first) // clusters), complex)  # of the normal impulses: a first guess
+        self._approach = np.array([approach for _, approach in laws]).reshape(clusters, -1)
         self._laws, self._only_floats = list[Law](), set[int]()
-        self._law_of = np.array([[self._number(law) for law, _ in row] for row in laws])
+        self._law_of = np.array([self._number(law) for law, _ in laws]).reshape(clusters, -1)
 
     def _number(self, law: Law) -> int:
         """Of a law among all."""
@@ -93,14 +94,14 @@ class Rubbing:
         ``pressed`` are the normal impulses (N s) of that time, ``gain`` the accelerations (m/s^2) by normal forces;
         ``share`` is the step as a fraction of the shortest contact.
         """
+        normal, pressed = normal.reshape(self._used.shape), pressed.reshape(self._used.shape)
         acting = np.flatnonzero((pressed > 0.0).any(axis=0))
         if not acting.size:
             return motion
         first, second = (bodies.take(acting, 1) for bodies in self._links)
         arm, other_arm = (arms.take(acting, 1) for arms in self._arms)
         normal, pressed = normal.take(acting, 1), pressed.take(acting, 1)
-        bodies = motion.reshape(3, -1)
-        one, other = bodies.take(first, 1), bodies.take(second, 1)
+        one, other = motion.take(first, 1), motion.take(second, 1)
         velocity, _, out = one - other
         _, roll, spin = one * arm + other * other_arm
         across = normal.conj()
@@ -140,7 +141,7 @@ class Rubbing:
             np.vecdot(turn, (1j * upward * normal)[:, None]),
             np.vecdot(pull, upward[:, None]) + 1j * np.vecdot(turn, along[:, None]),
         )
-        return np.add(motion, change)
+        return np.add(motion, np.reshape(change, motion.shape))
 
     def _friction(self, laws: np.ndarray, approach: np.ndarray, slip: np.ndarray) -> np.ndarray:
         """The coefficients of friction by the laws of these numbers."""
