@@ -57,20 +57,19 @@ class Rubbing:
         and inertias (1/(kg m^2)) of bodies; ``laws`` has that of each link, and the approach in m/s at which it is
         asked. All ``clusters`` have as many bodies, and as many links."""
         bodies, every = len(radius) // clusters, np.arange(len(first))
-        self._links = first.reshape(clusters, -1), second.reshape(clusters, -1)
-        self._arms = radius.take(self._links[0]), radius.take(self._links[1])
+        self._links, self._arms = (first, second), (radius.take(first), radius.take(second))
         signs, arms = np.zeros((2, len(first), bodies))
         signs[every, first % bodies], signs[every, second % bodies] = 1.0, -1.0
-        arms[every, first % bodies], arms[every, second % bodies] = radius.take(first), radius.take(second)
+        arms[every, first % bodies], arms[every, second % bodies] = self._arms
         signs, arms = signs.reshape(clusters, -1, bodies), arms.reshape(clusters, -1, bodies)
         pulls, turns = signs * light.reshape(clusters, 1, -1), arms * easy.reshape(clusters, 1, -1)
         self.pull, self._turn = (each.transpose(0, 2, 1).astype(complex, order="C") for each in (pulls, turns))
         # 1/kg: links that share a body
         self._shifts, self._twists = pulls @ signs.transpose(0, 2, 1), turns @ arms.transpose(0, 2, 1)
-        self._used = np.zeros((clusters, len(first) // clusters), complex)  # of the normal impulses: a first guess
-        self._approach = np.array([approach for _, approach in laws]).reshape(clusters, -1)
+        self._used = np.zeros(len(first), complex)  # of the normal impulses, in the last interval: a first guess
+        self._approach = np.array([approach for _, approach in laws])
         self._laws, self._only_floats = list[Law](), set[int]()
-        self._law_of = np.array([self._number(law) for law, _ in laws]).reshape(clusters, -1)
+        self._law_of = np.array([self._number(law) for law, _ in laws])
 
     def _number(self, law: Law) -> int:
         """Of a law among all."""
@@ -94,52 +93,55 @@ class Rubbing:
         ``pressed`` are the normal impulses (N s) of that time, ``gain`` the accelerations (m/s^2) by normal forces;
         ``share`` is the step as a fraction of the shortest contact.
         """
-        normal, pressed = normal.reshape(self._used.shape), pressed.reshape(self._used.shape)
-        acting = np.flatnonzero((pressed > 0.0).any(axis=0))
-        if not acting.size:
+        rows, links = len(self._shifts), self._shifts.shape[1]
+        some = np.flatnonzero((pressed.reshape(rows, links) > 0.0).any(axis=0))  # of each cluster
+        if not some.size:
             return motion
-        first, second = (bodies.take(acting, 1) for bodies in self._links)
-        arm, other_arm = (arms.take(acting, 1) for arms in self._arms)
-        normal, pressed = normal.take(acting, 1), pressed.take(acting, 1)
+        acting = (links * np.arange(rows)[:, None] + some).ravel()
+        first, second = (bodies.take(acting) for bodies in self._links)
+        arm, other_arm = (arms.take(acting) for arms in self._arms)
+        normal, pressed = normal.take(acting), pressed.take(acting)
         one, other = motion.take(first, 1), motion.take(second, 1)
         velocity, _, out = one - other
         _, roll, spin = one * arm + other * other_arm
         across = normal.conj()
         slip = spin.imag - (velocity * across).imag + 1j * (out.real + (roll * across).imag)
-        laws, approach = self._law_of.take(acting, 1), self._approach.take(acting, 1)
+        laws, approach = self._law_of.take(acting), self._approach.take(acting)
         if not self._friction(laws, approach, slip).any():
             return motion
         drift = -((gain.take(first) - gain.take(second)) * across).imag  # m/s^2
-        turned = (normal[:, :, None] * across[:, None]).real
-        shifts, twists = (mobility.take(acting, 1).take(acting, 2) for mobility in (self._shifts, self._twists))
-        # 1/kg: of the parts along, and of those out of the plane
-        mobility = np.zeros((len(slip), 2 * acting.size, 2 * acting.size))
+        turned = (normal.reshape(rows, -1, 1) * across.reshape(rows, 1, -1)).real
+        shifts, twists = (mobility.take(some, 1).take(some, 2) for mobility in (self._shifts, self._twists))
+        mobility = np.zeros((rows, 2 * some.size, 2 * some.size))  # 1/kg: of the parts along, and out of the plane
         mobility[:, ::2, ::2], mobility[:, 1::2, 1::2] = shifts * turned + twists, shifts + twists * turned
         coarse = max(1.0, share / _FINE)
-        total, used = np.zeros_like(slip), self._used.take(acting, 1)
+        total, used = np.zeros_like(slip), self._used.take(acting)
+        places = np.arange(acting.size).reshape(rows, -1)
         waiting: list[tuple[float, float, int, Any]] = [(-back, ahead, round(_HALVINGS - log2(coarse)), slice(None))]
         while waiting:
-            begun, ended, halvings, some = waiting.pop()
-            own, part = mobility[some], (ended - begun) / (ahead + back) * pressed[some]
-            before, after = slip[some] + begun * drift[some], slip[some] + ended * drift[some]
-            guess, close = used[some] * part, _CONVERGED * coarse * coarse * fastest
-            law = partial(self._friction, laws[some], approach[some])
+            begun, ended, halvings, chosen = waiting.pop()
+            own, at = mobility[chosen], places[chosen].ravel()
+            part = (ended - begun) / (ahead + back) * pressed[at]
+            before, after = slip[at] + begun * drift[at], slip[at] + ended * drift[at]
+            guess, close = used[at] * part, _CONVERGED * coarse * coarse * fastest
+            law = partial(self._friction, laws[at], approach[at])
             impulse, kinked = _slid(before, after, own, part, law, guess, close, halvings)
             if not kinked.all():
-                impulse[kinked] = 0.0
-                total[some] += impulse
-                slip[some] += _times(own, impulse)
-                used[some] = np.where(kinked[:, None], used[some], impulse / np.maximum(part, 1e-300))
+                of_no_use = np.repeat(kinked, some.size)
+                impulse[of_no_use] = 0.0
+                total[at] += impulse
+                slip[at] += _times(own, impulse)
+                used[at] = np.where(of_no_use, used[at], impulse / np.maximum(part, 1e-300))
             if kinked.any():
-                middle, again = 0.5 * (begun + ended), np.arange(len(slip))[some][kinked]
+                middle, again = 0.5 * (begun + ended), np.arange(rows)[chosen][kinked]
                 waiting += [(middle, ended, halvings - 1, again), (begun, middle, halvings - 1, again)]
-        self._used[:, acting] = used
-        pull, turn = self.pull.take(acting, 2), self._turn.take(acting, 2)
-        along, upward = total.real, total.imag
+        self._used[acting] = used
+        pull, turn = self.pull.take(some, 2), self._turn.take(some, 2)
+        along, upward, shape = total.real, total.imag, (rows, 1, -1)
         change = (
-            np.vecdot(pull, (-1j * along * normal)[:, None]),
-            np.vecdot(turn, (1j * upward * normal)[:, None]),
-            np.vecdot(pull, upward[:, None]) + 1j * np.vecdot(turn, along[:, None]),
+            np.vecdot(pull, (-1j * along * normal).reshape(shape)),
+            np.vecdot(turn, (1j * upward * normal).reshape(shape)),
+            np.vecdot(pull, upward.reshape(shape)) + 1j * np.vecdot(turn, along.reshape(shape)),
         )
         return np.add(motion, np.reshape(change, motion.shape))
 
@@ -147,8 +149,8 @@ class Rubbing:
         """The coefficients of friction by the laws of these numbers."""
         speed = np.abs(slip)
         if speed.size <= _FEW:
-            each = zip(laws.ravel().tolist(), approach.ravel().tolist(), speed.ravel().tolist(), strict=True)
-            return np.array([self._laws[number](*speeds).friction for number, *speeds in each]).reshape(speed.shape)
+            each = zip(laws.tolist(), approach.tolist(), speed.tolist(), strict=True)
+            return np.array([self._laws[number](*speeds).friction for number, *speeds in each])
         found = np.empty_like(speed)
         for number, law in enumerate(self._laws):
             its = laws == number if len(self._laws) > 1 else ...
@@ -175,14 +177,14 @@ def _slid(
     halvings: int,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Friction impulses (N s) in an interval in which the slips (m/s) would otherwise go from ``before`` to ``end``,
-    and which rows have a kink in it, if it can be halved: theirs are of no use.
+    and in which clusters there is a kink, if it can be halved: theirs are of no use.
 
-    By projected gradient steps from a guess; their lengths are a share of what the row sums of the matrix ``mobility``
-    (1/kg) allow.
+    By projected gradient steps from a guess; their lengths are a share of what the row sums of the matrices
+    ``mobility`` (1/kg) of the clusters allow.
     """
-    sums = np.abs(mobility).sum(axis=2)
-    ease = np.maximum(sums[:, ::2], sums[:, 1::2])
-    step, kinked = _SHARE / ease, np.zeros(len(before), bool)
+    sums = np.abs(mobility).sum(axis=2).ravel()
+    ease = np.maximum(sums[::2], sums[1::2])
+    step, kinked = _SHARE / ease, np.zeros(len(mobility), bool)
     end = end + _times(mobility, impulse)
     for iteration in range(_ITERATIONS):
         middle = 0.5 * (before + end)
@@ -194,14 +196,14 @@ def _slid(
         np.copyto(wanted, holds, where=held)
         change, impulse = wanted - impulse, wanted
         end += _times(mobility, change)
-        done = np.maximum.reduce(np.abs(change) * ease, axis=None) <= tolerance
+        done = np.maximum.reduce(np.abs(change) * ease) <= tolerance
         if done or iteration == _CLEAR:
-            own = mobility.diagonal(axis1=1, axis2=2)
-            least = (end - before).real / own[:, ::2] + 1j * ((end - before).imag / own[:, 1::2])
+            own = mobility.diagonal(axis1=1, axis2=2).ravel()
+            least = (end - before).real / own[::2] + 1j * ((end - before).imag / own[1::2])
             keeps = np.abs(least - impulse) <= limit
             turns = (before * end.conj()).real < 0.5 * np.abs(before) * np.abs(end)
             if halvings > 0:
-                kinked = (np.where(held, ~keeps, turns) & (pressed > 0.0)).any(axis=1)
+                kinked = (np.where(held, ~keeps, turns) & (pressed > 0.0)).reshape(len(mobility), -1).any(axis=1)
             if done or kinked.all():
                 break
     return impulse, kinked
@@ -209,5 +211,5 @@ def _slid(
 
 def _times(mobility: np.ndarray, impulse: np.ndarray) -> np.ndarray:
     """The slips (m/s) that impulses (N s) change."""
-    slips: np.ndarray = np.vecdot(mobility, impulse.view(float)[:, None]).view(complex)
-    return slips
+    slips: np.ndarray = np.vecdot(mobility, impulse.view(float).reshape(len(mobility), 1, -1))
+    return slips.ravel().view(complex)
