@@ -27,6 +27,9 @@ LONGEST = 0.5  # s
 #: Shortest step, as a share of the time, of at least 1 s: shorter ones are rounding.
 _SHORTEST = 1e-15
 
+#: A step is a part of the wanted one if it is shorter than this share: one as long as an arc is so only to rounding.
+_PART = 1.0 - 1e-9
+
 #: Ratio of the next step to the last: a safety factor, the bounds, and the ratio after an error that is not finite.
 SAFETY, SHORTER, LONGER, LOST = 0.9, 0.2, 5.0, 0.1
 
@@ -77,7 +80,7 @@ class StepControl:
         fits = off <= self._local_error
         change = clip(SAFETY * (self._local_error / (off + _TINY)) ** self._exponent, SHORTER, LONGER)
         following = h * choose(off < inf, change, LOST)
-        return fits, choose(fits & (h < wanted) & (following < wanted), wanted, following), end, last
+        return fits, choose(fits & (h < _PART * wanted) & (following < wanted), wanted, following), end, last
 
 
 def size(error: State, radius: Any) -> Any:

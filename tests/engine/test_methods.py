@@ -5,12 +5,15 @@ from __future__ import annotations
 from dataclasses import replace
 from math import cos, hypot, pi, radians, sin
 
+import numpy as np
 import pytest
 
 from sandbox.engine import simulate, simulate_many
 from sandbox.engine.accuracy import LEVELS, Accuracy, resolve
+from sandbox.engine.acting import law_of, step_of
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball, Patch, Segment, Setup, Surface
+from sandbox.engine.step_control import StepControl
 from sandbox.lab import timing
 from sandbox.lab import trade as lab
 from sandbox.physics.coefficients import Constant
@@ -193,3 +196,22 @@ def test_no_step_after_an_impact_is_longer_than_the_one_that_it_cut():
         after = bounced.arcs["ball"].at(t)
         assert after.t0 == t
         assert after.t1 - after.t0 <= (cut.t1 - cut.t0) * (1.0 + 1e-12)
+
+
+def test_a_step_as_long_as_the_wanted_one_but_for_rounding_is_no_part_of_it():
+    """The wanted step may be the length of an arc, a difference of times: the next one does not depend on its last
+    digit, in which one shot differs from the same in a batch."""
+    ball, control = tossed(0).balls[0], StepControl(resolve())
+    law, step = law_of(ball), step_of(ball, control.integrator)
+    start = (*ball.position, *ball.velocity, ball.spin)
+
+    def following(h: float, wanted: float) -> float | None:
+        fits, following, _, _ = control.attempt(step, 0.0, start, law(0.0, start), h, wanted, ball.radius)
+        return following if fits else None
+
+    fitting = next(h for h in 0.99 ** np.arange(1000.0) if following(h, h))
+    shorter = following(fitting, fitting)
+    assert shorter is not None
+    assert shorter < fitting
+    assert following(fitting, np.nextafter(fitting, 1.0)) == shorter
+    assert following(fitting, 1.1 * fitting) == 1.1 * fitting  # of which it is a part
