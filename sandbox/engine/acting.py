@@ -64,8 +64,8 @@ def _is_steady(force: Any) -> bool:
 
 def _is_uniform(term: Any) -> bool:
     """Whether it is known to be the same at any place."""
-    even = type(getattr(term, "wind", None)) in (NoneType, UniformWind)
-    return even and type(term) in (Gravity, Drag, Magnus, SpinDecay)
+    ours = type(term) in (Gravity, Drag, Magnus, SpinDecay)  # first: a scene's own may have any ``wind``
+    return ours and type(getattr(term, "wind", None)) in (NoneType, UniformWind)
 
 
 def _given(ball: Ball) -> Iterator[Any]:

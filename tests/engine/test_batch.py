@@ -342,6 +342,22 @@ def test_a_force_that_cannot_take_arrays_is_called_with_floats(force: Any, flown
     assert flown == []
 
 
+def test_a_force_of_a_scene_may_have_a_wind_of_any_kind(flown: list[int]):
+    class Sail:
+        @property
+        def wind(self) -> float:
+            raise ValueError("not set")
+
+        def __call__(self, t: Any, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
+            return 0.1 * position[1], 0.0
+
+    sail = Sail()
+    setups = [thrown(4.0 + 0.1 * i, extra=sail) for i in range(30)]
+    for setup, run in zip(setups, simulate_many(setups, resolve()), strict=True):
+        assert_same(run, simulate(setup, resolve()))
+    assert flown == [30]
+
+
 def test_forces_that_mix_shots_up_only_later_are_found_out(flown: list[int]):
     def drag(t: Any, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
         speed = np.linalg.norm(velocity)  # of one ball: of many it is the norm of all

@@ -10,7 +10,8 @@ import pytest
 from sandbox.engine import simulate
 from sandbox.engine.accuracy import resolve
 from sandbox.engine.acting import law_of
-from sandbox.engine.setup import DISC, HOLLOW_SPHERE, SOLID_SPHERE, Ball, Bounce, Circle, Segment, Setup, Surface
+from sandbox.engine.setup import DISC, HOLLOW_SPHERE, SOLID_SPHERE, Ball, Bounce, Circle, Patch, Segment, Setup, Surface
+from sandbox.engine.step_control import allowed
 from sandbox.physics.air import LogWind, UniformWind
 from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity, Magnus, SpinDecay
@@ -321,15 +322,52 @@ def test_a_ball_is_accelerated_by_the_sum_of_its_forces_and_torques(forces, torq
     assert law_of(ball)(1.0, (3.0, 5.0, 7.0, 8.0, 9.0)) == pytest.approx(expected, rel=1e-15)
 
 
-@pytest.mark.parametrize("wind", [None, UniformWind(-3.0, 0.5), LogWind((5.0, 0.0), 10.0, 0.03)])
-def test_a_flight_does_not_depend_on_whether_its_forces_are_known_to_need_no_place(wind):
-    """Of a function the engine cannot know it, and makes the place in each stage of a step."""
+class Gusty(UniformWind):
+    """A scene's own kind of wind, which grows with height."""
+
+    def __call__(self, t, position):
+        return self.x * position[1], self.y
+
+
+class Thick(Drag):
+    """A scene's own kind of drag, which grows with height."""
+
+    def __call__(self, t, position, velocity, spin):
+        fx, fy = super().__call__(t, position, velocity, spin)
+        return fx * position[1], fy * position[1]
+
+
+@pytest.mark.parametrize(
+    ("kind", "wind"),
+    [
+        (Drag, None),
+        (Drag, UniformWind(-3.0, 0.5)),
+        (Drag, LogWind((5.0, 0.0), 10.0, 0.03)),
+        (Drag, Gusty(-0.2, 0.5)),
+        (Thick, None),
+    ],
+)
+def test_a_flight_does_not_depend_on_whether_its_forces_are_known_to_need_no_place(kind, wind):
+    """Of a function the engine cannot know it, and makes the place in each stage of a step; nor of a scene's own kind
+    of force or wind."""
     air = 0.02, 1.2, Constant(0.3), wind
-    forces, torques = [Gravity(0.05, G), Drag(*air), Magnus(*air)], [SpinDecay(8e-6, 0.02, 2e-5, wind)]
+    forces, torques = [Gravity(0.05, G), kind(*air), Magnus(*air)], [SpinDecay(8e-6, 0.02, 2e-5, wind)]
     known = Ball("ball", 0.05, 0.02, (0.0, 1.0), (40.0, 30.0), 200.0, forces=forces, torques=torques)
     called = [[lambda *state, term=term: term(*state) for term in terms] for terms in (forces, torques)]
     asked = replace(known, forces=called[0], torques=called[1])
     assert fly(known, 2.0).state("ball", 2.0) == fly(asked, 2.0).state("ball", 2.0)
+
+
+def test_a_step_ends_at_the_border_of_a_patch_that_only_its_fall_reaches():
+    """From rest a ball falls h in t = (2 h / g)^(1/2), alone and among others."""
+    net = Patch(-1.0, 0.0, 1.0, 1.0, 0.01)
+    setup = Setup([Ball("ball", 1.0, 0.1, (0.0, 2.0))], duration=1.0, patches=[net])
+    fallen = sqrt(2.0 * 1.0 / G)
+    assert allowed(setup, 0.0, 0.5, (0.0, 2.0, 0.0, 0.0, 0.0), (0.0, -G, 0.0)) == pytest.approx(fallen, rel=1e-12)
+    state, acceleration = np.zeros((5, 2)), np.zeros((3, 2))
+    state[1], acceleration[1] = (2.0, 9.0), -G
+    steps = allowed(setup, np.zeros(2), np.full(2, 0.5), state, acceleration)
+    assert steps.tolist() == pytest.approx([fallen, 0.5], rel=1e-12)
 
 
 def test_a_kind_of_gravity_that_changes_is_asked_anew():

@@ -34,6 +34,15 @@ def test_drag_by_its_formula():
     assert (fx, fy) == pytest.approx((-size * 30.0, size * 40.0))
 
 
+def test_a_kind_of_constant_coefficient_of_a_scene_is_asked():
+    class Ribbed(Constant):
+        def __call__(self, reynolds, spin_ratio):
+            return self.value * (1.0 + spin_ratio)
+
+    at = (0.0, HERE, (50.0, 0.0), 50.0 / RADIUS)  # where the spin ratio is 1
+    assert Drag(RADIUS, DENSITY, Ribbed(0.3))(*at) == pytest.approx(Drag(RADIUS, DENSITY, Constant(0.6))(*at))
+
+
 def test_lift_by_its_formula():
     """F = 1/2 rho Cl A |u|^2, and here Cl = r w / |u|; backspin of a ball flying towards +x lifts."""
     fx, fy = Magnus(RADIUS, DENSITY, spin_ratio_lift)(0.0, HERE, (50.0, 0.0), 300.0)

@@ -82,8 +82,8 @@ def test_many_shots_at_once_are_the_same_as_one_by_one(name):
         start = tuple(state[:, k].tolist())
         alone = METHODS[name].step_of(turning)(0.1, start, turning(0.1, start), float(dt[k]))
         assert (end[:, k].tolist(), last[:, k].tolist()) == (
-            pytest.approx(alone[0], rel=1e-15),
-            pytest.approx(alone[1], rel=1e-14),
+            pytest.approx(alone[0], rel=1e-15, abs=0.0),
+            pytest.approx(alone[1], rel=1e-14, abs=0.0),
         )
         assert error is alone[2] is None or error[:, k].tolist() == pytest.approx(alone[2], rel=1e-9, abs=1e-17)
 
