@@ -214,7 +214,8 @@ class _Passage:
         pushed, rubbed, closed = (np.zeros(links) for _ in range(3))  # N s: elastic, and what has had its friction
         force, closing, normal = elastic[0], self._closing, self._normal
         approach = np.where(self._gap < _TOUCH, np.maximum(closing, 0.0), 0.0)
-        moments, states, ends = [0.0], list[np.ndarray](), False
+        moments, ends = [0.0], False
+        states: list[np.ndarray] = []
         while True:
             # Friction of the previous and next half step: second order, and mu times the impulse in total.
             back, h = 0.5 * h, whole

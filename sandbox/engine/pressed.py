@@ -77,7 +77,8 @@ class Pressed:
             self._add_reached(t, members, fastest, lasts, fresh)
             if not members.keys().isdisjoint(fresh):
                 return None
-            room, near = dict.fromkeys(members, inf), list[tuple[int, Obstacle]]()
+            room = dict.fromkeys(members, inf)
+            near: list[tuple[int, Obstacle]] = []
             for index, (x, y, *_) in members.items():
                 for obstacle in self._tracks[index].obstacles:
                     left, bottom, right, top = obstacle.box

@@ -68,7 +68,8 @@ class Rubbing:
         self._shifts, self._twists = pulls @ signs.transpose(0, 2, 1), turns @ arms.transpose(0, 2, 1)
         self._used = np.zeros(len(first), complex)  # of the normal impulses, in the last interval: a first guess
         self._approach = np.array([approach for _, approach in laws])
-        self._laws, self._only_floats = list[Law](), set[int]()
+        self._laws: list[Law] = []
+        self._only_floats: set[int] = set()
         self._law_of = np.array([self._number(law) for law, _ in laws])
 
     def _number(self, law: Law) -> int:

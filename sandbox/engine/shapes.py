@@ -53,7 +53,7 @@ class Polygon:
             raise ValueError(f"{self}: radius = {self.radius} m must not be negative")
         if _area(corners) < 0.0:
             corners.reverse()
-        normals = list[float]()
+        normals: list[float] = []
         for (ax, ay), (bx, by) in _sides(corners):
             normal = atan2(ax - bx, by - ay)
             normals.append(normal if not normals else normals[-1] + (normal - normals[-1]) % (2.0 * pi))
@@ -89,7 +89,8 @@ class Polygon:
 
     def mass_properties(self) -> MassProperties:
         """The sum of the polygon, a rectangle along each side, and a sector of a disc at each corner."""
-        r, parts = self.radius, list[MassProperties]()
+        r = self.radius
+        parts: list[MassProperties] = []
         (ox, oy), corners = self.corners[0], self.corners
         for (ax, ay), (bx, by) in pairwise(corners[1:]):
             ax, ay, bx, by = ax - ox, ay - oy, bx - ox, by - oy  # a triangle at the first corner
@@ -159,7 +160,8 @@ class Polygon:
         """Points around the outline, counter-clockwise, in m, that leave less than ``within`` (m) of an arc out."""
         if self.radius == 0.0:
             return list(self.corners)
-        points, r = list[Vector](), self.radius
+        r = self.radius
+        points: list[Vector] = []
         normals = self.normals or (0.0,)
         for number, (x, y) in enumerate(self.corners):
             start = normals[number - 1]
