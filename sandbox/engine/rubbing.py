@@ -9,6 +9,7 @@ outcome does not depend on their order.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from functools import partial
 from math import log2
 from typing import Any
@@ -74,9 +75,10 @@ class Rubbing:
 
     def _number(self, law: Law) -> int:
         """Of a law among all."""
-        if law not in self._laws:
-            self._laws.append(law)
-        return self._laws.index(law)
+        with suppress(Exception):  # it is new, or a class of the scene raises when it is compared
+            return self._laws.index(law)
+        self._laws.append(law)
+        return len(self._laws) - 1
 
     def after(
         self,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import cos, hypot, radians, sin, sqrt
 
 import numpy as np
@@ -227,6 +228,23 @@ def test_laws_that_take_only_floats_are_asked_link_by_link():
     by_arrays = passage(bodies, 0.95, lambda slip: 0.02 + 0.03 * (slip < 1.0))
     assert passage(bodies, 0.95, by_floats).spin == pytest.approx(by_arrays.spin, abs=1e-9)
     assert np.abs(by_arrays.spin).max() > 1.0
+
+
+def test_laws_that_cannot_be_compared_are_laws_of_their_own():
+    """Two tables; the balls of a chain lose nothing to friction by either."""
+
+    @dataclass
+    class Table:
+        slips: np.ndarray
+        frictions: np.ndarray
+
+        def __call__(self, approach, slip):
+            return Bounce(1.0, np.interp(slip, self.slips, self.frictions))
+
+    tables = [Table(np.array([0.0, 1.0]), np.array([0.1, last])) for last in (0.1, 0.2)]
+    links = [Link(i + 1, i, STIFFNESS, 1.0, tables[i % 2]) for i in range(4)]
+    by_tables = Cluster(chain(5), links).pass_through(STEP)
+    assert by_tables.velocity == pytest.approx(passage(chain(5)).velocity, abs=1e-12)
 
 
 def test_one_that_cannot_part_leaves_the_others_as_they_are_alone():
