@@ -140,7 +140,7 @@ def significant(value: float, digits: int = 2) -> str:
         return "0"
     if not 1e-3 <= abs(value) < 1e6:
         return f"{value:.{digits - 1}e}"
-    text = f"{float(f'{value:.{digits}g}'):f}" if abs(value) < 10**digits else f"{value:.0f}"
+    text = f"{float(f'{value:.{digits}g}'):.{digits + 2}f}" if abs(value) < 10**digits else f"{value:.0f}"
     return text.rstrip("0").rstrip(".") if "." in text else text
 
 

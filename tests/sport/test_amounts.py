@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from sandbox.errors import RequestError
@@ -24,6 +24,7 @@ from sandbox.sport.facts import Fact
 
 
 @given(st.floats(1e-9, 1e12), st.sampled_from([-1.0, 1.0]), st.integers(1, 5))
+@example(0.0078125, -1.0, 5)
 def test_significant_digits_are_those_of_the_number(size: float, sign: float, digits: int):
     """Half a unit of the last digit, which is never beyond the point of a number that needs no exponent."""
     value = sign * size
