@@ -71,6 +71,23 @@ def test_every_instant_is_that_of_python(browser, pages, name: str):
     assert browser.complaints() == []
 
 
+def test_the_path_and_the_rim_of_a_body_are_as_thick_as_on_the_poster(browser, pages):
+    name = "collisions/tumbling-box"
+    browser.open(pages(name))
+    view = run_of(name).scene.picture(run_of(name), LAYOUTS[0][0])
+    width, unit = 4.5 * view.unit * view.thickness("box"), view.unit
+    drawn = browser.run("""(() => {
+      const widths = [];
+      player.context.stroke = function () {
+        widths.push(this.lineWidth);
+      };
+      player.draw();
+      delete player.context.stroke;
+      return widths;
+    })()""")
+    assert drawn == pytest.approx([width + 2.0 * unit, width, 1.6 * unit])
+
+
 def test_it_plays_by_mouse_keyboard_and_touch(browser, pages):
     run, driver = run_of("golf"), browser.driver
     browser.open(pages("golf", "golf/headwind"))
