@@ -74,8 +74,6 @@ class Simulation:
         self._order = count()
         self._over = False
         self._tracks = self._make_tracks()
-        every = range(len(self._tracks))
-        self._others = [[*every[:index], *every[index + 1 :]] for index in every]  # than each ball
         self._moving = {*range(len(self._tracks))}  # the balls that neither rest nor are caught
         slowest = 0.0 if setup.plane is None else slowest_hop(setup, accuracy.hop)
         self._impacts = Impacts(setup, self._tracks, self._numerics, slowest)
@@ -336,7 +334,8 @@ class Simulation:
             return  # nothing left to plan
         self._note_rest(index, t)
         own = None if track.contact is None else track.contact.obstacle
-        self._predict(index, t, kind, lambda other: other is own, self._others[index])
+        everyone = range(len(self._tracks))
+        self._predict(index, t, kind, lambda other: other is own, everyone if len(everyone) > 1 else ())
 
     def _neighbours(self, stepped: Mapping[int, Arc], t: float) -> dict[int, list[int]]:
         """For each ball of a heap the others that it may meet on its new arc from t; of two in the heap for the first.
@@ -390,7 +389,7 @@ class Simulation:
         left, bottom, right, top = arc.box()
         for other in others:
             neighbour = self._tracks[other]
-            if neighbour.caught:
+            if other == index or neighbour.caught:
                 continue
             reach = track.ball.radius + neighbour.ball.radius
             a, b, c, d = neighbour.way.box()

@@ -2,6 +2,7 @@
 user's force.
 """
 
+import tracemalloc
 from dataclasses import replace
 from math import inf, isfinite, nan, pi, sin, tanh
 
@@ -14,6 +15,7 @@ from sandbox.engine import simulate, simulate_many
 from sandbox.engine.accuracy import LEVELS, resolve
 from sandbox.engine.ledger import ledger
 from sandbox.engine.setup import Ball, Bounce, Bounds, Catch, Circle, Segment, Setup, Surface
+from sandbox.engine.simulation import Simulation
 from sandbox.errors import RequestError, RunError, SandboxError
 from sandbox.physics.cloth import Cloth
 from sandbox.physics.coefficients import Constant
@@ -334,3 +336,17 @@ def test_points_may_be_given_as_lists_and_arrays():
     floor = Surface("floor", Segment(np.array([-9.0, -1.0]), [9.0, -1.0]), 0.5, 0.5)
     run = simulate(Setup([Ball("ball", 1.0, 0.1, (0.0, 0.0), (1.0, 0.0))], [post, floor], duration=3.0), resolve())
     assert run.events[0].partner == "post"
+
+
+def test_many_balls_need_memory_by_their_number_not_by_its_square():
+    def needed(count):
+        balls = [Ball(f"ball {i}", 1.0, 0.1, (0.3 * i, 0.0)) for i in range(count)]
+        tracemalloc.start()
+        simulation = Simulation(Setup(balls, duration=0.1), resolve())
+        memory, _ = tracemalloc.get_traced_memory()
+        tracemalloc.stop()
+        del simulation
+        return memory
+
+    needed(2)  # what is made once
+    assert needed(400) < 6 * needed(100)
