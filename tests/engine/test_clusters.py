@@ -220,14 +220,21 @@ def test_racks_that_are_broken_together_part_as_alone():
         )
 
 
-def test_laws_that_take_only_floats_are_asked_link_by_link():
+def test_laws_that_do_not_take_arrays_are_asked_link_by_link():
     def by_floats(slip):
         return 0.05 if slip < 1.0 else 0.02
 
-    bodies = rack(8.0, 1e-5)
-    by_arrays = passage(bodies, 0.95, lambda slip: 0.02 + 0.03 * (slip < 1.0))
-    assert passage(bodies, 0.95, by_floats).spin == pytest.approx(by_arrays.spin, abs=1e-9)
-    assert np.abs(by_arrays.spin).max() > 1.0
+    def by_any(slip):
+        return 0.05 if np.any(slip < 1.0) else 0.02  # takes arrays, and means something else
+
+    def spins(law):
+        clusters = [cluster(rack(speed, 1e-5), 0.95, law) for speed in (7.0, 8.0, 9.0)]
+        return np.concatenate([one.spin for one in pass_through([(each, STEP, 0.0) for each in clusters])])
+
+    by_arrays = spins(lambda slip: 0.02 + 0.03 * (slip < 1.0))
+    for law in (by_floats, by_any):
+        assert spins(law) == pytest.approx(by_arrays, abs=1e-9)
+    assert np.abs(by_arrays).max() > 1.0
 
 
 def test_laws_that_cannot_be_compared_are_laws_of_their_own():
