@@ -33,8 +33,12 @@ def passage(*how, step=STEP, **more):
 def cluster(bodies, restitution=1.0, friction=0.0, reach=3e-3, stiffness=STIFFNESS):
     """One in which all balls with gaps below ``reach`` (m) are linked."""
     law = friction if callable(friction) else lambda slip: friction
+
+    def bounce(approach, slip):
+        return Bounce(restitution, law(slip))
+
     links = [
-        Link(i, j, stiffness, restitution, lambda approach, slip: Bounce(restitution, law(slip)))
+        Link(i, j, stiffness, restitution, bounce)
         for i, one in enumerate(bodies)
         for j, other in enumerate(bodies[:i])
         if hypot(one.position[0] - other.position[0], one.position[1] - other.position[1]) < 2 * RADIUS + reach
