@@ -43,7 +43,7 @@ from math import cos, hypot, inf, radians, sin
 from pathlib import Path
 from random import Random
 from statistics import mean, median
-from time import perf_counter
+from time import perf_counter, sleep
 from timeit import timeit
 from typing import Any
 from unittest.mock import patch
@@ -107,6 +107,8 @@ FANS = {
     "billiards/cut": (200, False, 1.0),
     "billiards/nine-ball-break": (200, False, 1.0),
 }
+#: Between two frames, in s, in which the window asks its processes.
+FRAME = 1 / 60
 #: Maps in the window, and the processor time asked for in s.
 MAPS = {"basketball": 1.0, "soccer": 1.0, "golf": 1.0}
 
@@ -232,20 +234,31 @@ def in_the_window(repeats: int, quick: bool) -> list[dict[str, Any]]:
 
 
 def by_two(scene: Scene, shots: int, how: Sequence[Any]) -> float:
-    """Time by the clock in s in which two processes compute a whole fan."""
-    helper, known = Processes(1), list[Any]()
+    """Time by the clock in s in which two processes compute a whole fan, asked as often as the window asks them."""
+    one, other = processes = Processes(1), Processes(1)
     try:
-        helper.submit(elsewhere, scene, 0, 0).result()  # it starts
-        with patch.object(fan, "SHOTS", shots), patch.object(fan, "_begun", {}):
-            started, left, asked = perf_counter(), shots, helper.submit(elsewhere, scene, shots, shots)
-            while left:
-                if asked.done():
-                    known = asked.result()
-                    asked = helper.submit(elsewhere, scene, shots, left)
-                left = fan.cloud(scene, *how, known).left
-            return perf_counter() - started
+        for each in processes:
+            each.submit(elsewhere, scene, 0, 0).result()  # it starts
+        started, left, known = perf_counter(), shots, list[Any]()
+        drawn, asked = one.submit(seen, scene, shots, how, known), other.submit(elsewhere, scene, shots, left)
+        while left:
+            sleep(FRAME)
+            if asked.done():
+                known = asked.result()
+                asked = other.submit(elsewhere, scene, shots, left)
+            if drawn.done():
+                left = drawn.result().left
+                drawn = one.submit(seen, scene, shots, how, known)
+        return perf_counter() - started
     finally:
-        helper.close(abandon=True)
+        for each in processes:
+            each.close(abandon=True)
+
+
+def seen(scene: Scene, shots: int, how: Sequence[Any], known: Sequence[Any]) -> fan.Cloud:
+    """A fan as far as one process has computed it, with what is known from another."""
+    with patch.object(fan, "SHOTS", shots):
+        return fan.cloud(scene, *how, known)
 
 
 def elsewhere(scene: Scene, shots: int, left: int) -> list[Any]:
