@@ -71,11 +71,11 @@ class Rubbing:
         self._used = np.zeros(len(first), complex)  # of the normal impulses, in the last interval: a first guess
         self._approach = np.array([approach for _, approach in laws])
         self._laws: list[Law] = []
-        self._only_floats: set[int] = set()  # are taken by these
+        self._only_floats: set[int] = set()  # numbers of laws that take no arrays
         self._law_of = np.array([self._number(law) for law, _ in laws])
 
     def _number(self, law: Law) -> int:
-        """Of a law among all."""
+        """The number of a law among those of all links."""
         with suppress(Exception):  # it is new, or a class of the scene raises when it is compared
             return self._laws.index(law)
         self._laws.append(law)
@@ -150,7 +150,7 @@ class Rubbing:
         return np.add(motion, np.reshape(change, motion.shape))
 
     def _friction(self, laws: np.ndarray, approach: np.ndarray, slip: np.ndarray) -> np.ndarray:
-        """The coefficients of friction by the laws of these numbers."""
+        """The coefficient of friction of each link at its slip; ``laws`` are the numbers of their laws."""
         speed = np.abs(slip)
         if speed.size <= _FEW:
             each = zip(laws.tolist(), approach.tolist(), speed.tolist(), strict=True)

@@ -86,11 +86,11 @@ class Track:
 
     @property
     def way(self) -> Arc:
-        """Where it will go, on its arc and on those after it that only its spin will separate from it."""
+        """The path ahead: its arc, together with those after it that begin only because its spin ends."""
         return self.arc
 
     def spun(self, t: float) -> None:
-        """Go on along its way after the first arc of it."""
+        """Begin the second arc of its way, where its spin has ended at t."""
 
     @property
     def on(self) -> str:
