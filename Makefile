@@ -41,8 +41,7 @@ gallery: .venv/ready
 	$(BIN)/python -m sandbox.page.gallery out/gallery
 
 # Comparisons with other libraries, into docs/benchmarks.md: a few minutes on an idle machine.
-bench: .venv/ready-dev
-	@$(MAKE) --no-print-directory .venv/pooltool/ready || echo "pooltool cannot be installed here: its block of the page stays as it is"
+bench: .venv/ready-dev .venv/pooltool/ready
 	$(BIN)/python benchmarks/page.py
 
 wheel: .venv/ready-dev

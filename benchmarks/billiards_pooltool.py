@@ -124,7 +124,7 @@ def our_setup(shot: Shot) -> Any:
 def our_answer(setup: Any) -> dict[str, Any]:
     """Our result, in the format of pooltool's process."""
     from sandbox.engine import simulate
-    from sandbox.engine.accuracy import resolve
+    from sandbox.engine.model.accuracy import resolve
 
     started = thread_time()
     run = simulate(setup, resolve("balanced"))

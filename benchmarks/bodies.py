@@ -22,9 +22,11 @@ from by_pymunk import SLOP
 from measured import command_line, keep, show, timed
 
 from sandbox.engine import simulate
-from sandbox.engine.accuracy import LEVELS, Accuracy
-from sandbox.engine.setup import Always, Body, Bounce, Segment, Setup, Surface
-from sandbox.engine.shapes import Polygon, box, regular
+from sandbox.engine.model.accuracy import LEVELS, Accuracy
+from sandbox.engine.model.ball import Body
+from sandbox.engine.model.setup import Setup
+from sandbox.engine.model.shapes import Polygon, box, regular
+from sandbox.engine.model.surface import Bounce, ConstantBounce, Segment, Surface
 from sandbox.physics.forces import Gravity
 
 G = 9.81  # m/s^2
@@ -38,7 +40,7 @@ Place = tuple[float, float, float]  # x and y in m, angle in rad
 def setup(bodies: list[Body], duration: float, corners: list[tuple[float, float]]) -> Setup:
     bounce = SPRINGY**2, ROUGH**2
     walls = [Surface(f"wall {k}", Segment(*ends), *bounce) for k, ends in enumerate(pairwise(corners))]
-    return Setup(bodies, walls, duration, between_balls=Always(Bounce(*bounce)))
+    return Setup(bodies, walls, duration, between_balls=ConstantBounce(Bounce(*bounce)))
 
 
 def tumbling(height: float) -> Setup:
@@ -69,7 +71,7 @@ def cases() -> dict[str, list[Setup]]:
 
 
 def by_us(of: Setup, accuracy: Accuracy) -> tuple[list[Place], int]:
-    """Where the bodies end, and how many impacts there were."""
+    """Return the final places of the bodies, and the number of impacts."""
     run = simulate(of, accuracy)
     ends = [(*run.state(body.name, run.duration)[:2], run.angle(body.name, run.duration)) for body in of.balls]
     return ends, run.numerics.impacts

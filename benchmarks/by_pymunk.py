@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import pymunk
 from shots import Shot
 
-from sandbox.engine.setup import Circle
+from sandbox.engine.model.surface import Circle
 
 SLOP = 1e-5  # m
 

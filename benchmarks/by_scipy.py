@@ -16,8 +16,8 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from shots import Law, Shot
 
-from sandbox.engine.run import Run
-from sandbox.engine.setup import Circle, Segment, Surface
+from sandbox.engine.model.surface import Circle, Segment, Surface
+from sandbox.engine.paths.run import Run
 
 #: Most bounces of a shot.
 MOST_BOUNCES = 100

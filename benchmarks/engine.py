@@ -31,12 +31,10 @@ from measured import command_line, keep, say, show, timed
 from shots import Shot, golf_flight, rim_shot
 
 from sandbox.engine import simulate
-from sandbox.engine.accuracy import LEVELS, Accuracy, resolve
-from sandbox.engine.run import Run
+from sandbox.engine.model.accuracy import LEVELS, Accuracy, resolve
+from sandbox.engine.paths.run import Run
 
 TARGET = 0.01  # m
-#: Times its force evaluations that a method may take in a case.
-ASKED = "rim shot, 2.5 s", "exact, balanced", 14
 #: A method whose runs take longer than the first time, in s, runs once; the others repeat for the second in each turn.
 LONG, TURN = 0.2, 0.02
 #: Tolerances of the flights for the limit: three per power of ten.
@@ -57,7 +55,7 @@ PLAIN_IN_FLIGHT = (1_000, 2_000, 4_000)
 
 
 class End(NamedTuple):
-    """Where a shot ended in m, and how often its forces were evaluated."""
+    """The end of a shot in m, and the number of evaluations of its forces."""
 
     x: float
     y: float
@@ -95,7 +93,7 @@ def ours(shot: Shot, accuracy: Accuracy) -> End:
 
 
 def methods(case: Case) -> dict[str, Callable[[], tuple[float, float, int]]]:
-    """What is compared, by name."""
+    """Return the methods to compare, by name."""
     shot = case.shot
     chosen: dict[str, Callable[[], tuple[float, float, int]]] = {}
     for name, accuracy in LEVELS.items():
@@ -179,9 +177,6 @@ def report(name: str, rows: list[dict[str, Any]]) -> None:
         "time over the limit": "{time_over_limit:short}",
     }
     show(name, rows, columns)
-    for row in rows:
-        if (name, row["method"]) == ASKED[:2]:
-            say(f"  {row['method']}: {row['time_over_limit']:.0f} times the limit's time; asked: {ASKED[2]}")
     words = {"scipy": "scipy", "bare": "bare pymunk", "plain": "plain"}
     ratios = [f"{words[kind]} {ratio:,.1f} times" for kind, ratio in ratios_at(rows, TARGET).items()]
     say(f"  at an error of {100 * TARGET:g} cm, relative to our fastest: {', '.join(ratios) or 'no other reaches it'}")

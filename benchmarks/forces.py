@@ -31,9 +31,11 @@ from measured import command_line, keep, show, timed
 from shots import basketball_law
 
 from sandbox.engine import simulate, simulate_many
-from sandbox.engine.accuracy import Accuracy, resolve
-from sandbox.engine.run import Run
-from sandbox.engine.setup import HOLLOW_SPHERE, Ball, Bounds, Force, Segment, Setup, Surface
+from sandbox.engine.model.accuracy import Accuracy, resolve
+from sandbox.engine.model.ball import HOLLOW_SPHERE, Ball, Force
+from sandbox.engine.model.setup import Bounds, Setup
+from sandbox.engine.model.surface import Segment, Surface
+from sandbox.engine.paths.run import Run
 from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity
 

@@ -1,4 +1,4 @@
-"""What the benchmarks share: their command line, a clock, and how numbers are shown and kept."""
+"""Parts that the benchmarks share: their command line, a clock, and how numbers are shown and kept."""
 
 from __future__ import annotations
 

@@ -1,8 +1,7 @@
-"""Runs the comparisons again and writes their output into docs/benchmarks.md: ``make bench``, or only some of them with
-``python benchmarks/page.py NAME ...``.
+"""Runs all comparisons and writes their output into docs/benchmarks.md: ``make bench``, on an idle machine.
 
-Names are engine, bodies, billiards, forces, frames, sweep, start and window. Blocks that are not run stay as they are,
-so run all on one idle machine before you commit the page. The JSON of each goes to out/benchmarks.
+The page is written once, when all have run, so that all its numbers are of one program on one machine. The JSON of each
+goes to out/benchmarks.
 """
 
 from __future__ import annotations
@@ -40,25 +39,17 @@ PACKAGES = ("pymunk", "numpy", "scipy", "pillow", "pygame-ce", "pydantic", "clic
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(SCRIPTS))
-    wanted = parser.parse_args().names or list(SCRIPTS)
-    unknown = [name for name in wanted if name not in SCRIPTS]
-    if unknown:
-        parser.error(f"{', '.join(unknown)}: choose from {', '.join(SCRIPTS)}")
+    argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter).parse_args()
+    if not PEER.exists():
+        raise SystemExit("there is no pooltool in .venv/pooltool to compare with: make .venv/pooltool/ready")
     JSON.mkdir(parents=True, exist_ok=True)
-    load = os.getloadavg()[0]
-    for name in wanted:
-        if name == "billiards" and not PEER.exists():
-            sys.stderr.write(
-                "billiards: no pooltool in .venv/pooltool (make .venv/pooltool/ready); its block stays as it is\n"
-            )
-            continue
+    page = filled(PAGE.read_text("utf-8"), "machine", machine(os.getloadavg()[0]))
+    for name in SCRIPTS:
         began = perf_counter()
         printed = output_of(name)
         sys.stderr.write(f"{name}: {perf_counter() - began:.0f} s\n")
-        write(name, ["```console", f"$ python {SCRIPTS[name]}", *printed, "```"])
-    write("machine", machine(load))
+        page = filled(page, name, ["```console", f"$ python {SCRIPTS[name]}", *printed, "```"])
+    PAGE.write_text(page, "utf-8")
 
 
 def output_of(name: str) -> list[str]:
@@ -87,11 +78,6 @@ def processor() -> str:
     info = Path("/proc/cpuinfo")
     found = re.search(r"^model name\s*: (.+)$", info.read_text("utf-8"), re.MULTILINE) if info.exists() else None
     return found[1] if found else platform.processor() or "unknown processor"
-
-
-def write(block: str, lines: Iterable[str]) -> None:
-    """Write new lines between the markers of a block of the page."""
-    PAGE.write_text(filled(PAGE.read_text("utf-8"), block, lines), "utf-8")
 
 
 def filled(page: str, block: str, lines: Iterable[str]) -> str:

@@ -8,7 +8,7 @@ from math import exp, pi
 from typing import NamedTuple
 
 import sandbox
-from sandbox.engine.setup import Setup
+from sandbox.engine.model.setup import Setup
 
 #: (vx, vy, spin) in m/s and rad/s to (ax, ay, alpha) in m/s^2 and rad/s^2: these flights need no other arguments.
 Law = Callable[[float, float, float], tuple[float, float, float]]

@@ -13,14 +13,14 @@ extrapolated from these shots.
 The limit is the forces alone: numpy evaluates gravity and drag for all shots at once, as often as the flights need at
 "balanced", and nothing else; with two processes half of that. "over limit" is the time of a shot relative to it.
 
-Commands: whole commands that a player waits for, in processor time (user and system) including the start. "floor" is
-the time that numpy takes for the forces of all these shots, as often as they need them, and "asked" what the project
-asks of itself: the same multiple of the floor for golf and soccer
-as for basketball.
+Commands: whole commands that a player waits for, in processor time (user and system) including the start; of a search
+the time that it takes in Python, without the start. "floor" is the time that numpy takes for the forces of all these
+shots, as often as they need them, and "target" what the project aims at: the same multiple of the floor for golf and
+soccer as for basketball.
 
 In the window: what it computes while a player aims, in processor time, by one process; a fan is a picture of a shot
 with the usual errors, and grows where its shots are computed one by one. Such a fan is computed by two processes while
-the aim rests: "clock" is the time in which they complete it, "asked" that which the project asks of itself, of either.
+the aim rests: "clock" is the time in which they complete it; the target is for either.
 
 Where it goes: the processor time of a shot of the map in each step of a sweep; the floor of each is the forces alone.
 
@@ -57,16 +57,17 @@ from shots import Shot as Launched
 
 import sandbox
 from sandbox.engine import simulate, simulate_many
-from sandbox.engine.accuracy import resolve
-from sandbox.engine.acting import acceleration
-from sandbox.engine.batch import Batch
-from sandbox.engine.outlines import Outlines
-from sandbox.engine.run import Run
-from sandbox.engine.setup import Setup
+from sandbox.engine.many.batch import Batch
+from sandbox.engine.many.batch_record import BatchRecord
+from sandbox.engine.many.outlines import BatchSurfaces
+from sandbox.engine.model.accuracy import resolve
+from sandbox.engine.model.setup import Setup
+from sandbox.engine.motion.forces_on_ball import acceleration_function
+from sandbox.engine.paths.run import Run
 from sandbox.lab import runs as lab_runs
 from sandbox.lab.axes import Values, Varied
 from sandbox.lab.plan import Plan, records
-from sandbox.lab.row_file import RowFile
+from sandbox.lab.row_file import RowFile, cell
 from sandbox.lab.runs import runs
 from sandbox.lab.sweep import sweep
 from sandbox.lab.tables import paragraph
@@ -87,19 +88,19 @@ DRAWN = 6
 GRIDS = ((10, 10), (25, 20), MAP, (100, 100))
 BALLS = (1, 4, 16, 64)
 
-#: Whole sweeps, and the processor time asked for in s; of the others the same share of their floor as of the first.
+#: Whole sweeps, and the target of their processor time in s; None is the same share of their floor as the first's.
 SWEEPS: dict[str, tuple[tuple[float, float], tuple[float, float], tuple[int, int], float | None]] = {
     "basketball, 61 x 41": (SPEEDS, ANGLES, MAP, 0.8),
     "basketball, 201 x 201": (SPEEDS, ANGLES, (201, 201), 201 * 201 / 5_000),
     "golf, 61 x 41": ((50.0, 80.0), (5.0, 45.0), MAP, None),
     "soccer, 61 x 41": ((15.0, 35.0), (5.0, 45.0), MAP, None),
 }
-#: Searches, and the processor time asked for in s, beyond the start-up.
-AIMS = {
-    "golf carry=250 yd": ("launch.angle=5:75", 0.15),
-    "basketball made=true": ("launch.speed=6:9", 1.0),
-}
-#: Fans in the window: shots, whether of an aim that changes, and the processor time asked for in s.
+#: Searches: scene, ranges and what is searched for, and the target of their processor time in s.
+AIMS: tuple[tuple[str, dict[str, tuple[float, float]], dict[str, Any], float], ...] = (
+    ("golf", {"launch.angle": (5.0, 75.0)}, {"carry": "250 yd"}, 0.15),
+    ("basketball", {"launch.speed": (6.0, 9.0)}, {"made": True}, 1.0),
+)
+#: Fans in the window: shots, whether of an aim that changes, and the target of their processor time in s.
 FANS = {
     "basketball": (100, True, 0.1),
     "soccer": (100, True, 0.1),
@@ -109,7 +110,7 @@ FANS = {
 }
 #: Between two frames, in s, in which the window asks its processes.
 FRAME = 1 / 60
-#: Maps in the window, and the processor time asked for in s.
+#: Maps in the window, and the target of their processor time in s.
 MAPS = {"basketball": 1.0, "soccer": 1.0, "golf": 1.0}
 
 
@@ -139,8 +140,6 @@ def usual(work: Callable[[], Done], repeats: int) -> tuple[float, Done]:
 
 
 PROGRAM = "from sandbox.cli import main; main()"
-#: What a search needs before it begins.
-START = "import sandbox.cli.program, sandbox.engine.batch, sandbox.lab.aim; sandbox.load('golf').build()"
 
 
 def of_children() -> float:
@@ -178,39 +177,37 @@ def floor_of(name: str, speeds: tuple[float, float], angles: tuple[float, float]
     evaluations = mean(run.numerics.force_evaluations for run in found if isinstance(run, Run))
     ball, shots = scene.build().balls[0], shape[0] * shape[1]
     state = (*np.zeros((2, shots)), *np.full((2, shots), 5.0), np.full(shots, ball.spin))
-    once = min(timeit(lambda: acceleration(ball, np.zeros(shots), state), number=9) / 9 for _ in range(5))
+    once = min(timeit(lambda: acceleration_function(ball)(np.zeros(shots), state), number=9) / 9 for _ in range(5))
     return evaluations * once
 
 
 def commands(repeats: int, quick: bool) -> list[dict[str, Any]]:
-    """A row for each command, or for one of each kind; the start-up is subtracted from the searches."""
-    start = min(process(START) for _ in range(repeats))
+    """A row for each command, or for one of each kind."""
     rows, share = [], inf
-    for name, (speeds, angles, shape, asked) in list(SWEEPS.items())[: 1 if quick else None]:
+    for name, (speeds, angles, shape, target) in list(SWEEPS.items())[: 1 if quick else None]:
         how = (name.partition(",")[0], speeds, angles, (6, 5) if quick else shape)
         floor = floor_of(*how)
-        share = min(share, asked / floor) if asked is not None else share
+        share = min(share, target / floor) if target is not None else share
         spent = min(swept(*how) for _ in range(repeats))
         rows.append(
             {
                 "command": f"sweep {name}",
                 "processor_s": spent,
                 "floor_s": floor,
-                "asked_s": share * floor if asked is None else asked,
+                "target_s": share * floor if target is None else target,
             }
         )
-    for name, (vary, asked) in list(AIMS.items())[: 1 if quick else None]:
-        scene, _, target = name.partition(" ")
-        words = ["aim", scene, "--vary", vary, "--target", target]
-        spent = min(process(PROGRAM, words) for _ in range(repeats)) - start
-        rows.append({"command": f"aim {name}, beyond start", "processor_s": spent, "asked_s": asked})
+    for scene, vary, wanted, target in AIMS[: 1 if quick else None]:
+        spent = min(timed(sandbox.aim, scene, vary, wanted)[0] for _ in range(repeats))
+        said = "".join(f"{name}={cell(value)}" for name, value in wanted.items())
+        rows.append({"command": f"aim {scene} {said}, in Python", "processor_s": spent, "target_s": target})
     return rows
 
 
 def in_the_window(repeats: int, quick: bool) -> list[dict[str, Any]]:
     """A row for each fan and map."""
     rows = []
-    for name, (shots, quickly, asked) in list(FANS.items())[: 1 if quick else None]:
+    for name, (shots, quickly, target) in list(FANS.items())[: 1 if quick else None]:
         scene = sandbox.load(name)
         shot = Shot(scene, sandbox.simulate(scene))
         camera = Camera((0.0, 0.0), (640.0, 360.0), 60.0)
@@ -225,11 +222,11 @@ def in_the_window(repeats: int, quick: bool) -> list[dict[str, Any]]:
             times.append((sum(parts), parts[0]))
         whole, first = min(times)
         clock = None if quickly else min(by_two(scene, shots, how) for _ in range(repeats))
-        row = {"processor_s": whole, "first_s": first, "clock_s": clock, "asked_s": asked}
+        row = {"processor_s": whole, "first_s": first, "clock_s": clock, "target_s": target}
         rows.append({"what": f"fan of {shots}, {name}", **row})
-    for name, asked in list(MAPS.items())[: 1 if quick else None]:
+    for name, target in list(MAPS.items())[: 1 if quick else None]:
         whole = min(timed(score_map, sandbox.load(name))[0] for _ in range(repeats))
-        rows.append({"what": f"map, {name}", "processor_s": whole, "first_s": whole, "asked_s": asked})
+        rows.append({"what": f"map, {name}", "processor_s": whole, "first_s": whole, "target_s": target})
     return rows
 
 
@@ -262,9 +259,9 @@ def seen(scene: Scene, shots: int, how: Sequence[Any], known: Sequence[Any]) -> 
 
 
 def elsewhere(scene: Scene, shots: int, left: int) -> list[Any]:
-    """What another process has computed of a fan."""
+    """Return the part of a fan that another process has computed."""
     with patch.object(fan, "SHOTS", shots):
-        return fan.others(scene, 1.0, left) if shots else []
+        return fan.shots_from_end(scene, 1.0, left) if shots else []
 
 
 def steps(shape: tuple[int, int]) -> dict[str, float]:
@@ -287,8 +284,8 @@ def steps(shape: tuple[int, int]) -> dict[str, float]:
             ("parameters", Varied, "parameters"),
             ("build and stack", lab_runs, "built_at_once"),
             ("flight", Batch, "fly"),
-            ("touches", Outlines, "first_touch"),
-            ("objects", Batch, "_run"),
+            ("touches", BatchSurfaces, "first_touch"),
+            ("objects", BatchRecord, "run"),
         ):
             patched.enter_context(patch.object(owner, name, clocked(step, getattr(owner, name))))
         patched.enter_context(patch.object(Scene, "reader", lambda self, asked: clocked("facts", read)))
@@ -391,10 +388,10 @@ def report(results: dict[str, Any]) -> None:
     )
     shots = {"shots": "{shots:,}", "time": "{time_s:.2f} s", "a shot": "{ms_per_shot:.2f} ms"}
     show("growth with the shots", results["shots"], shots)
-    spent = {"processor": "{processor_s:.2f} s", "floor": "{floor_s:.3f} s", "asked": "{asked_s:.2f} s"}
+    spent = {"processor": "{processor_s:.2f} s", "floor": "{floor_s:.3f} s", "target": "{target_s:.2f} s"}
     show("whole commands", results["commands"], {"": "{command}", **spent})
     spent = {"processor": "{processor_s:.2f} s", "first": "{first_s:.2f} s"}
-    spent |= {"clock": "{clock_s:.2f} s", "asked": "{asked_s:.2f} s"}
+    spent |= {"clock": "{clock_s:.2f} s", "target": "{target_s:.2f} s"}
     show("in the window", results["window"], {"": "{what}", **spent})
     balls = {"balls": "{balls:,}", "time": "{time_s:.2f ms}", "a ball": "{ms_per_ball:.2f} ms"}
     show("growth with the balls", results["balls"], balls)

@@ -49,7 +49,7 @@ def timed(
         before(frame)
         started, used = perf_counter(), process_time()
         app.tick(FRAME)
-        spent, current = perf_counter() - started, app.game.settled
+        spent, current = perf_counter() - started, app.game.path.settled
         sleep(max(0.0, FRAME - spent))
         known, fan = fan, app.view.clouds.value
         yield spent, process_time() - used, current, fan is not known
@@ -90,15 +90,15 @@ def measure(source: str, frames: int, worker: Processes, helper: Processes) -> d
     found["watching"] = summarised(timed(app, frames))
     app.view.on.add("view")
     found["near the ball"] = summarised(timed(app, frames))
-    if game.playback is not None:
-        game.playback.playing = False
+    if game.watching.playback is not None:
+        game.watching.playback.playing = False
     found["paused"] = summarised(timed(app, frames // 2))
     app.close()
     return found
 
 
 def whole_fan(app: App) -> float:
-    """How long the window takes for the fan of an aim at rest, in s by the clock, in frames as a player has them."""
+    """Return the time in s by the clock until the fan of an aim at rest is complete, in frames as a player has them."""
     while app.game.still < AT_REST:
         app.tick(FRAME)
     app.view.on.add("fan")

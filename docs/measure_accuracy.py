@@ -1,7 +1,7 @@
 """Measures the tables and pictures of accuracy.md again: ``python docs/measure_accuracy.py``.
 
 Or only some of them, by name: ``trade`` (two minutes on an idle machine), ``stress`` (ten minutes and more),
-``validate`` (a second), ``rim`` (half a minute). The page is written after each.
+``validate`` (a second), ``rim`` (half a minute), ``check`` (ten minutes). The page is written after each.
 """
 
 from __future__ import annotations
@@ -11,21 +11,25 @@ import platform
 import random
 import re
 import sys
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from time import perf_counter
 
 import pymunk
 
 from sandbox.engine import simulate
-from sandbox.engine.accuracy import LEVELS
+from sandbox.engine.model.accuracy import LEVELS
+from sandbox.errors import RunError
 from sandbox.lab import chart
 from sandbox.lab.reference import REFERENCE, apart, places
 from sandbox.lab.stress import FAILED, Outcome, stress, summary
-from sandbox.lab.tables import length, length_above, time
+from sandbox.lab.tables import length, length_or_below, time
 from sandbox.lab.trade import TARGETS, Trade, trade
 from sandbox.lab.validate import Compared, cells, validate
-from sandbox.scene import load
+from sandbox.parameters import walk
+from sandbox.scene import check, compare, listings, load
+from sandbox.scene import simulate as simulate_scene
+from sandbox.scene.running import SAFETY, simulate_at
 
 DOCS = Path(__file__).resolve().parent
 PAGE = DOCS / "accuracy.md"
@@ -33,6 +37,9 @@ PAGE = DOCS / "accuracy.md"
 #: Scenes in the tables, those of them with a picture, and those whose parts are listed.
 SCENES = ("golf", "soccer", "soccer-curl", "basketball", "basketball/rattle", "billiards", "billiards/cut")
 PICTURES = ("golf", "basketball/rattle")
+#: The truth for the errors that a check claims.
+TRUTH = LEVELS["precise"].finer().finer()
+
 #: Shots at the rim, and how many per number of touches are compared with the reference.
 SHOTS, ENOUGH = 3000, 150
 
@@ -40,7 +47,13 @@ DEFAULTS = ("golf", "soccer", "soccer-curl", "basketball", "billiards")
 
 
 def main(wanted: Sequence[str]) -> None:
-    for name, measured in {"trade": traded, "stress": stressed, "validate": validated, "rim": rimmed}.items():
+    for name, measured in {
+        "trade": traded,
+        "stress": stressed,
+        "validate": validated,
+        "rim": rimmed,
+        "check": checked,
+    }.items():
         if not wanted or name in wanted:
             page = PAGE.read_text("utf-8")
             for block, lines in measured().items():
@@ -86,11 +99,49 @@ def validated() -> dict[str, list[str]]:
     return {"published": published(rows), "not held": not_held(rows)}
 
 
+def checked() -> dict[str, list[str]]:
+    """Of the errors that a check claims, how many the true one exceeds; without what the check calls chaotic."""
+    rows = []
+    for title, faster in (("all scenes and presets", 1.0), ("each 3 % faster", 1.03)):
+        started = perf_counter()
+        ratios = sorted(ratio for listing in listings() for ratio in claims(listing.name, faster))
+        report(f"check, {title}", started)
+        beyond = [sum(ratio > most for ratio in ratios) for most in (1.0, 3.0, 10.0)]
+        shares = [f"{count} ({100.0 * count / len(ratios):.1f} %)" for count in beyond]
+        rows.append([title, str(len(ratios)), *shares, f"{1.0 / ratios[len(ratios) // 2]:.1f}"])
+    headings = ["", "claimed errors", "exceeded by the true one", "more than 3 times", "more than 10 times"]
+    return {"check": markdown([*headings, "claimed over true, median"], rows)}
+
+
+def claims(name: str, faster: float) -> Iterator[float]:
+    """The true error over the claimed one, of each number of a scene's result that is not known from the start."""
+    scene = load(name)
+    speed = scene.controls.speed
+    if faster != 1.0:
+        known = {parameter.key: parameter for parameter in walk(scene.parameters)}
+        if speed not in known:
+            return
+        scene = scene.changed({speed: known[speed].within(faster * known[speed].value)})
+    try:
+        run = simulate_scene(scene)
+        claimed, truth = check(scene, run), compare(run, simulate_at(scene, TRUTH))
+    except RunError as error:
+        sys.stderr.write(f"{name}: {error}\n")
+        return
+    for fact, twice in truth.errors.items():
+        unsure = {*claimed.chaotic, *claimed.unsettled, *claimed.changed}
+        if fact not in unsure and scene.facts[fact].settled != "start" and claimed.errors.get(fact):
+            ratio = (twice if isinstance(run.result[fact], int) else twice / SAFETY) / claimed.errors[fact]
+            if ratio > 1.0:
+                sys.stderr.write(f"{name} {fact}: {ratio:.2f} times the claimed {claimed.errors[fact]:.3g}\n")
+            yield ratio
+
+
 def rimmed() -> dict[str, list[str]]:
     started = perf_counter()
     found = rattled()
     report("rim", started)
-    headings = ["touches of the rim", "shots", "median", "one in ten above", "worst", "other touches"]
+    headings = ["touches of the rim", "shots", "median", "90th percentile", "worst", "other touches"]
     rows = []
     for touches, errors in sorted(found.items()):
         known = sorted(error for error in errors if error is not None)
@@ -143,7 +194,7 @@ def levels(found: dict[str, Trade]) -> list[str]:
     rows = []
     for name, one in found.items():
         least = one.reference.error
-        cells = [f"{length_above(p.error_m, least)} in {time(p.wall_s)}" for p in one.levels.values()]
+        cells = [f"{length_or_below(p.error_m, least)} in {time(p.wall_s)}" for p in one.levels.values()]
         speed = round(one.levels["balanced"].times_real_time, -1)
         at, chaos = one.reference.time, one.reference.diverges_at
         when = f"{at:.3g} s" if chaos is None else f"{at:.3g} s, chaotic from {chaos:.3g} s"

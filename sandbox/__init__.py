@@ -8,8 +8,11 @@
 
 from __future__ import annotations
 
+from sandbox.scene import display
+
 TYPE_CHECKING = False  # not from typing, which is slow to import: Ctrl-C is not handled until imports are done
 if TYPE_CHECKING:
+    from types import ModuleType
     from typing import Any
 
     from sandbox.errors import RequestError, RunError, SandboxError
@@ -49,6 +52,21 @@ def __getattr__(name: str) -> Any:
     from importlib import import_module
 
     return getattr(import_module(_MODULES[name]), name)
+
+
+def _pictures() -> ModuleType:
+    from sandbox.picture import plain
+
+    return plain
+
+
+def _notebook() -> ModuleType:
+    from sandbox.page import notebook
+
+    return notebook
+
+
+display.show_with(_pictures, _notebook)
 
 
 def __dir__() -> list[str]:

@@ -1,5 +1,6 @@
 """Errors shown to the user: one or two lines, and the exit code."""
 
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -32,7 +33,7 @@ class ExitCalled(Exception):
 
 
 @contextmanager
-def no_exit() -> Iterator[None]:
+def sys_exit_as_error() -> Iterator[None]:
     """Turn ``sys.exit`` and its like in a scene's own code into an ExitCalled, so that it cannot end the program or a
     worker as if nothing were wrong."""
     try:
@@ -41,3 +42,14 @@ def no_exit() -> Iterator[None]:
         raise
     except BaseException as error:
         raise ExitCalled(f"{error!r}: a scene must not end the program").with_traceback(error.__traceback__) from None
+
+
+def no_forks() -> None:
+    """Make ``os.fork`` raise RuntimeError in this process from now on: a copy of the program would write each file and
+    answer each call of a worker a second time. Starting other programs stays possible."""
+
+    def refuse(event: str, arguments: tuple[object, ...]) -> None:
+        if event in ("os.fork", "os.forkpty"):
+            raise RuntimeError(f"{event}: a scene must not copy the program; the module subprocess starts another one")
+
+    sys.addaudithook(refuse)

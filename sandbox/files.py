@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import os
 import shutil
+import signal
 import tempfile
+import threading
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import fields, is_dataclass
@@ -44,7 +46,7 @@ def check_file(option: str, path: Path, suffix: str) -> None:
         return
     if path.suffix.lower() != suffix:
         raise RequestError(f"{option} {path}: its name must end in {suffix}")
-    _check_folder(option, path.parent)
+    check_writable(option, path.parent)
     if path.exists() and not os.access(path, os.W_OK):
         raise RequestError(f"{option} {path}: cannot be written: permission denied")
 
@@ -54,7 +56,7 @@ def check_folder(option: str, path: Path) -> None:
     _check_name(option, path)
     if path.exists() and not path.is_dir():
         raise RequestError(f"{option} {path}: is a file; a folder is needed")
-    _check_folder(option, next(folder for folder in (path, *path.absolute().parents) if folder.exists()))
+    check_writable(option, next(folder for folder in (path, *path.absolute().parents) if folder.exists()))
 
 
 def check_size(named: str, size: tuple[int, int]) -> None:
@@ -85,13 +87,14 @@ def _check_name(option: str, path: Path) -> None:
     try:
         path.stat()
     except (FileNotFoundError, NotADirectoryError):
-        pass  # a new file; a missing folder is reported by _check_folder
+        pass  # a new file; a missing folder is reported by check_writable
     except (OSError, ValueError) as error:
         why = reason(error) if isinstance(error, OSError) else str(error)
         raise RequestError(f"{option} {shortened(str(path))}: {why}") from None
 
 
-def _check_folder(option: str, folder: Path) -> None:
+def check_writable(option: str, folder: Path) -> None:
+    """Raise RequestError if there is no such folder, or nothing can be written into it."""
     if not folder.is_dir():
         raise RequestError(f"{option}: there is no folder {folder}; make it first")
     trial = folder / f".sandbox-{os.getpid()}.part"
@@ -122,8 +125,22 @@ def json_text(value: Any) -> str:
     return json.dumps(json_ready(value), allow_nan=False, ensure_ascii=False)
 
 
+def read_given(path: Path, most: int) -> bytes:
+    """The contents of a file that a user names. Raises RequestError if it cannot be read, is no file but a pipe or a
+    device, which may never end, or has more than ``most`` bytes."""
+    try:
+        if path.exists() and not path.is_file():
+            raise RequestError(f"{path}: is {'a folder' if path.is_dir() else 'a pipe or a device'}; a file is needed")
+        size = path.stat().st_size
+        if size > most:
+            raise RequestError(f"{path}: has {size / 1e6:.3g} MB; such a file has at most {most / 1e6:.3g} MB")
+        return path.read_bytes()
+    except OSError as error:
+        raise RequestError(f"{path}: cannot be read: {reason(error)}") from None
+
+
 @contextmanager
-def written_whole(path: Path) -> Iterator[TextIO]:
+def atomic_write(path: Path) -> Iterator[TextIO]:
     """A text file that appears under its name only when complete; a device such as /dev/stdout is written directly."""
     if _is_device(path):
         with path.open("w", encoding="utf-8", newline="") as file:
@@ -137,6 +154,43 @@ def written_whole(path: Path) -> Iterator[TextIO]:
         part.replace(target)
     finally:
         part.unlink(missing_ok=True)
+
+
+def write_together(contents: Mapping[Path, bytes]) -> None:
+    """Write several files, all or none: an interrupt waits until the last has its name.
+
+    Only a process that is killed between two renames leaves some; each of those is complete.
+    """
+    parts = {path: path.with_name(f".{path.name[:40]}.{os.getpid()}.part") for path in contents}
+    try:
+        for path, data in contents.items():
+            path.parent.mkdir(parents=True, exist_ok=True)
+            parts[path].write_bytes(data)
+        with _interrupts_wait():
+            for path, part in parts.items():
+                part.replace(path)
+    finally:
+        for part in parts.values():
+            part.unlink(missing_ok=True)
+
+
+@contextmanager
+def _interrupts_wait() -> Iterator[None]:
+    """Hold Ctrl-C and SIGTERM back for a moment: in the main thread, which alone gets them."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    received: list[int] = []
+    handlers = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    for number in handlers:
+        signal.signal(number, lambda number, frame: received.append(number))
+    try:
+        yield
+    finally:
+        for number, handler in handlers.items():
+            signal.signal(number, handler or signal.SIG_DFL)
+        for held in received[:1]:
+            signal.raise_signal(held)
 
 
 @contextmanager

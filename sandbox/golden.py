@@ -8,6 +8,10 @@ records the run, so that a failure can say whether the physics or the drawing ch
 pygame surface or a Pillow image) can also be checked alone. ``pytest --golden-update`` makes and rewrites golden files
 and lists them for review; on CI, where the variable CI is set, nothing is ever written.
 
+Each check may have its own limits: ``size`` of the picture in px, ``tolerance`` of the run's numbers, and
+``picture_only=True`` compares what is drawn and not the run. ``pytest --golden-unused`` lists golden files that no test
+has used; ``--golden-report F.html`` writes all failures as one page.
+
 Only the beginning of a chaotic run is the same on another processor: ``golden.check("break", run, until=0.3)`` shows it
 at that time in s and records what happened until then.
 
@@ -24,7 +28,7 @@ from __future__ import annotations
 import io
 import json
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from math import isfinite
 from pathlib import Path
@@ -33,8 +37,8 @@ from typing import TYPE_CHECKING, NoReturn, TypeVar
 import pytest
 
 from sandbox import record
-from sandbox.errors import RunError
-from sandbox.files import written_whole
+from sandbox.errors import RequestError, RunError
+from sandbox.files import check_size, write_together
 from sandbox.record import Record
 from sandbox.text import printable
 
@@ -43,9 +47,9 @@ if TYPE_CHECKING:
     import pygame
     from PIL import Image
 
-    from sandbox.engine.run import Run
+    from sandbox.scene.scene_run import SceneRun
 
-    Subject = Run | pygame.Surface | Image.Image
+    Subject = SceneRun | pygame.Surface | Image.Image
 
 #: Bits per colour channel in a golden picture; a stored level stands for the levels from LOWEST to HIGHEST around it.
 COLOUR_BITS = 6
@@ -69,7 +73,7 @@ Known = TypeVar("Known")
 
 NEW = "new"
 #: Kinds of notes in the report of a test.
-WRITTEN, CHECKED, FAILED = "golden file written", "golden name", "golden failure"
+WRITTEN, CHECKED, USED, FAILED = "golden file written", "golden name", "golden file", "golden failure"
 HOW_TO_ACCEPT = "if the change is intended: pytest --golden-update"
 FOLDER = "golden"
 REPORT = Path("out", "golden")
@@ -77,7 +81,7 @@ REPORT = Path("out", "golden")
 
 @dataclass(frozen=True)
 class Difference:
-    """How a picture differs from the golden one."""
+    """The difference between a picture and the golden one."""
 
     share: float  # of the pixels that have changed, 0 to 1
     largest: int  # levels, 0 to 255
@@ -86,7 +90,7 @@ class Difference:
 
     @property
     def matters(self) -> bool:
-        """Whether it is more than another machine's rounding."""
+        """True if it is more than another machine's rounding."""
         return self.together > STRAY_PIXELS or self.share > STRAY_SHARE
 
     def __str__(self) -> str:
@@ -97,7 +101,7 @@ class Difference:
 
 
 def compare(expected: Image.Image, actual: Image.Image) -> Difference:
-    """How two pictures of the same size differ. Raises ValueError if their sizes differ."""
+    """Return the difference between two pictures of the same size. Raises ValueError if their sizes differ."""
     import numpy as np
 
     if expected.size != actual.size:
@@ -115,7 +119,7 @@ def compare(expected: Image.Image, actual: Image.Image) -> Difference:
 
 
 def _difference(expected: Image.Image, actual: Image.Image) -> np.ndarray:
-    """How many levels each channel is above the expected one, shape (height, width, 3)."""
+    """Return the levels by which each channel is above the expected one, shape (height, width, 3)."""
     import numpy as np
 
     a, b = (np.asarray(image.convert("RGB")).astype(np.int16) for image in (expected, actual))
@@ -123,7 +127,7 @@ def _difference(expected: Image.Image, actual: Image.Image) -> np.ndarray:
 
 
 def _changed(difference: np.ndarray) -> np.ndarray:
-    """Which pixels have changed by more than rounding, shape (height, width)."""
+    """Return True for the pixels that have changed by more than rounding, shape (height, width)."""
     import numpy as np
 
     higher, lower = difference > HIGHEST + ROUNDING_LEVELS, difference < LOWEST - ROUNDING_LEVELS
@@ -163,91 +167,134 @@ class Golden:
     def __init__(
         self, folder: Path, report: Path, update: bool, note: Callable[[str, str], None], with_page: bool = False
     ):
-        """``note`` adds a line of a kind to the test's report: WRITTEN, CHECKED or, ``with_page``, FAILED."""
+        """``note`` adds a line of a kind to the test's report: WRITTEN, CHECKED, USED or, ``with_page``, FAILED."""
         self.folder, self.report, self.update, self.note, self.with_page = folder, report, update, note, with_page
         self.checked: set[str] = set()
 
-    def check(self, name: str, subject: Subject, until: float | None = None) -> None:
+    def check(
+        self,
+        name: str,
+        subject: Subject,
+        until: float | None = None,
+        *,
+        size: tuple[int, int] = SIZE,
+        tolerance: float = record.TOLERANCE,
+        picture_only: bool = False,
+    ) -> None:
         """Fail unless the subject matches the golden one of that name.
 
-        The subject is a picture, or a run of a scene: its poster is drawn, or with ``until`` the frame at that time in
-        s.
+        The subject is a picture, or a run of a scene: its poster is drawn in a ``size`` in px, or with ``until`` the
+        frame at that time in s. The run's numbers may differ by ``tolerance`` in s, m, m/s or rad/s, or by that share
+        of themselves; with ``picture_only`` they are not compared.
         """
-        from sandbox.engine.run import Run
+        from sandbox.scene.scene_run import SceneRun
 
-        if until is not None and not (isfinite(until) and until > 0.0):
-            _fail(f"{name}: until = {until}: must be a time greater than 0 s")
+        _check_request(name, until, size, tolerance)
         self.note(CHECKED, str(self.folder / name))
         update = self.update and name not in self.checked  # a second check in one test must match the first
         self.checked.add(name)
-        run = subject if isinstance(subject, Run) else None
-        image = _as_image(subject, until)
+        run = subject if isinstance(subject, SceneRun) and not picture_only else None
+        image = _as_image(name, subject, until, size)
         png, text = self.folder / f"{name}.png", self.folder / f"{name}.json"
-        expected = self._known(name, png, _read)
+        for path in [png] if run is None else [png, text]:
+            self.note(USED, str(path))
+        expected = self._known(name, image, png, _read)
         drawing = _changed_drawing(expected, image)
-        known = None if run is None else self._known(name, text, record.read)
+        known = None if run is None else self._known(name, image, text, record.read)
         actual = {} if run is None else record.record(run, until, (known or {}).get("duration"))
-        physics = None if run is None else _changed_physics(known, actual)
+        physics = None if run is None else _changed_physics(known, actual, tolerance)
         if drawing is None and physics is None:
             return
         if update:
-            if run is not None and physics is not None:
-                self._write_run(name, text, run, until, physics)
+            written: dict[Path, tuple[bytes, str]] = {}
             if drawing is not None:
-                self._write(png, _png(coarser(image)), drawing)
+                written[png] = _png(coarser(image)), drawing
+            if run is not None and physics is not None:
+                written[text] = _recorded(name, run, until, tolerance), physics
+            write_together({path: data for path, (data, _) in written.items()})
+            for path, (_, change) in written.items():
+                self.note(WRITTEN, f"{path}: {change}")
         elif expected is None or physics == NEW:
             what, path = ("picture", png) if expected is None else ("run", text)
-            _fail(f"{name} has no golden {what} at {path}; make it with pytest --golden-update")
+            said = f"{name} has no golden {what} at {path}"
+            self._report(name, [said], image, expected)
+            _fail(f"{said}; make it with pytest --golden-update")
         else:
-            said = list(_kind_of_change(name, known, actual, physics, drawing))
-            if self.with_page:
-                from sandbox.page.golden_report import failure
+            lines = list(_kind_of_change(name, known, actual, physics, drawing, tolerance))
+            self._report(name, lines, image, expected, [] if known is None else _all_changes(known, actual, tolerance))
+            _fail(*lines, *self._shown(name, expected, image, drawing), HOW_TO_ACCEPT)
 
-                images = (expected, image, what_changed(expected, image)) if expected.size == image.size else None
-                changes = [] if known is None else _all_changes(known, actual)
-                self.note(FAILED, json.dumps(failure(name, said, changes, images)))
-            _fail(*said, *self._shown(name, expected, image, drawing), HOW_TO_ACCEPT)
+    def _report(
+        self,
+        name: str,
+        lines: Sequence[str],
+        actual: Image.Image,
+        expected: Image.Image | None = None,
+        changes: Sequence[str] = (),
+    ) -> None:
+        """Add a failure to the page of all failures, if there is to be one."""
+        if not self.with_page:
+            return
+        from sandbox.page.golden_report import failure
 
-    def _known(self, name: str, path: Path, read: Callable[[Path], Known]) -> Known | None:
-        """What a golden file holds; None if there is none, or a damaged one that is to be made again."""
+        same_size = expected is not None and expected.size == actual.size
+        difference = what_changed(expected, actual) if expected is not None and same_size else None
+        self.note(FAILED, json.dumps(failure(name, lines, changes, expected, actual, difference)))
+
+    def _known(self, name: str, actual: Image.Image, path: Path, read: Callable[[Path], Known]) -> Known | None:
+        """Return the content of a golden file; None if there is none, or a damaged one that is to be made again."""
         try:
             return read(path) if path.exists() else None
         except (OSError, SyntaxError, ValueError) as error:
             if not self.update:
-                _fail(f"{name}: {path} is damaged: {error}", "fetch it again, or make it again: pytest --golden-update")
+                said = f"{name}: {path} is damaged: {error}"
+                self._report(name, [said], actual)
+                _fail(said, "fetch it again, or make it again: pytest --golden-update")
             return None
-
-    def _write_run(self, name: str, path: Path, run: Run, until: float | None, change: str) -> None:
-        chaos = record.diverges(run, until)
-        if chaos is not None:
-            _fail(
-                f"{name} depends on rounding from t = {chaos:.3g} s on, so another processor would differ; "
-                f"check only the part before that: golden.check({name!r}, run, until={0.8 * chaos:.2g})"
-            )
-        self._write(path, record.as_text(record.record(run, until)).encode(), change)
-
-    def _write(self, path: Path, data: bytes, change: str) -> None:
-        _save(path, data)
-        self.note(WRITTEN, f"{path}: {change}")
 
     def _shown(self, name: str, expected: Image.Image, actual: Image.Image, drawing: str | None) -> Iterator[str]:
         if drawing is not None:
             path = self.report / f"{name}.png"
-            _save(path, _png(side_by_side(expected, actual)))
+            write_together({path: _png(side_by_side(expected, actual))})
             yield f"expected, actual and difference, side by side: {path}"
 
 
+def _recorded(name: str, run: SceneRun, until: float | None, tolerance: float) -> bytes:
+    """The golden record of a run; fails for one that depends on rounding."""
+    chaos = record.diverges(run, until, tolerance)
+    if chaos is not None:
+        _fail(
+            f"{name} depends on rounding from t = {chaos:.3g} s on, so another processor would differ; "
+            f"check only the part before that: golden.check({name!r}, run, until={0.8 * chaos:.2g})"
+        )
+    return record.as_text(record.record(run, until)).encode()
+
+
+def _check_request(name: str, until: float | None, size: tuple[int, int], tolerance: float) -> None:
+    """Fail where a check is given what makes no sense."""
+    if not isinstance(name, str) or name in ("", ".", "..") or "/" in name or "\\" in name:
+        _fail(f'{name!r}: the name of a golden picture is that of a file in the folder golden, such as "my_shot"')
+    if until is not None and not (isfinite(until) and until > 0.0):
+        _fail(f"{name}: until = {until}: must be a time greater than 0 s")
+    if not (isfinite(tolerance) and tolerance > 0.0):
+        _fail(f"{name}: tolerance = {tolerance}: must be greater than 0, in s, m, m/s and rad/s")
+    try:
+        check_size(f"{name}: size = {size}", size)
+    except RequestError as error:
+        _fail(str(error))
+
+
 def _kind_of_change(
-    name: str, known: Record | None, actual: Record, physics: str | None, drawing: str | None
+    name: str, known: Record | None, actual: Record, physics: str | None, drawing: str | None, tolerance: float
 ) -> Iterator[str]:
-    """What kind of change it is, one line each."""
+    """Yield the kind of change, one line each."""
     small = None if known is None or physics is not None else _difference_below_tolerance(known, actual)
     if physics is not None:
         yield f"{name} differs from its golden run: {physics}"
         if drawing is not None:
             yield f"the drawing: {drawing}"
     elif small is not None:
-        yield f"{name}: the run differs from its golden run by less than the tolerance of {record.TOLERANCE:g}: {small}"
+        yield f"{name}: the run differs from its golden run by less than the tolerance of {tolerance:g}: {small}"
         yield f"the picture shows it: {drawing}"
     else:
         yield f"{name} differs from its golden picture: {'same physics, the drawing changed: ' * bool(actual)}{drawing}"
@@ -267,7 +314,7 @@ def _fail(*lines: str) -> NoReturn:
 
 
 def _changed_drawing(expected: Image.Image | None, actual: Image.Image) -> str | None:
-    """How the picture differs from the golden one, in words; None if it is close enough."""
+    """Return the difference from the golden picture in words; None if it is small enough."""
     if expected is None:
         return NEW
     try:
@@ -277,14 +324,15 @@ def _changed_drawing(expected: Image.Image | None, actual: Image.Image) -> str |
     return str(difference) if difference.matters else None
 
 
-def _changed_physics(known: Record | None, actual: Record) -> str | None:
-    """How the run differs from the golden one, in words; None if it is the same."""
+def _changed_physics(known: Record | None, actual: Record, tolerance: float) -> str | None:
+    """Return the difference from the golden run in words; None if it is the same."""
     if known is None:
         return NEW
     before, now = (recorded.get("until", "its end") for recorded in (known, actual))
     if before != now:
         return f"recorded until {before} and checked until {now}"
-    first, results = record.first_change(known, actual), record.changed_results(known, actual)
+    first = record.first_change(known, actual, tolerance)
+    results = record.changed_results(known, actual, tolerance)
     if first is None and not results:
         return None
     moved = "same motion, different result" if first is None else f"the physics changed: first at {first[1]}"
@@ -292,25 +340,30 @@ def _changed_physics(known: Record | None, actual: Record) -> str | None:
     return "; ".join([moved, *shown, *(more if len(more) < 2 else [f"{len(more)} more"])])
 
 
-def _all_changes(known: Record, actual: Record, tolerance: float = record.TOLERANCE) -> list[str]:
-    """How each ball, the events and the results differ from the golden run, in words."""
+def _all_changes(known: Record, actual: Record, tolerance: float) -> list[str]:
+    """Return all differences from the golden run in words: of each ball, the events and the results."""
     moved = [text for _, text in record.changes(known, actual, tolerance)]
     return [*moved, *record.changed_results(known, actual, tolerance)]
 
 
-def _as_image(subject: Subject, until: float | None) -> Image.Image:
+def _as_image(name: str, subject: Subject, until: float | None, size: tuple[int, int]) -> Image.Image:
+    import pygame
     from PIL import Image
 
-    from sandbox.engine.run import Run
     from sandbox.picture.frames import to_image
+    from sandbox.scene.scene_run import SceneRun
 
     if isinstance(subject, Image.Image):
         return subject.convert("RGB")
-    if not isinstance(subject, Run):
+    if isinstance(subject, pygame.Surface):
         return to_image(subject)
-    if subject.scene is None:
-        raise TypeError("only a run of a scene has a picture: check what sandbox.simulate(scene) returns")
-    picture = subject.scene.picture(subject, SIZE)
+    if not isinstance(subject, SceneRun):
+        _fail(
+            f"{name}: only a run of a scene, a pygame surface or a Pillow image can be checked, not "
+            f"{type(subject).__name__}: sandbox.simulate(scene) returns such a run, and an array of pixels becomes an "
+            "image by PIL.Image.fromarray"
+        )
+    picture = subject.scene.picture(subject, size)
     try:
         return to_image(picture.poster() if until is None else picture.frame(until))
     except RunError as error:
@@ -325,7 +378,7 @@ def _read(path: Path) -> Image.Image:
 
 
 def coarser(image: Image.Image) -> Image.Image:
-    """With COLOUR_BITS per channel, which saves a third of the bytes; no level changes by more than 2."""
+    """Return it with COLOUR_BITS per channel, which saves a third of the bytes; no level changes by more than 2."""
     import numpy as np
     from PIL import Image
 
@@ -337,12 +390,6 @@ def _png(image: Image.Image) -> bytes:
     data = io.BytesIO()
     image.save(data, "PNG", optimize=True)
     return data.getvalue()
-
-
-def _save(path: Path, data: bytes) -> None:
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with written_whole(path) as file:
-        file.buffer.write(data)
 
 
 def _folder_for(test: Path, root: Path) -> Path:
@@ -358,6 +405,7 @@ def _folder_for(test: Path, root: Path) -> Path:
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--golden-update", action="store_true", help="make and rewrite golden files, and list them")
     parser.addoption("--golden-report", metavar="F.html", help="write all golden failures as one page")
+    parser.addoption("--golden-unused", action="store_true", help="list golden files that no test has used")
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -383,7 +431,7 @@ def golden(request: pytest.FixtureRequest) -> Golden:
 
 
 def _noted(config: pytest.Config, kind: str) -> dict[str, set[str]]:
-    """What the tests of all processes have noted, with their names."""
+    """Return the lines that the tests of all processes have noted, each with the names of those tests."""
     terminal = config.pluginmanager.get_plugin("terminalreporter")
     lines: dict[str, set[str]] = {}
     for outcome in ("passed", "failed"):
@@ -400,6 +448,19 @@ def _used_twice(config: pytest.Config) -> list[str]:
         for line, tests in _noted(config, CHECKED).items()
         if len(tests) > 1
     ]
+
+
+def _unused(config: pytest.Config) -> list[str]:
+    """The golden files of the tests that were asked for which none of those that ran has used."""
+    tests = [Path(arg.partition("::")[0]).absolute() for arg in config.args]
+    folders = {
+        folder
+        for top in (test if test.is_dir() else test.parent for test in tests)
+        for folder in top.rglob(FOLDER)
+        if not any(part.startswith(".") for part in folder.relative_to(top).parts)
+    }
+    files = {str(file) for folder in folders for file in folder.glob("*") if file.suffix in (".png", ".json")}
+    return sorted(files - set(_noted(config, USED)))
 
 
 def pytest_sessionfinish(session: pytest.Session) -> None:
@@ -427,6 +488,7 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: p
     for title, lines in (
         ("golden files written: look at them", sorted(_noted(config, WRITTEN))),
         ("golden names used twice", _used_twice(config)),
+        ("golden files that no test has used", _unused(config) if config.getoption("--golden-unused") else []),
     ):
         if lines:
             terminalreporter.section(title)

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from sandbox import resources
 from sandbox.errors import RequestError, RunError
-from sandbox.files import folder_of_parts, reason
+from sandbox.files import check_writable, folder_of_parts, reason
 from sandbox.scene import listings, parameters_of
 from sandbox.schema import json_schema
 
@@ -41,7 +41,7 @@ def new_scene(folder: Path, template: str = FROM_SIDE) -> list[Path]:
 
 
 def next_steps(folder: Path) -> list[str]:
-    """What to try with the new scene, one line each."""
+    """Return what to try with the new scene, one line each."""
     shown = folder if folder.is_absolute() or folder.parts[0] == ".." else f"./{folder}"
     installed = importlib.util.find_spec("pytest") is not None
     return [
@@ -64,12 +64,11 @@ def _check(folder: Path, name: str) -> None:
         raise RequestError(f"new {folder}: a scene named {name} already exists; choose another name")
     if os.path.lexists(folder):
         raise RequestError(f"new {folder}: already exists; choose another name, or remove it first")
-    if not folder.parent.is_dir():
-        raise RequestError(f"new {folder}: there is no folder {folder.parent}; make it first")
+    check_writable(f"new {folder}", folder.parent)
 
 
 def _copy(file: Path, folder: Path, template: str, name: str) -> None:
-    """As ``<name>.toml`` for ``template.toml``, with the name in it, too; the name of a test must be importable."""
+    """Copy a file as ``<name>.toml`` for ``template.toml``, with the name in it; a test's must be importable."""
     own = name.replace("-", "_") if file.suffix == ".py" else name
     folder.mkdir(parents=True, exist_ok=True)
     text = re.sub(rf"\b{template}\b", name, file.read_text(encoding="utf-8"))

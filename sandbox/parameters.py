@@ -24,7 +24,7 @@ from functools import partial
 from itertools import takewhile
 from numbers import Real
 from types import EllipsisType
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeVar, get_args, get_origin
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, TypeVar, get_args, get_origin
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 from pydantic.errors import PydanticUndefinedAnnotation, PydanticUserError
@@ -33,6 +33,7 @@ from pydantic.fields import FieldInfo
 from sandbox import units
 from sandbox.errors import RequestError
 from sandbox.physics.integrators import INTEGRATORS
+from sandbox.renamed import name_old_names
 from sandbox.text import nearest
 from sandbox.toml import shown, toml_value
 
@@ -43,7 +44,7 @@ from sandbox.toml import shown, toml_value
 
 @dataclass(frozen=True)
 class Quantity:
-    """What a number is: its unit, its inclusive bounds, and its shape."""
+    """The declaration of a number: its unit, its inclusive bounds, and its shape."""
 
     unit: str
     low: float
@@ -160,7 +161,7 @@ def choice(default: str | EllipsisType | None, meaning: str) -> Any:
     return Field(default, description=meaning)
 
 
-def word(meaning: str, may_be_empty: bool = False) -> Any:
+def text(meaning: str, may_be_empty: bool = False) -> Any:
     """A text of 40 characters at most, such as a name; declare it as ``str``."""
     return Field(description=meaning, min_length=0 if may_be_empty else 1, max_length=40)
 
@@ -180,7 +181,7 @@ def groups(default: list[Any] | EllipsisType, meaning: str) -> Any:
     return Field(default, description=meaning)
 
 
-def either(default: Group | EllipsisType, meaning: str, by: str = "model") -> Any:
+def one_of(default: Group | EllipsisType, meaning: str, by: str = "model") -> Any:
     """One of several groups, chosen by the word at the key ``by``; declare it as ``ConstantDrag | NoDrag``.
 
     Each group declares its word as ``model: Literal["constant"] = choice("constant", "...")``.
@@ -203,7 +204,7 @@ else:
 
 
 class Accuracy(Group):
-    """How much computing time to spend; common to all scenes. A key left out follows from the level."""
+    """The computing time to spend; common to all scenes. A key left out follows from the level."""
 
     level: Literal["fast", "balanced", "precise"] = choice("balanced", "speed against accuracy")
     tolerance: float | None = quantity(None, "m", 1e-12, 1.0, "error allowed in each step of the motion")
@@ -217,11 +218,21 @@ class Accuracy(Group):
 class SceneParameters(Group):
     """Base of the Parameters of a scene: what all scenes have."""
 
+    #: Lists that belong together: a scene file that has one of them has only those that it gives.
+    TOGETHER: ClassVar[Sequence[str]] = ()
+
     accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
+
+    @classmethod
+    def layered(cls, values: Mapping[str, Any], file: Mapping[str, Any]) -> dict[str, Any]:
+        """Nested ``values`` with those of a scene file over them."""
+        missing = [name for name in cls.TOGETHER if name not in file]
+        emptied = {name: list[Any]() for name in missing} if len(missing) < len(cls.TOGETHER) else {}
+        return with_changes(cls, values, {**file, **emptied})
 
 
 def mistake_in(schema: type[Group]) -> str | None:
-    """What is wrong with the types that a group declares, in a line; None if nothing."""
+    """Return the error in the types that a group declares, in a line; None if there is none."""
     try:
         schema.model_rebuild()
     except (PydanticUserError, PydanticUndefinedAnnotation) as error:
@@ -313,7 +324,7 @@ def known_keys(schema: type[Group], values: Any = None, prefix: str = "") -> lis
 
 
 def _chosen(field: FieldInfo, inner: type[Group], table: Any) -> bool:
-    """Whether the ``table`` of a file is for the group ``inner``, one of those that the field may have."""
+    """True if the ``table`` of a file is for the group ``inner``, one of those that the field may have."""
     tag = field.discriminator
     word = table.get(tag) if isinstance(tag, str) and isinstance(table, Mapping) else None
     return word is None or word in get_args(inner.model_fields[str(tag)].annotation)
@@ -353,7 +364,7 @@ def merged(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any
     return result
 
 
-def over(schema: type[Group], values: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+def with_changes(schema: type[Group], values: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
     """Nested ``values`` with nested ``changes`` applied; where these choose another drag model, say, the keys of the
     old one are dropped."""
     return _without_leftovers(schema, merged(values, changes), changes)
@@ -373,16 +384,16 @@ def validate(
 
     Raises RequestError with a line that names file (or ``changed_by``), key, value, bound and unit.
     """
-    tables = over(schema, _defaults(schema), values)
+    tables = with_changes(schema, _defaults(schema), values)
     changes = _nested(changes or {}, tables, changed_by)
-    combined = over(schema, tables, changes)
+    combined = with_changes(schema, tables, changes)
     try:
         return schema.model_validate(combined)
     except ValidationError as failure:
         errors = failure.errors(include_url=False)
     lines = dict.fromkeys(_explained(schema, error, combined, source, changes, changed_by) for error in errors)
     first, *others = lines
-    more = f"\n({len(others)} more like this: {others[0]}{', ...' if len(others) > 1 else ''})" if others else ""
+    more = f"\n(and {len(others)} more: {others[0]}{', ...' if len(others) > 1 else ''})" if others else ""
     raise RequestError(first + more)
 
 
@@ -401,7 +412,7 @@ def without_indices(parameters: Group, changes: Mapping[str, Any], by: str = "ov
 
 
 def _defaults(schema: type[Group]) -> dict[str, Any]:
-    """What a file may leave out."""
+    """Return the defaults, which a file may leave out."""
     tables = {}
     for name, field in schema.model_fields.items():
         if isinstance(field.default, Group):
@@ -473,7 +484,7 @@ def _placed(node: Any, path: Sequence[str | int], value: Any, what: str) -> Any:
 
 
 def _without_leftovers(schema: type[Group], tables: dict[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
-    """Where ``changes`` choose another kind of group, drop the keys that only the old kind has."""
+    """Drop the keys of the old kind where ``changes`` choose another kind of group."""
     result = dict(tables)
     for name, field in schema.model_fields.items():
         table, change = result.get(name), changes.get(name)
@@ -515,7 +526,7 @@ def _explained(
 
 
 def _path(loc: tuple[int | str, ...], values: Any, missing: bool) -> tuple[str, tuple[str, ...]]:
-    """Where in the file: as shown (``balls[1].x``) and without positions in lists (``("balls", "x")``).
+    """Return the place in the file: as shown (``balls[1].x``) and without positions in lists (``("balls", "x")``).
 
     pydantic puts the word that chose a group between its key and the group's own; the file has no such level.
     """
@@ -532,7 +543,7 @@ def _path(loc: tuple[int | str, ...], values: Any, missing: bool) -> tuple[str, 
 
 
 def _holds(tables: Any, path: tuple[str, ...]) -> bool:
-    """Whether the nested tables have something at ``path`` (inside a list: anywhere in it)."""
+    """True if the nested tables have something at ``path`` (inside a list: anywhere in it)."""
     for part in path:
         if isinstance(tables, list):
             return True
@@ -543,10 +554,10 @@ def _holds(tables: Any, path: tuple[str, ...]) -> bool:
 
 
 def _suggestion(key: str, schema: type[Group], values: Mapping[str, Any]) -> str:
-    """What an unknown key probably means, as the end of a message."""
+    """Return the end of a message about an unknown key: the key that was probably meant."""
     inside = key.rpartition(".")[0]
     for word in _words_for(key, schema):
-        return f" here; it goes with {inside}.{word}"
+        return f" here; it belongs to {inside}.{word}"
     known = known_keys(schema, values)
     near = nearest(key, known)
     if near is not None:
@@ -570,7 +581,7 @@ def _words_for(key: str, schema: type[Group]) -> Iterator[str]:
 
 
 def _problem(error: Any) -> str:
-    """What is wrong, in words; ``error`` is one of pydantic's."""
+    """Return what is wrong, in words; ``error`` is one of pydantic's."""
     context = error.get("ctx", {})
     match error["type"]:
         case "value_error":
@@ -588,3 +599,6 @@ def _problem(error: Any) -> str:
             return "must be a group of keys, not a single value"
         case _:
             return re.sub(r"^\w+ should", "must", error["msg"])
+
+
+name_old_names(__name__)

@@ -11,7 +11,7 @@ from sandbox.files import json_ready
 from sandbox.text import shortened
 
 if TYPE_CHECKING:
-    from sandbox.engine.run import Run
+    from sandbox.scene.scene_run import SceneRun
 
 #: Two numbers are the same when they differ by no more than this, in s, m, m/s or rad/s, or by this share of
 #: themselves. Rounding on another processor stays below 1e-9, unless the scene is chaotic; a force that is wrong by one
@@ -34,8 +34,8 @@ UNITS = {"t": "s", "x": "m", "y": "m", "vx": "m/s", "vy": "m/s", "spin": "rad/s"
 Record = dict[str, Any]
 
 
-def record(run: Run, until: float | None = None, duration: float | None = None) -> Record:
-    """What happened, in JSON's types: up to ``until`` s, or to the end and with the results.
+def record(run: SceneRun, until: float | None = None, duration: float | None = None) -> Record:
+    """Return what happened, in JSON's types: up to ``until`` s, or to the end and with the results.
 
     States are spread evenly over the run, or over ``duration`` s, that of a record to compare with.
     """
@@ -76,7 +76,7 @@ def as_text(recorded: Record) -> str:
 
 
 def _lines(value: Any, deep: int) -> str:
-    """Of a table, or of a list of rows, a line for each entry; what is deeper than the states of a ball is on one."""
+    """Return JSON with a line for each entry of a table or list of rows; what is deeper than states is on one."""
     if isinstance(value, Mapping) and deep < 2:
         brackets, entries = "{}", [f"{json.dumps(key)}: {_lines(entry, deep + 1)}" for key, entry in value.items()]
     elif isinstance(value, list) and deep < 3 and all(isinstance(row, list) for row in value):
@@ -87,9 +87,9 @@ def _lines(value: Any, deep: int) -> str:
     return f"{brackets[0]}\n{inner}\n{' ' * deep}{brackets[1]}" if inner else brackets
 
 
-def first_change(expected: Record, actual: Record) -> tuple[float, str] | None:
+def first_change(expected: Record, actual: Record, tolerance: float = TOLERANCE) -> tuple[float, str] | None:
     """Time in s and description of the first difference in how the balls moved; None if there is none."""
-    return min(changes(expected, actual), default=None)
+    return min(changes(expected, actual, tolerance), default=None)
 
 
 def changes(expected: Record, actual: Record, tolerance: float = TOLERANCE) -> list[tuple[float, str]]:
@@ -100,7 +100,7 @@ def changes(expected: Record, actual: Record, tolerance: float = TOLERANCE) -> l
 
 
 def changed_results(expected: Record, actual: Record, tolerance: float = TOLERANCE) -> list[str]:
-    """What else differs, in words: results, how the run ended."""
+    """Return the other differences in words: results, and how the run ended."""
     found = []
     before, after = ({**recorded.get("result", {}), "ended": recorded.get("ended")} for recorded in (expected, actual))
     for name in [*before, *(name for name in after if name not in before)]:
@@ -111,14 +111,16 @@ def changed_results(expected: Record, actual: Record, tolerance: float = TOLERAN
     return found
 
 
-def diverges(run: Run, until: float | None = None) -> float | None:
+def diverges(run: SceneRun, until: float | None = None, tolerance: float = TOLERANCE) -> float | None:
     """The time in s at which a run and one that begins ``NUDGE`` away differ; None if they never do."""
     from sandbox.engine import simulate
     from sandbox.scene.running import nudged
+    from sandbox.scene.scene_run import SceneRun
 
     recorded = record(run, until)
-    other = record(simulate(nudged(run.setup, NUDGE, 0), run.accuracy), until, recorded.get("duration"))
-    change = first_change(recorded, other)
+    nudged_run = SceneRun.of(simulate(nudged(run.setup, NUDGE, 0), run.accuracy), run.scene, {})
+    other = record(nudged_run, until, recorded.get("duration"))
+    change = first_change(recorded, other, tolerance)
     return None if change is None else change[0]
 
 
@@ -170,7 +172,7 @@ def _is_number(value: Any) -> bool:
 
 
 def _same(a: Any, b: Any, tolerance: float = TOLERANCE) -> bool:
-    """Whether two values differ by no more than ``tolerance``, or by that share of themselves."""
+    """True if two values differ by no more than ``tolerance``, or by that share of themselves."""
     if _is_number(a) and _is_number(b):
         return abs(a - b) <= tolerance + tolerance * max(abs(a), abs(b))
     if isinstance(a, list) and isinstance(b, list):

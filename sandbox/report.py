@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import csv
 import json
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from sandbox.engine.ledger import warnings
 from sandbox.errors import RunError
-from sandbox.files import json_ready, json_text, written_whole
+from sandbox.files import atomic_write, json_ready, json_text
 from sandbox.lab.tables import paragraph, table
 from sandbox.scene.running import NUDGE
 from sandbox.sport.amounts import margin
@@ -17,8 +18,8 @@ from sandbox.sport.readings import words_of
 from sandbox.text import csv_text, shortened
 
 if TYPE_CHECKING:
-    from sandbox.engine.run import Run
     from sandbox.scene import Check, Scene
+    from sandbox.scene.scene_run import SceneRun
 
 #: What is told of an event in JSON.
 EVENT = ("t", "kind", "ball", "with", "speed", "x", "y")
@@ -33,8 +34,9 @@ LONGEST_WORD = 40
 LEAST_REPORTED = 1e-3
 
 
-def as_json(scene: Scene, run: Run, check: Check | None = None, other: Run | None = None) -> str:
-    """One JSON object; NaN and infinities are null. ``other`` is a run to compare with."""
+def as_json(scene: Scene, run: SceneRun, check: Check | None = None, others: Sequence[SceneRun] = ()) -> str:
+    """One JSON object; NaN and infinities are null. ``others`` are runs to compare with: one stands there as an object,
+    several as a list."""
     report = {
         **_outcome(scene, run),
         "accuracy": run.accuracy,
@@ -42,8 +44,9 @@ def as_json(scene: Scene, run: Run, check: Check | None = None, other: Run | Non
         "events": [dict(zip(EVENT, event, strict=True)) for event in run.events],
         "numerics": run.numerics,
     }
-    if other is not None:
-        report["compared"] = _outcome(other.scene, other)
+    if others:
+        compared = [_outcome(other.scene, other) for other in others]
+        report["compared"] = compared if len(compared) > 1 else compared[0]
     if check is not None:
         report["errors"] = check.errors
         report["changed"] = {name: list(pair) for name, pair in check.changed.items()}
@@ -60,7 +63,7 @@ def as_json(scene: Scene, run: Run, check: Check | None = None, other: Run | Non
         raise RunError(f"{scene.name}: its result cannot be written as JSON: {error}") from None
 
 
-def _outcome(scene: Scene, run: Run) -> dict[str, Any]:
+def _outcome(scene: Scene, run: SceneRun) -> dict[str, Any]:
     return {
         "scene": scene.name,
         "preset": scene.preset,
@@ -72,30 +75,36 @@ def _outcome(scene: Scene, run: Run) -> dict[str, Any]:
     }
 
 
-def write_trajectory(run: Run, path: Path) -> None:
-    """The path of every ball as CSV: ``t,ball,x,y,vx,vy,spin`` in s, m, m/s and rad/s."""
-    with written_whole(path) as file:
+def write_trajectory(run: SceneRun, path: Path, others: Mapping[str, SceneRun] = {}) -> None:
+    """Write the path of every ball as CSV: ``t,ball,x,y,vx,vy,spin`` in s, m, m/s and rad/s; with other runs by name
+    the name of the run is a last column."""
+    with atomic_write(path) as file:
         rows = csv.writer(file, lineterminator="\n")
-        rows.writerow(("t", "ball", "x", "y", "vx", "vy", "spin"))
-        for ball in run.setup.balls:
-            name = csv_text(ball.name)
-            rows.writerows((t, name, *state) for t, *state in run.trajectory(ball.name).tolist())
+        rows.writerow(("t", "ball", "x", "y", "vx", "vy", "spin", *(["run"] if others else [])))
+        for title, each in {run.scene.title: run, **others}.items():
+            last = [csv_text(title)] if others else []
+            for ball in each.setup.balls:
+                name = csv_text(ball.name)
+                rows.writerows((t, name, *state, *last) for t, *state in each.trajectory(ball.name).tolist())
 
 
-def card(scene: Scene, run: Run, check: Check | None = None, other: tuple[str, Run] | None = None) -> list[str]:
+def card(
+    scene: Scene, run: SceneRun, check: Check | None = None, others: Mapping[str, SceneRun] | None = None
+) -> list[str]:
     """Lines for the terminal: scene, results, events and numerical cost.
 
-    ``other`` is a run to compare with, after its name: its values are shown in a second column.
+    ``others`` are runs to compare with, by their names: the values of each are shown in a column of its own.
     """
     rows = scene.rows(run, None if check is None else check.errors, also=True)
-    if other is None:
-        numbers = table(("", ""), rows, "ll")
+    if others:
+        compared = _compared(rows, scene.verdict(run), list(others.values()))
+        numbers = table(("", scene.title, *others), compared, "ll" + "l" * len(others))
     else:
-        numbers = table(("", scene.title, other[0]), _compared(rows, scene.verdict(run), other[1]), "lll")
+        numbers = table(("", ""), rows, "ll")
     return [
         *paragraph(f"{scene.title}: {scene.about}" if scene.about else scene.title, ""),
         "",
-        *([*paragraph(scene.verdict(run)), ""] if other is None else []),
+        *([] if others else [*paragraph(scene.verdict(run)), ""]),
         *numbers,
         "",
         *_events(run),
@@ -106,13 +115,13 @@ def card(scene: Scene, run: Run, check: Check | None = None, other: tuple[str, R
     ]
 
 
-def _compared(rows: list[tuple[str, str]], verdict: str, other: Run) -> list[tuple[str, str, str]]:
-    """Labels, the texts of this run, and those of the other."""
-    values = {"verdict": other.scene.verdict(other), **dict(other.scene.rows(other, also=True))}
-    return [(label, text, values.get(label, "")) for label, text in [("verdict", verdict), *rows]]
+def _compared(rows: list[tuple[str, str]], verdict: str, others: Sequence[SceneRun]) -> list[tuple[str, ...]]:
+    """Labels, the texts of this run, and those of each other one."""
+    values = [{"verdict": one.scene.verdict(one), **dict(one.scene.rows(one, also=True))} for one in others]
+    return [(label, text, *(each.get(label, "") for each in values)) for label, text in [("verdict", verdict), *rows]]
 
 
-def _events(run: Run) -> list[str]:
+def _events(run: SceneRun) -> list[str]:
     several = len(run.setup.balls) > 1
     shown = list(run.events if len(run.events) <= EVENTS_SHOWN else run.events[: EVENTS_SHOWN - 1])
     rows = [words_of(run, event, several) for event in shown]
@@ -123,7 +132,7 @@ def _events(run: Run) -> list[str]:
     return table(("",) * columns, [(f"{t:>10}", *words) for t, *words in rows], "rllll"[:columns])
 
 
-def _numerics(run: Run) -> str:
+def _numerics(run: SceneRun) -> str:
     cost, accuracy = run.numerics, run.accuracy
     return (
         f"{accuracy.level}, {accuracy.method} method, {accuracy.steps}: {_count(cost.steps, 'step')}, "
@@ -136,7 +145,7 @@ def _count(number: int, noun: str) -> str:
 
 
 def _check_lines(check: Check, scene: Scene) -> list[str]:
-    """What depends on the accuracy, what is chaotic, and the errors of results without a row."""
+    """Return lines on what depends on the accuracy, what is chaotic, and the errors of results without a row."""
     away = f"{check.nudges} runs from starts {NUDGE:g} m away"
     said = [
         f"depends on the accuracy: {name} is {_word(here)} here and {_word(finer)} in a finer run"

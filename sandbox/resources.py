@@ -1,4 +1,4 @@
-"""Where the scenes and assets are: next to the package in a checkout, inside it in an installed wheel."""
+"""The folders of scenes and assets: next to the package in a checkout, inside it in an installed wheel."""
 
 from __future__ import annotations
 

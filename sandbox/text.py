@@ -65,11 +65,13 @@ def csv_text(text: str) -> str:
 
 def command_line(source: str, changes: Mapping[str, Any], does: str = "run", *options: str) -> str:
     """The command that runs a scene with values at keys, or ``does`` something else with it."""
-    settings = []
-    for key, value in changes.items():
-        bare = isinstance(value, str) and _WORD.fullmatch(value)
-        settings += ["--set", f"{key}={value if bare else _toml(value)}"]
+    settings = [word for key, value in changes.items() for word in ("--set", f"{key}={argument(value)}")]
     return shlex.join(["sandbox", does, source, *settings, *options])
+
+
+def argument(value: Any) -> str:
+    """A value as ``--set`` and ``--over`` take it, without quotes where it needs none."""
+    return value if isinstance(value, str) and _WORD.fullmatch(value) else _toml(value).removesuffix(".0")
 
 
 def _toml(value: Any) -> str:

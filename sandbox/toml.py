@@ -10,18 +10,19 @@ from typing import Any
 
 from sandbox import units
 from sandbox.errors import RequestError
-from sandbox.files import reason
+from sandbox.files import read_given
 from sandbox.text import shortened
+
+#: Most bytes of a scene file; the largest of the project's own has 5 kB.
+LARGEST = 1_000_000
 
 
 def read_toml(path: Path) -> dict[str, Any]:
     """The nested tables of a TOML file; RequestError says in one line why it cannot be read."""
     try:
-        text = path.read_bytes().decode("utf-8-sig")
+        text = read_given(path, LARGEST).decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise RequestError(f"{path}: not a text file in UTF-8 (byte {error.start})") from None
-    except OSError as error:
-        raise RequestError(f"{path}: cannot be read: {reason(error)}") from None
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
@@ -31,8 +32,8 @@ def read_toml(path: Path) -> dict[str, Any]:
 
 
 def _toml_hint(text: str, error: str) -> str:
-    """What is probably wrong in the line that a TOML error names: missing quotes, as the end of a sentence; "" if it is
-    something else."""
+    """Return what is probably wrong in the line that a TOML error names: missing quotes, as the end of a sentence; ""
+    if it is something else."""
     number = re.search(r"at line (\d+)", error)
     lines = text.splitlines()
     if number is None or not 1 <= int(number[1]) <= len(lines):

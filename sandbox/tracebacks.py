@@ -8,10 +8,16 @@ from pathlib import Path
 
 from sandbox import resources
 from sandbox.errors import SandboxError
+from sandbox.text import one_line, printable, shortened
+
+#: Most characters of an error's own text, which a scene may have made of anything.
+LONGEST = 500
 
 
 def of_user_code(error: BaseException) -> str | None:
     """The traceback from the first frame of the user's code, without the sandbox's own frames; None without any."""
+    if isinstance(error, RuntimeError) and isinstance(error.__cause__, StopIteration):
+        error = error.__cause__  # raised in a generator of the sandbox's, which Python reports instead
     frames = traceback.extract_tb(error.__traceback__)
     first = next((index for index, frame in enumerate(frames) if not is_ours(frame.filename)), None)
     is_users_syntax = isinstance(error, SyntaxError) and error.filename is not None and not is_ours(error.filename)
@@ -19,13 +25,14 @@ def of_user_code(error: BaseException) -> str | None:
         return None
     shown = [frame for frame in frames[first:] if not _is_hidden(frame.filename)] if first is not None else []
     head = ["your scene failed\n", "Traceback (most recent call last):\n"] if shown else ["your scene failed\n"]
-    return "".join([*head, *traceback.format_list(shown), *traceback.format_exception_only(error)])
+    said = [_short(line) for line in traceback.format_exception_only(error)]
+    return "".join([*head, *traceback.format_list(shown), *said])
 
 
 def one_line_error(error: BaseException) -> str:
     """The error on one line, for a table cell; for a user's code with file and line: ``"ZeroDivisionError: division by
     zero (volleyball/scene.py, line 12)"``."""
-    text = " ".join(str(error).split())
+    text = shortened(one_line(" ".join(str(error).split())), LONGEST)
     if isinstance(error, SandboxError):
         return text
     own = [frame for frame in traceback.extract_tb(error.__traceback__) if not is_ours(frame.filename)]
@@ -33,20 +40,25 @@ def one_line_error(error: BaseException) -> str:
     return f"{type(error).__name__}{': ' if text else ''}{text}{place}"
 
 
+def _short(line: str) -> str:
+    """A line of an error's text, without control characters and not longer than LONGEST."""
+    return shortened(printable(line.rstrip()), LONGEST) + "\n"
+
+
 def is_ours(filename: str) -> bool:
-    """Whether a file came with the sandbox, Python or an installed package, in this environment or another."""
+    """True if a file came with the sandbox, Python or an installed package, in this environment or another."""
     return filename.startswith("<") or _is_sandbox(filename) or is_of_library(filename)
 
 
 def is_of_library(filename: str | Path) -> bool:
-    """Whether a file came with Python or an installed package, in this environment or another."""
+    """True if a file came with Python or an installed package, in this environment or another."""
     if not {"site-packages", "dist-packages"}.isdisjoint(Path(filename).parts):
         return True
     return any(_inside(filename, sysconfig.get_path(name)) for name in ("stdlib", "purelib", "platlib"))
 
 
 def _is_hidden(filename: str) -> bool:
-    """Whether a file is the sandbox's, generated code, or pydantic's, which validates a scene's parameters."""
+    """True if a file is the sandbox's, generated code, or pydantic's, which validates a scene's parameters."""
     import pydantic
 
     return filename.startswith("<") or _is_sandbox(filename) or _inside(filename, Path(pydantic.__file__).parent)

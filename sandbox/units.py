@@ -24,7 +24,12 @@ KINDS: dict[str, dict[str, tuple[float, float]]] = {
         "kn": (1852 / 3600, 0.0),
         "ft/s": (0.3048, 0.0),
     },
-    "angle": {"rad": (1.0, 0.0), "deg": (math.pi / 180, 0.0), "moa": (math.pi / 10800, 0.0)},
+    "angle": {
+        "rad": (1.0, 0.0),
+        "deg": (math.pi / 180, 0.0),
+        "moa": (math.pi / 10800, 0.0),
+        "arcmin": (math.pi / 10800, 0.0),
+    },
     "spin": {
         "rad/s": (1.0, 0.0),
         "rpm": (math.pi / 30, 0.0),

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from functools import cached_property
 
-from sandbox.picture.places import Ground, Hall, Person
-from sandbox.picture.views import Look, Place, SideView, seams
+from sandbox.kit import Ground, Hall, Look, Person, Place, SideView, seams
 
 from .scene import Parameters
 

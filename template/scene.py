@@ -9,15 +9,28 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from sandbox.engine.run import Run
-from sandbox.engine.setup import Setup, Touches
-from sandbox.parameters import Group, group, quantity
-from sandbox.sport.amounts import roughly
-from sandbox.sport.controls import Controls, Handle, Spin
-from sandbox.sport.facts import ENDED, Fact
-from sandbox.sport.flight import Flight, Launch
-from sandbox.sport.readings import LAUNCH, apex, at, coming_to
-from sandbox.sport.solids import Solid, level
+from sandbox.kit import (
+    ENDED,
+    LAUNCH,
+    Controls,
+    Fact,
+    Flight,
+    Group,
+    Handle,
+    Launch,
+    SceneRun,
+    Setup,
+    Solid,
+    Spin,
+    Touches,
+    apex,
+    at,
+    coming_to,
+    group,
+    level,
+    quantity,
+    roughly,
+)
 
 
 # Parameters: quantity(default, unit, lowest, highest, meaning). A default of ... is in template.toml.
@@ -59,7 +72,7 @@ class Fan:
 
 
 def build(parameters: Parameters) -> Setup:
-    """What the engine simulates: balls with their forces, surfaces, and when the run is over."""
+    """Return what the engine simulates: balls with their forces, surfaces, and when the run is over."""
     fan, start = parameters.fan, max(parameters.launch.height, parameters.ball.radius)
     tossed = parameters.launched((0.0, start), Fan(fan.place, fan.width, fan.push))
     floor = parameters.floor.surface("floor", level())
@@ -68,7 +81,7 @@ def build(parameters: Parameters) -> Setup:
 
 landing = coming_to("floor")  # the ball just before it first comes down
 
-#: Fact(key, label, unit, how): what a run says of itself, the most important first; None for what did not happen.
+#: Fact(key, label, unit, how): the results of a run, the most important first; None for what did not happen.
 FACTS = (
     Fact("distance", "distance", "m", at(landing, "x"), settled="floor"),
     Fact("apex", "apex", "m", apex),
@@ -78,7 +91,7 @@ FACTS = (
 )
 
 
-def verdict(run: Run, parameters: Parameters) -> str:
-    """What happened, in a sentence."""
+def verdict(run: SceneRun, parameters: Parameters) -> str:
+    """Say what happened in a sentence."""
     landed = run.result["distance"]
     return "Never comes down" if landed is None else f"Comes down {roughly(landed)} away"

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from functools import cached_property
 
-from sandbox.picture.places.plan import Line, Plan, Spot, Stripes
-from sandbox.picture.places.table import Rails, around
-from sandbox.picture.views import AboveView, Look, seams
+from sandbox.kit import AboveView, Look, plan, seams, table
 
 from .scene import Parameters
 
@@ -18,15 +16,15 @@ class Picture(AboveView[Parameters]):
     LOOK, TRACE = Look((250, 250, 246), seams((200, 90, 60))), (240, 176, 64)
 
     @cached_property
-    def plan(self) -> Plan:
+    def plan(self) -> plan.Plan:
         """What stands still, the lowest first."""
-        lane, (cup,) = self.parameters.lane, self.run.setup.catches
+        lane, (cup,) = self.parameters.lane, self.run.setup.traps
         half, tee = (0.5 * lane.length, 0.5 * lane.width), self.run.state("ball", 0.0)[0]
         return (
-            Stripes(around((50.0, 50.0)), STONE, 0.5, along=True),
-            Rails(half, (half[0] + 0.09, half[1] + 0.09), WOOD, WOOD[0]),
-            Stripes(around(half), FELT, 0.25),
-            Line(((tee, -0.15), (tee, 0.15)), 0.02, CHALK),
-            Spot(cup.center, cup.radius, CUP),
-            Line(((0.0, -0.5 * lane.block), (0.0, 0.5 * lane.block)), 0.08, WOOD[0]),
+            plan.Stripes(table.around((50.0, 50.0)), STONE, 0.5, along=True),
+            table.Rails(half, (half[0] + 0.09, half[1] + 0.09), WOOD, WOOD[0]),
+            plan.Stripes(table.around(half), FELT, 0.25),
+            plan.Line(((tee, -0.15), (tee, 0.15)), 0.02, CHALK),
+            plan.Spot(cup.center, cup.radius, CUP),
+            plan.Line(((0.0, -0.5 * lane.block), (0.0, 0.5 * lane.block)), 0.08, WOOD[0]),
         )

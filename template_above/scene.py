@@ -9,14 +9,26 @@ from __future__ import annotations
 from itertools import pairwise
 from math import dist
 
-from sandbox.engine.run import Run
-from sandbox.engine.setup import Ball, Catch, Segment, Setup, Surface
-from sandbox.parameters import Group, SceneParameters, group, quantity
-from sandbox.physics.cloth import Cloth
-from sandbox.sport.controls import Controls, Handle
-from sandbox.sport.facts import ENDED, Fact
-from sandbox.sport.flight import Directed
-from sandbox.sport.solids import rectangle
+from sandbox.kit import (
+    ENDED,
+    Ball,
+    Cloth,
+    Controls,
+    Directed,
+    Fact,
+    Group,
+    Handle,
+    Run,
+    SceneParameters,
+    SceneRun,
+    Segment,
+    Setup,
+    Surface,
+    Trap,
+    group,
+    quantity,
+    rectangle,
+)
 
 MASS, RADIUS, FROM_END = 0.0459, 0.02135, 0.4  # of a golf ball, in kg and m; of tee and cup from the ends, in m
 
@@ -50,7 +62,7 @@ CONTROLS = Controls(handles=(Handle(y="lane.block", at=lambda p: (0.0, 0.5 * p.l
 
 
 def build(parameters: Parameters) -> Setup:
-    """What the engine simulates: the ball, what it meets, what it rolls on, and what takes it."""
+    """Return what the engine simulates: the ball, boards and block, the felt, and the cup."""
     launch, lane, (vx, vy) = parameters.launch, parameters.lane, parameters.launch.velocity
     x, y = 0.5 * lane.length, 0.5 * lane.width
     roll = (-launch.roll * vy / RADIUS, launch.roll * vx / RADIUS)  # rad/s, about x and about y
@@ -60,13 +72,13 @@ def build(parameters: Parameters) -> Setup:
         [Ball("ball", MASS, RADIUS, (FROM_END - x, 0.0), (vx, vy), rolling_spin=roll)],
         [Surface(name, shape, restitution=0.75, friction=0.2) for name, shape in shapes],
         plane=Cloth(sliding=0.4, rolling=lane.felt, spinning=0.01),
-        catches=[Catch("cup", (x - FROM_END, 0.0), 0.054)],
+        traps=[Trap("cup", (x - FROM_END, 0.0), 0.054)],
     )
 
 
 def _to_cup(run: Run, parameters: Parameters) -> float | None:
-    """How far from the cup the ball stops, in m; None if it is in the cup."""
-    stop, cup = run.state("ball", run.duration)[:2], run.setup.catches[0].center
+    """Return the distance in m from the ball at rest to the cup; None if it is in the cup."""
+    stop, cup = run.state("ball", run.duration)[:2], run.setup.traps[0].center
     return None if run.caught_at("ball") is not None else dist(stop, cup)
 
 
@@ -80,6 +92,6 @@ FACTS = (
 )
 
 
-def verdict(run: Run, parameters: Parameters) -> str:
-    """What happened, in a sentence."""
+def verdict(run: SceneRun, parameters: Parameters) -> str:
+    """Say what happened in a sentence."""
     return "In the cup" if run.result["holed"] else f"Stops {run.result['to_cup']:.2f} m from the cup"

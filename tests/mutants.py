@@ -1,21 +1,28 @@
-"""Seeded mutants of the program, each against its related tests: which go unnoticed?
+"""Seeded mutants of the program, each against the tests that call what it changes: which go unnoticed?
 
 Run ``python tests/mutants.py [--room FOLDER ...] [--number N] [--seed S] [--part I/N] [--timeout SECONDS]``; not a part
 of ``make test``. Each mutant changes one place: a number, an operator, a comparison, a condition, a statement that is
 left out, two arguments that are swapped. The tree is copied first; only the copy is read and mutated. Survivors are
 listed with their lines; whether one is equivalent is for people to judge.
+
+Which functions each test calls is measured once, by one run of all tests, and kept in ``out/reach.json``: delete it
+when tests or functions have new names. What tests start in other processes is not seen.
 """
 
 from __future__ import annotations
 
 import argparse
 import ast
+import json
 import os
 import random
 import shutil
+import signal
 import sys
 import tempfile
+import time
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from itertools import count
 from multiprocessing import get_context
 from pathlib import Path
@@ -31,102 +38,14 @@ os.environ["SDL_VIDEODRIVER"] = "dummy"
 
 ROOT = Path(__file__).resolve().parent.parent
 
-#: The tests of each module, the quickest to notice first; those of a room's other modules under "". A name is that of a
-#: file ``test_NAME.py`` in the room's own folder of tests, or in the one that it begins with.
-TESTS: dict[str, dict[str, str]] = {
-    "sandbox/engine": {
-        "accuracy": "methods exact plain",
-        "acting": "guards run methods batch bodies",
-        "arc": "run exact contact batch cloth",
-        "arc_rows": "batch",
-        "batch": "batch methods",
-        "bernstein": "bernstein contact exact",
-        "bernstein_many": "bernstein batch",
-        "clusters": "clusters pressed scenes/billiards",
-        "heap": "heap bodies scenes/collisions golden_runs",
-        "impacts": "contact cloth clusters bodies",
-        "impulses": "contact cloth batch bodies",
-        "lasting": "contact exact run",
-        "ledger": "run cloth guards physics/rocket",
-        "on_plane": "cloth ice plain",
-        "outlines": "batch",
-        "path": "run batch cloth",
-        "plain": "plain run guards cloth bodies",
-        "pressed": "pressed clusters contact scenes/billiards",
-        "real_space": "heap plain bodies",
-        "rubbing": "clusters scenes/billiards",
-        "run": "run names batch cloth bodies",
-        "setup": "guards contact run batch bodies names cloth",
-        "setup_errors": "guards",
-        "simulation": "contact guards cloth exact heap bodies batch golden_runs",
-        "stacking": "batch lab/runs",
-        "start": "contact guards bodies",
-        "step_control": "methods run guards exact batch determinism physics/rocket",
-        "surfaces": "contact guards plain cloth",
-        "touch": "contact exact batch cloth",
-        "track": "guards contact exact run bodies cloth clusters heap",
-        "": "bodies heap cloth scenes/football",
-    },
-    "sandbox/physics": {
-        "checks": "engine/guards engine/ice",
-        "elementwise": "coefficients forces air engine/batch",
-        "cushion": "cushion",
-        "hertz": "hertz engine/clusters",
-        "ice": "engine/ice",
-        "plane": "engine/ice cloth",
-        "impulse": "cushion engine/cloth engine/contact engine/batch",
-        "coefficients": "coefficients soccer_ball air scenes/golf",
-        "ballistics": "ballistics scenes/bullet",
-        "court": "scenes/tennis scenes/outcomes",
-        "swing": "swing scenes/tennis",
-        "throw": "scenes/billiards",
-        "": "{name} scenes/golf",
-    },
-    "sandbox/sport": {
-        "": " ".join(
-            ["{name}", "schemas", *(f"scenes/{file.stem[5:]}" for file in sorted(ROOT.glob("tests/scenes/test_*.py")))]
-        )
-    },
-    "sandbox/scene": {"running": "checking", "": "scene mistakes cli"},
-    "sandbox/lab": {
-        "maps": "maps",
-        "stress": "stress",
-        "extremes": "stress",
-        "tables": "tables",
-        "verdicts": "stress",
-        "runs": "runs sweep",
-        "": "sweep trade",
-        "chart": "sweep trade",
-        "trade": "trade",
-        "ablation": "trade",
-        "reference": "trade",
-        "validate": "scenes/published docs cli",
-    },
-    "sandbox/lab/aim": {"": "lab/aim"},
-    "sandbox/workers": {"": "lab/sweep"},
-    "sandbox/cli": {"lab": "lab/sweep cli lab/aim lab/trade", "": "cli"},
-    "sandbox": {
-        "golden": "picture/golden",
-        "record": "picture/golden",
-        "files": "cli lab/sweep",
-        "new": "new",
-        "parameters": "parameters scene cli",
-        "report": "cli",
-        "schema": "schemas parameters",
-        "tracebacks": "mistakes cli lab/sweep",
-        "units": "parameters",
-        "": "{name} cli",
-    },
-    **{
-        f"scenes/{file.parent.name}": {
-            "": f"schemas scenes/{file.parent.name.replace('-', '_')} scenes/outcomes golden_runs"
-        }
-        for file in sorted(ROOT.glob("scenes/*/scene.py"))
-    },
-}
+#: Where each test's functions are recorded; measured when it is not there.
+REACH = ROOT / "out" / "reach.json"
 
 #: In s, for files that are written.
 MOMENTS = count(1_000_000_000)
+
+#: Of each test its time in s, and the names of the functions it calls, by module.
+Reach = dict[str, tuple[float, dict[str, list[str]]]]
 
 #: Not looked into: what holds names only, and shapes of types.
 LEFT_OUT = {"__init__"}
@@ -198,7 +117,7 @@ def changed(node: Any, how: str) -> None:
 
 def drawn(tree: Path, rooms: Sequence[str], number: int, seed: int) -> list[tuple[str, int]]:
     """Modules and the places in them to change, each once; a room is a folder, or a module in it."""
-    files = [file for folder in TESTS for file in sorted((tree / folder).glob("*.py"))]
+    files = [file for folder in ("sandbox", "scenes") for file in sorted((tree / folder).rglob("*.py"))]
     every = [
         (name, place)
         for file in files
@@ -220,18 +139,63 @@ def mutant(source: str, place: int) -> tuple[str, str]:
     return ast.unparse(ast.fix_missing_locations(tree)), f"{node.lineno}  {before}  ->  {after}"
 
 
-def tests_of(tree: Path, module: str) -> list[str]:
-    """The files of a module's tests."""
-    room, _, file = module.rpartition("/")
-    stem = file.removesuffix(".py")
-    names = TESTS[room].get(stem, TESTS[room].get("", "")).format(name=stem).split()
-    own = room.removeprefix("sandbox").strip("/")
-    found = []
-    for name in names:
-        folder, _, last = name.rpartition("/")
-        places = (f"tests/{folder or own}/test_{last}.py", f"tests/test_{last}.py")
-        found += [path for path in places if (tree / path).is_file()][:1]
+def function_at(source: str, place: int) -> str:
+    """The name, as Python qualifies it, of the innermost function around a place; "" outside of all."""
+    tree = ast.parse(source)
+    names: dict[int, str] = {}
+
+    def visit(node: ast.AST, prefix: str, function: str) -> None:
+        names[id(node)] = function
+        if isinstance(node, ast.ClassDef):
+            prefix += f"{node.name}."
+        elif isinstance(node, ast.FunctionDef):
+            function, prefix = prefix + node.name, f"{prefix}{node.name}.<locals>."
+        for child in ast.iter_child_nodes(node):
+            visit(child, prefix, function)
+
+    visit(tree, "", "")
+    return names[id(list(places(tree))[place][0])]
+
+
+def tests_of(reach: Reach, module: str, function: str, most: float) -> list[str]:
+    """The tests that call a function of a module, or any of its functions for "", the quickest first, as many as
+    together take ``most`` s at most."""
+    found, together = [], 0.0
+    for test, (seconds, called) in sorted(reach.items(), key=lambda item: item[1][0]):
+        if function in called.get(module, []) if function else module in called:
+            together += seconds
+            if together > most:
+                break
+            found.append(test)
     return found
+
+
+class Recorder:
+    """A plugin of pytest: seconds and called functions of each test that passes."""
+
+    def __init__(self, tree: Path) -> None:
+        self.reach: Reach = {}
+        self._tree = str(tree)
+        self._called: set[Any] = set()
+
+    @pytest.hookimpl(hookwrapper=True)
+    def pytest_runtest_protocol(self, item: pytest.Item) -> Iterator[None]:
+        self._called.clear()
+        begun = time.process_time()
+        sys.settrace(lambda frame, *_: self._called.add(frame.f_code))
+        yield
+        sys.settrace(None)
+        called: dict[str, list[str]] = {}
+        for code in self._called:
+            if code.co_filename.startswith(self._tree):
+                called.setdefault(os.path.relpath(code.co_filename, self._tree), []).append(code.co_qualname)
+        self.reach[item.nodeid] = time.process_time() - begun, called
+
+    def pytest_sessionfinish(self, exitstatus: int) -> None:
+        if exitstatus:
+            return
+        REACH.parent.mkdir(exist_ok=True)
+        REACH.write_text(json.dumps(self.reach), "utf-8")
 
 
 def written(file: Path, source: str) -> None:
@@ -241,33 +205,36 @@ def written(file: Path, source: str) -> None:
     os.utime(file, (moment, moment))
 
 
-def noticed(tree: Path, module: str, source: str, timeout: float) -> bool:
-    """Whether a test fails, or none ends in time, when the module has this source."""
+def noticed(tree: Path, module: str, source: str, tests: Sequence[str], timeout: float) -> bool:
+    """Whether a test fails, or none ends within ``timeout`` s, when the module has this source."""
     original = (tree / module).read_text("utf-8")
     written(tree / module, source)
-    passed = pass_in(tree, tests_of(tree, module), timeout)
+    code = exit_code(tree, tests, timeout)
     written(tree / module, original)
-    return not passed
+    return code != 0
 
 
-def pass_in(tree: Path, tests: Sequence[str], timeout: float | None = None) -> bool:
-    """Whether tests pass in a tree within ``timeout`` s."""
-    process = get_context("fork").Process(target=_tested, args=(tree, tests))
+def exit_code(tree: Path, arguments: Sequence[str], timeout: float | None = None, plugins: Sequence[Any] = ()) -> int:
+    """Pytest's in a tree, or another than 0 if it does not end within ``timeout`` s."""
+    process = get_context("fork").Process(target=_tested, args=(tree, arguments, plugins))
     process.start()
     process.join(timeout)
-    process.kill()
+    assert process.pid
+    with suppress(ProcessLookupError):  # its workers, too
+        os.killpg(process.pid, signal.SIGKILL)
     process.join()
-    return process.exitcode == 0
+    return process.exitcode or 0
 
 
-def _tested(tree: Path, tests: Sequence[str]) -> None:
-    """Run the tests in a tree, and end as pytest does."""
+def _tested(tree: Path, arguments: Sequence[str], plugins: Sequence[Any]) -> None:
+    """Run pytest in a tree, and end as it does."""
+    os.setsid()
     os.chdir(tree)
     sys.path.insert(0, str(tree))
     for stream in (1, 2):
         os.dup2(os.open(os.devnull, os.O_WRONLY), stream)
     loaded = "ignore::pytest.PytestAssertRewriteWarning"
-    os._exit(pytest.main(["-x", "-q", "-n", "0", "-p", "no:cacheprovider", "-W", loaded, *tests]))
+    os._exit(pytest.main(["-x", "-q", "-n", "0", "-p", "no:cacheprovider", "-W", loaded, *arguments], [*plugins]))
 
 
 def main() -> None:
@@ -285,15 +252,22 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         tree = Path(folder) / "tree"
         shutil.copytree(ROOT, tree, ignore=shutil.ignore_patterns(".git", ".venv", "__pycache__", "dist"))
-        chosen = drawn(tree, arguments.room, arguments.number, arguments.seed)[part - 1 :: parts]
-        if not pass_in(tree, sorted({test for module, _ in chosen for test in tests_of(tree, module)})):
-            sys.exit("some of their tests fail without any mutant")
-        for module, place in chosen:
-            source, what = mutant((tree / module).read_text("utf-8"), place)
+        if not REACH.exists() and exit_code(tree, ["tests"], plugins=[Recorder(tree)]):
+            sys.exit("some tests fail without any mutant")
+        reach = json.loads(REACH.read_text("utf-8"))
+        chosen = []
+        for module, place in drawn(tree, arguments.room, arguments.number, arguments.seed)[part - 1 :: parts]:
+            source = (tree / module).read_text("utf-8")
+            tests = tests_of(reach, module, function_at(source, place), arguments.timeout / 3.0)
+            chosen.append((module, *mutant(source, place), tests))
+        if exit_code(tree, sorted({test for *_, tests in chosen for test in tests})):
+            sys.exit(f"some of their tests fail without any mutant; if they have new names, delete {REACH}")
+        for module, source, what, tests in chosen:
             tried += 1
-            if not noticed(tree, module, source, arguments.timeout):
+            if not tests or not noticed(tree, module, source, tests, arguments.timeout):
                 survivors += 1
-                sys.stdout.write(f"survived ({survivors} of {tried})  {module}:{what}\n")
+                by = f"{len(tests)} tests" if tests else "no test calls it"
+                sys.stdout.write(f"survived ({survivors} of {tried}; {by})  {module}:{what}\n")
                 sys.stdout.flush()
     sys.stdout.write(f"{survivors} of {tried} mutants survived\n")
 

@@ -69,6 +69,15 @@ def check(rows: Iterable[dict[str, Any]], *keys: str) -> None:
             assert row[key] > 0, f"{key} of {row}"
 
 
+@pytest.mark.parametrize("seed", [0, 1, 2, 13, 18, 26, 28, 33, 34, 50, 51, 54, 59, 85, 90, 93, 288, 299])
+def test_random_heaps_gain_no_energy_and_do_not_overlap(opened: Callable[[str], ModuleType], seed: int):
+    heaps = opened("heaps")
+    found = heaps.measure(heaps.heap(seed), seed)
+    assert not found.error
+    assert found.gain < 1e-3
+    assert found.overlap < 0.02
+
+
 def test_error_against_time(run: Run):
     cases = run("engine", "--quick")
     reached = {"rim shot, 2.5 s": 1e-6, "golf flight to landing": 0.05}  # m, by scipy as it is asked there
@@ -126,8 +135,8 @@ def test_sweep(run: Run):
     check(told["map"]["bare_pymunk"], "time_s", "error_m", "steps_per_s")
     check(told["shots"], "shots", "time_s", "ms_per_shot")
     check(told["balls"], "balls", "time_s", "ms_per_ball")
-    check(told["commands"], "asked_s")
-    check(told["window"], "processor_s", "first_s", "asked_s")
+    check(told["commands"], "processor_s", "target_s")
+    check(told["window"], "processor_s", "first_s", "target_s")
     check([told["steps"]], *told["steps"])
 
 
@@ -176,6 +185,34 @@ def test_the_page_has_a_place_for_each(opened: Callable[[str], ModuleType]):
     run = {command.split()[0] for command in page.SCRIPTS.values()}
     scripts = {f"benchmarks/{path.name}" for path in FOLDER.glob("*.py") if "[--json F]" in path.read_text("utf-8")}
     assert run == scripts
+
+
+def test_the_page_is_written_once_when_all_have_run(
+    opened: Callable[[str], ModuleType], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    """A script that fails leaves the page as it was: its numbers are all of one program on one machine."""
+    page = opened("page")
+    copy, before = tmp_path / "page.md", page.PAGE.read_text("utf-8")
+    copy.write_text(before, "utf-8")
+    for name, value in (
+        ("PAGE", copy),
+        ("JSON", tmp_path),
+        ("PEER", copy),
+        ("output_of", lambda name: [f"ran {name}"]),
+    ):
+        monkeypatch.setattr(page, name, value)
+    monkeypatch.setattr(sys, "argv", ["page"])
+    with monkeypatch.context() as failing:
+        failing.setattr(page, "output_of", lambda name: [] if name != "window" else sys.exit("window failed"))
+        with pytest.raises(SystemExit, match="window failed"):
+            page.main()
+    assert copy.read_text("utf-8") == before
+    page.main()
+    for name in page.SCRIPTS:
+        assert f"```console\n$ python {page.SCRIPTS[name]}\nran {name}\n```\n" in copy.read_text("utf-8")
+    monkeypatch.setattr(page, "PEER", tmp_path / "nowhere")
+    with pytest.raises(SystemExit, match="no pooltool"):
+        page.main()
 
 
 def test_the_page_names_the_machine(opened: Callable[[str], ModuleType]):

@@ -23,7 +23,7 @@ from PIL import Image
 
 import sandbox
 from sandbox.cli.interrupts import Interrupts
-from sandbox.engine.accuracy import LEVELS
+from sandbox.engine.model.accuracy import LEVELS
 from sandbox.files import folder_of_parts
 from tests.own_scene import BUILD, COMMAND, DROP, Outcome, assert_refused, change
 
@@ -236,7 +236,8 @@ def test_pictures(call, tmp_path: Path):
             seen[file] = (image.format, image.size, getattr(image, "n_frames", 1) > 1)
     assert seen[poster] == seen[energy] == ("PNG", (640, 360), False)
     assert (seen[gif][0], seen[gif][2], seen[webp]) == ("GIF", True, ("WEBP", (640, 360), True))
-    assert seen[strip][1][0] > 5 * 320
+    width, height = seen[strip][1]  # of frames of 320x180, in rows
+    assert (width // 320) * (height // 180) > 5
     assert sorted(path.name for path in frames.iterdir()) == [f"frame_{number:05d}.png" for number in range(11)]
 
 
@@ -253,6 +254,30 @@ def test_two_runs_over_each_other(call, tmp_path: Path):
     report = json.loads(call("run", "golf", "--compare", "golf/headwind", "--json").out)
     assert report["compared"]["preset"] == "headwind"
     assert report["compared"]["result"]["carry"] < report["result"]["carry"]
+
+
+def test_three_runs_next_to_each_other(call, tmp_path: Path):
+    """Two of them of the same short name, which pictures then show in full."""
+    iron = tmp_path / "headwind.toml"
+    iron.write_text('scene = "golf/7-iron"\n', encoding="utf-8")
+    wanted = ("run", "golf", "--compare", "golf/headwind", "--compare", iron)
+    names = ("poster.png", "graph.png", "energy.png", "page.html")
+    kinds = ("--poster", "--graph", "--energy", "--html")
+    files = [word for kind, name in zip(kinds, names, strict=True) for word in (kind, tmp_path / name)]
+    code, out, err = call(*wanted, *files, "--size", "640x360")
+    assert (code, err) == (0, "")
+    rows = out.splitlines()
+    assert next(row for row in rows if row.startswith("  landing  ")).count("°") == 3
+    assert all((tmp_path / name).stat().st_size > 10_000 for name in names)
+    with Image.open(tmp_path / "energy.png") as charts:
+        assert charts.height == 3 * 180  # the smallest, for each run
+    page = (tmp_path / "page.html").read_text("utf-8")
+    assert f"--compare golf/headwind --compare {iron}" in page
+    compared = json.loads(call(*wanted, "--json").out)["compared"]
+    assert [other["result"]["carry"] for other in compared] == sorted(
+        (other["result"]["carry"] for other in compared), reverse=True
+    )
+    assert [other["scene"] for other in compared] == ["golf", "golf"]
 
 
 def test_pictures_leave_json_alone(tmp_path: Path):
@@ -320,13 +345,13 @@ def test_one_of_a_list_may_be_set(call, monkeypatch):
         (["run", "golf", "--set", "launch.speed[0]=3"], "--set launch.speed[0]: is not a list"),
         (["run", "golf", "--set", "air.wind[x]=3"], "--set air.wind[x]: a key is written like launch.speed, or air.wi"),
         (["run", "golf", "--accuracy", "best"], "'best' is not one of 'fast', 'balanced', 'precise'."),
-        (["run", "golf", "--fps", "30"], "--fps 30: goes with --frames, --gif, --video or --webp"),
+        (["run", "golf", "--fps", "30"], "--fps 30: requires --frames, --gif, --video or --webp"),
         (["run", "golf", "--frames", "frames", "--fps", "0"], "'--fps': 0 is not in the range 1<=x<=240."),
         (["run", "golf", "--frames", "frames", "--fps", "12.5"], "'--fps': '12.5' is not a valid integer"),
         (["sweep", "golf", "--over", "launch.angle=1,2", "--out", "x.csv", "--jobs=0"], "--jobs 0: must be from"),
         (["sweep", "golf", "--over", "launch.angle=1,2", "--out", "x.csv", "--jobs=9999"], "must be from 1 to 1000"),
         (["run", "golf", "--size", "720p"], "--size 720p: must be width and height in px, such as 1280x720"),
-        (["run", "golf", "--size", "640x360"], "--size 640x360: goes with a picture, such as --poster F.png"),
+        (["run", "golf", "--size", "640x360"], "--size 640x360: requires a picture, such as --poster F.png"),
         (["run", "golf", "--size", "100000x100000"], "--size 100000x100000: must be between 320x180 and 7680x4320 px"),
         (["run", "golf", "--size", "16x9"], "--size 16x9: must be between 320x180 and 7680x4320 px"),
         (["run", "golf", "--compare", "soccer"], "--compare soccer: is soccer, and only golf can"),
@@ -433,7 +458,7 @@ def test_nothing_half_written_stays_behind(call, drop: Path, tmp_path: Path, mon
         def tolist(self) -> list:
             return [[0.0] * 6, None]
 
-    monkeypatch.setattr("sandbox.engine.run.Run.trajectory", lambda run, ball: Rows())
+    monkeypatch.setattr("sandbox.engine.paths.run.Run.trajectory", lambda run, ball: Rows())
     with pytest.raises(TypeError):
         call("run", DROP, "--trajectory", file)
     assert file.read_bytes() == before
@@ -708,3 +733,10 @@ def test_a_page_is_written_whole(call, drop: Path, tmp_path: Path):
     assert f"wrote {page}" in call("run", drop, "--html", page).out
     assert page.read_text("utf-8").rstrip().endswith("</html>")
     assert call("run", drop, "--html", tmp_path / "shot.png").code == 2
+
+
+def test_a_trajectory_of_several_runs_names_each(call, drop: Path, tmp_path: Path):
+    assert call("run", drop, "--compare", drop / "moon", "--trajectory", tmp_path / "x.csv").code == 0
+    rows = [line.split(",") for line in (tmp_path / "x.csv").read_text("utf-8").splitlines()]
+    assert rows[0] == ["t", "ball", "x", "y", "vx", "vy", "spin", "run"]
+    assert [*dict.fromkeys(row[-1] for row in rows[1:])] == ["drop", str(drop / "moon")]

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ast
+import subprocess
+import sys
 from collections.abc import Iterator
 from graphlib import TopologicalSorter
 from pathlib import Path
@@ -11,9 +13,10 @@ import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
 
-#: A module may import from its own room and from rooms of a lower floor. ``errors`` is open to all.
+#: A module may import from its own room and from rooms of a lower floor. ``errors`` and ``renamed`` are open to all.
 FLOORS = {
     "errors": 0,
+    "renamed": 0,
     "physics": 1,
     "workers": 1,
     "engine": 2,
@@ -30,6 +33,7 @@ FLOORS = {
     "picture": 4,
     "lab": 4,
     "record": 4,
+    "kit": 5,  # for scenes only
     "page": 5,
     "golden": 6,
     "window": 5,
@@ -45,9 +49,6 @@ SHARED_FLOORS = (3, 6)  # single modules, which may import each other
 #: Libraries that only some rooms may import; scenes/*/picture.py counts as picture.
 OWNERS = {"pymunk": {"engine"}, "pygame": {"picture", "window", "golden"}, "PIL": {"picture", "page", "golden"}}
 
-#: What runs, scenes and results show themselves with is above them: asked for by name, on first use. Nothing else is.
-SHOWN_WITH = {"sandbox.page.notebook", "sandbox.picture.plain", "sandbox.picture.views"}
-
 SCENES = sorted(path.parent.name for path in (ROOT / "scenes").glob("*/scene.py"))
 
 
@@ -62,11 +63,11 @@ def imported(tree: ast.AST, package: str) -> Iterator[str]:
             module = ".".join([*base, *([node.module] if node.module else [])])
             yield from (f"{module}.{alias.name}" for alias in node.names)
         elif isinstance(node, ast.Constant) and str(node.value).startswith("sandbox.") and room(str(node.value)):
-            yield from {str(node.value)} - SHOWN_WITH  # for import_module
+            yield str(node.value)  # for import_module
 
 
 def room(module: str) -> str:
-    """``"engine"`` for ``sandbox.engine.run``; ``""`` for ``sandbox`` itself."""
+    """``"engine"`` for ``sandbox.engine.paths.run``; ``""`` for ``sandbox`` itself."""
     name = [*module.split("."), ""][1]
     return name if name in FLOORS else ""  # sandbox.load is sandbox/__init__.py
 
@@ -103,6 +104,27 @@ def test_modules_look_only_downstairs():
     assert broken == []
 
 
+def offered() -> dict[str, str]:
+    """What ``sandbox.kit`` offers by name, and where it comes from: ``sandbox.kit.Ball``, ``sandbox.engine...Ball``."""
+    files = (ROOT / "sandbox" / "kit.py", ROOT / "sandbox" / "picture" / "views.py")
+    trees = [ast.parse(file.read_text("utf-8")) for file in files]
+    homes = [module for tree in trees for module in imported(tree, "sandbox") if module.startswith("sandbox.")]
+    return {f"sandbox.kit.{home.rpartition('.')[2]}": home for home in homes}
+
+
+def through_kit(source: str) -> str:
+    """The source of a scene with the imports from ``sandbox.kit`` as those from where the names come from."""
+    homes, tree = offered(), ast.parse(source)
+    named = [module for module in imported(tree, "itself") if module.startswith("sandbox.kit.")]
+    unknown = [module for module in named if module not in homes]
+    assert unknown == []
+    kept = [node for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.module == "sandbox.kit"]
+    lines = source.splitlines()
+    for node in kept:
+        lines[node.lineno - 1 : node.end_lineno] = [""] * (node.end_lineno - node.lineno + 1)
+    return "\n".join([*lines, *(f"import {homes[module]}" for module in named)])
+
+
 def used_by_scene(folder: Path) -> set[str]:
     """Names of the modules of a scene that its scene.py imports, which must do without pygame as it does."""
     names, waiting = set(), ["__init__", "scene"]
@@ -120,20 +142,36 @@ def test_scenes_use_what_a_scene_may():
     broken = []
     for path in sorted((ROOT / "scenes").rglob("*.py")):
         own = "scene" if path.parent == ROOT / "scenes" or path.stem in used_by_scene(path.parent) else "picture"
-        broken += broken_rules(path.read_text("utf-8"), str(path.relative_to(ROOT)), own)
+        broken += broken_rules(through_kit(path.read_text("utf-8")), str(path.relative_to(ROOT)), own)
     others = tuple(f"imports sandbox.{name.replace('-', '_')}." for name in SCENES)  # from ..soccer.ball: one sport
     assert [line for line in broken if "names the scene" not in line and not any(o in line for o in others)] == []
+
+
+def test_a_scene_takes_from_the_kit_what_it_may():
+    assert broken_rules(through_kit("from sandbox.kit import Ball, Run, RequestError, at"), "here", "scene") == []
+    source = "from sandbox.kit import (\n    Ball,\n    SideView,\n)"
+    assert broken_rules(through_kit(source), "here", "scene") == ["here: scene imports sandbox.picture.side.SideView"]
+    assert broken_rules(through_kit(source), "here", "picture") == []
+
+
+def test_the_kit_does_without_pygame_until_a_picture_needs_it():
+    code = "import sys, sandbox.kit; assert 'pygame' not in sys.modules; sandbox.kit.SideView; sys.modules['pygame']"
+    assert subprocess.run([sys.executable, "-c", code]).returncode == 0
 
 
 @pytest.mark.parametrize(
     ("own", "source"),
     [
         ("physics", "from sandbox.engine import run"),
+        ("scene", "from sandbox.kit import Ball"),  # the package itself
         ("physics", "from ..engine import run"),
         ("physics", "import sandbox.parameters"),
         ("engine", "def late():\n    from sandbox.scene import load"),
         ("engine", "import sandbox"),
         ("engine", "import_module('sandbox.lab.trade')"),
+        ("engine", "import_module('sandbox.page.notebook')"),
+        ("scene", "import_module('sandbox.page.notebook')"),
+        ("lab", "import_module('sandbox.page.notebook')"),
         ("scene", "from sandbox.picture.camera import Camera"),
         ("scene", "import pymunk"),
         ("scene", "from PIL import Image"),
@@ -156,7 +194,6 @@ def test_the_rules_can_be_broken(own: str, source: str):
     [
         ("engine", "from sandbox.physics.integrators import rk4\nfrom sandbox.errors import RunError\nimport pymunk"),
         ("picture", "from sandbox.scene import load\nimport pygame"),
-        ("engine", "import_module('sandbox.page.notebook')"),
         ("scene", "from sandbox import parameters, resources"),
         ("cli", "import sandbox\nfrom sandbox import report"),
     ],
@@ -165,17 +202,54 @@ def test_the_rules_allow_what_they_should(own: str, source: str):
     assert broken_rules(source, "here", own) == []
 
 
+#: The packages of the engine: a module may import from its own and from those before. Modules beside them, such as
+#: ``simulation``, stand between ``heap`` and ``many``; ``__init__`` is above all.
+ENGINE = ["model", "paths", "contact", "motion", "impact", "heap", "", "many", "__init__"]
+
+
+def engine_modules() -> dict[str, set[str]]:
+    """Each module of the engine, as ``motion/on_plane``, and those of the engine that it imports, late or for types."""
+    engine = ROOT / "sandbox" / "engine"
+    names = {str(path.relative_to(engine).with_suffix("")): path for path in engine.rglob("*.py")}
+    return {
+        name: {
+            "/".join(parts[: length + 1])
+            for module in imported(ast.parse(path.read_text("utf-8")), "sandbox.engine")
+            if module.startswith("sandbox.engine.")
+            for parts in [module.split(".")[2:]]
+            for length in range(len(parts))
+            if "/".join(parts[: length + 1]) in names
+        }
+        for name, path in names.items()
+    }
+
+
+def test_packages_of_the_engine_look_only_downwards():
+    def floor(name: str) -> int:
+        return ENGINE.index(name if name == "__init__" else name.rpartition("/")[0])
+
+    modules = engine_modules()
+    assert {name.partition("/")[0] for name in modules if "/" in name} == {name for name in ENGINE[:-1] if name}
+    upward = [
+        f"{name} imports {other}" for name, others in modules.items() for other in others if floor(other) > floor(name)
+    ]
+    assert upward == []
+
+
 def test_no_two_modules_of_the_engine_need_each_other():
     """Not even for types: what happened (run) knows what was set up, and not the other way round."""
-    engine = ROOT / "sandbox" / "engine"
-    needs = {
-        path.stem: {
-            name.split(".")[2]
-            for name in imported(ast.parse(path.read_text("utf-8")), "sandbox.engine")
-            if name.startswith("sandbox.engine.") and (engine / f"{name.split('.')[2]}.py").is_file()
-        }
-        for path in engine.glob("*.py")
-        if path.stem != "__init__"
-    }
-    order = list(TopologicalSorter(needs).static_order())  # raises CycleError, which names the circle
-    assert order.index("event") < order.index("setup") < order.index("run") < order.index("simulation")
+    order = list(TopologicalSorter(engine_modules()).static_order())  # raises CycleError, which names the circle
+    assert (
+        order.index("model/event") < order.index("model/setup") < order.index("paths/run") < order.index("simulation")
+    )
+
+
+def test_engine_and_physics_run_no_python_from_strings():
+    written = [
+        f"{path.relative_to(ROOT)}, line {node.lineno}"
+        for room in ("engine", "physics")
+        for path in sorted((ROOT / "sandbox" / room).rglob("*.py"))
+        for node in ast.walk(ast.parse(path.read_text("utf-8")))
+        if isinstance(node, ast.Name) and node.id in ("exec", "eval", "compile")
+    ]
+    assert written == []

@@ -24,6 +24,7 @@ from PIL import Image
 import sandbox.physics
 from sandbox.cli import program
 from sandbox.cli.program import app
+from sandbox.new import FROM_ABOVE, FROM_SIDE, new_scene
 from sandbox.parameters import walk
 from sandbox.physics.coefficients import GOLF_DRAG, GOLF_LIFT, SOCCER_DRAG, SOCCER_LIFT
 from sandbox.physics.integrators import INTEGRATORS
@@ -32,8 +33,8 @@ from sandbox.record import diverges
 ROOT = Path(__file__).resolve().parent.parent
 PHYSICS = (ROOT / "docs" / "physics.md").read_text("utf-8")
 
-#: Arithmetic for floats and arrays alike: nothing physical.
-NOT_MODELS = {"elementwise", "checks", "straight"}
+#: Arithmetic for floats and arrays alike, and a method of INTEGRATORS written by hand: nothing physical.
+NOT_MODELS = {"elementwise", "checks", "dormand_prince"}
 
 
 # Physics ------------------------------------------------------------------------------------------------------------
@@ -149,6 +150,23 @@ def test_the_walk_through_works_as_it_stands(golden, tmp_path: Path):
         assert subprocess.run(command, cwd=tmp_path, capture_output=True).returncode == 0
 
 
+def test_what_the_guide_and_the_templates_make_passes_strict_types(tmp_path: Path):
+    written: set[Path] = set()
+    for language, text in blocks(WALK):
+        first, _, rest = text.partition("\n")
+        if language == "python" and first.startswith("# "):
+            file = tmp_path / first.removeprefix("# ")
+            file.parent.mkdir(exist_ok=True)
+            with file.open("a" if file in written else "w", encoding="utf-8") as opened:
+                opened.write(rest)
+            written.add(file)
+    new_scene(tmp_path / "side", FROM_SIDE)
+    new_scene(tmp_path / "above", FROM_ABOVE)
+    command = [sys.executable, "-m", "mypy", "--strict", "-p", "beachvolley", "-p", "side", "-p", "above"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+    assert done.stdout.startswith("Success: no issues found in"), done.stdout + done.stderr
+
+
 # README -------------------------------------------------------------------------------------------------------------
 
 README = (ROOT / "README.md").read_text("utf-8")
@@ -193,6 +211,17 @@ def test_code_of_the_readme_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     assert names["Fan"]()(0.0, (6.0, 1.0), (0.0, 0.0), 0.0) == (0.0, 4.0)
 
 
+def test_code_of_the_page_on_sharing_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.chdir(tmp_path)
+    page = (ROOT / "docs" / "sharing.md").read_text("utf-8")
+    codes = [text for language, text in blocks(page) if language == "python"]
+    for code in codes:
+        exec(code, {})
+    assert codes
+    assert Path("golf-us.png").exists()
+    assert re.findall(r"`[^`\n]*\bsandbox\.\w+\.\w[^`\n]*`", page) == []  # rooms are imported, not reached by dots
+
+
 @pytest.mark.parametrize("picture", sorted((ROOT / "docs" / "pictures").glob("*.[jp]*g")), ids=lambda path: path.name)
 def test_pictures_of_the_readme_are_shown_and_small(picture: Path):
     assert f"docs/pictures/{picture.name}" in README
@@ -219,6 +248,14 @@ def test_every_room_is_in_the_house():
     house = (ROOT / "CONTRIBUTING.md").read_text("utf-8")
     rooms = {path.name for path in (ROOT / "sandbox").glob("[a-z]*")} - {"py.typed"}
     assert [room for room in rooms if f"`{room}`" not in house and f"`sandbox/{room}`" not in house] == []
+
+
+def test_every_module_of_the_engine_is_in_the_architecture():
+    page = (ROOT / "docs" / "architecture.md").read_text("utf-8")
+    modules = {path.name for path in (ROOT / "sandbox" / "engine").rglob("*.py")} - {"__init__.py"}
+    assert {name for name in modules if f"`{name}`" not in page} == set()
+    packages = page[page.index("## The packages") : page.index("## Words")]
+    assert set(re.findall(r"`(\w+\.py)`", packages)) <= modules
 
 
 # Links --------------------------------------------------------------------------------------------------------------

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Callable
 from pathlib import Path
@@ -18,7 +19,7 @@ NAME = "beachvolley"
 OF_DROP, OF_NEW, PICTURE = "drop/scene.py", f"{NAME}/scene.py", f"{NAME}/picture.py"
 #: Where a method of the new picture, of the drop's force, and of its surface begin.
 PLACE, FORCE, FLOOR = "    @cached_property", "        return 0.0 * velocity[0]", "friction=0.5)"
-BALL = "    ball = Ball("
+BALL, GRAVITY = "    ball = Ball(", "Gravity(parameters.ball.mass, parameters.gravity)"
 
 
 @pytest.fixture(scope="module")
@@ -55,15 +56,23 @@ def scene(written: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pat
         (OF_DROP, FORCE, "        raise SystemExit('well')\n        return 0", "ExitCalled: SystemExit('we"),
         (OF_DROP, FLOOR, "friction=0.5, law=lambda *_: exit(0))", "ExitCalled: SystemExit(0)"),
         (OF_DROP, BALL, f"    raise GeneratorExit\n{BALL}", "ExitCalled: GeneratorExit()"),
+        (OF_DROP, f"({GRAVITY},)", GRAVITY, "forces = Gravity(mass=0.2, gravity=9.81) must be a list: write it in [ ]"),
+        (OF_DROP, "Setup((ball,)", "Setup(ball", "must be a list: write it in [ ]"),
+        (OF_DROP, FORCE, "        raise BrokenPipeError\n        return 0", "BrokenPipeError"),
+        (OF_DROP, FORCE, "        raise StopIteration\n        return 0", "StopIteration"),
+        (OF_DROP, FORCE, "        raise ValueError('a\\x1b[31mb')\n        return 0", "ValueError: a\\u001b[31mb"),
         (OF_NEW, "launch.height, parameters", "launch.hight, parameters", "AttributeError: 'Toss' object has no"),
         (OF_NEW, "def build(", "\udcff\ndef build(", "SyntaxError: "),
         (OF_NEW, 'at(landing, "x")', 'at(landing, "ex")', 'ValueError: at(..., "ex"): a Moment has t'),
         (OF_NEW, 'until=Touches("floor", 4)', "until=lambda event: event.foo", "AttributeError: 'Event'"),
         (OF_NEW, 'Touches("floor"', 'Touches("flor"', "until = Touches(what='flor', times=4): there are ball, floor"),
         (OF_NEW, "duration=20.0", "duration=-20.0", "duration = -20.0 s must be positive"),
+        (PICTURE, '"shooting"', '"hopping"', "pose = 'hopping': there is no such pose; the poses are standing, sho"),
+        (PICTURE, '"shooting"', '"serving"', "'serving': colours lacks racket; this pose needs racket, far, body, sh"),
         (PICTURE, "Place(Hall", "Place(Hole", "NameError: name 'Hole' is not defined"),
         (PICTURE, "launch.height)", "launch.hight)", "AttributeError: 'Toss' object has no"),
-        (PICTURE, "picture.places", "picture.plaices", "ModuleNotFoundError: No module named 'sandbox.picture.plai"),
+        (PICTURE, "import Ground", "import Grounds, Ground", "ImportError: cannot import name 'Grounds' from 'sandbox"),
+        (OF_NEW, "    Setup,", "    Set_up,", "ImportError: cannot import name 'Set_up' from 'sandbox.kit'"),
         (PICTURE, PLACE, f"    def poster(self): exit(0)\n\n{PLACE}", "SystemExit: 0"),
         (PICTURE, PLACE, f"    def poster(self): open('gone')\n\n{PLACE}", "FileNotFoundError: "),
     ],
@@ -97,7 +106,11 @@ HANDED_OVER = [
     *(
         (OF_DROP, "FACTS = (", f"x = []\nx.append(x)\nFACTS = (Fact('odd', '', '', lambda run, _: {what}),", said)
         for what, said in (
-            ("x", "the fact odd must return a number, a text, true or false, or a list of those, but returned [[...]]"),
+            (
+                "x",
+                "the fact odd must return a number, a text of at most 400 characters, true or false, or a list of "
+                "those, but returned [[...]]",
+            ),
             ("[1j]", "or a list of those, but returned [1j]"),
             ("10**400", "the fact odd must return a num"),
             ("run", "or a list of those, but returned <Run"),
@@ -121,7 +134,7 @@ DEFINED = [
     (OF_NEW, 'settled="floor"', 'settled="flor"', 'is settled by "flor", but there are start, end, ball, floor'),
     (OF_NEW, '"apex", "apex"', '"distance", "apex"', "FACTS: two are called distance"),
     (OF_NEW, "def build(parameters: Parameters)", "def build()", "build is called as build(parameters)"),
-    (OF_NEW, "def verdict(run: Run, ", "def verdict(", "verdict is called as verdict(run, parameters)"),
+    (OF_NEW, "def verdict(run: SceneRun, ", "def verdict(", "verdict is called as verdict(run, parameters)"),
     (OF_NEW, "return 0.0, self.push", "0.0, self.push", "must return"),
     (OF_NEW, "return 0.0, self.push", "return self.push", "must return"),
     (OF_NEW, "velocity: Any, spin: Any)", "velocity: Any)", "is called with"),
@@ -137,7 +150,7 @@ DEFINED = [
     (PICTURE, PLACE, f"    def frame(self, x, t): ...\n{PLACE}", "called as Picture.frame(self, t)"),
     (PICTURE, PLACE, f"    def poster(self): ...\n{PLACE}", "must return a pygame.Surface, and returned None"),
     (PICTURE, PLACE, f"    def frame(self, t): ...\n\n    def poster(self): return 3\n\n{PLACE}", "and returned 3"),
-    (PICTURE, "return Place(", "Place(", "picture.py, line 16: Picture.place must return a Place, and returned None"),
+    (PICTURE, "return Place(", "Place(", "picture.py, line 15: Picture.place must return a Place, and returned None"),
     (
         PICTURE,
         PLACE,
@@ -195,3 +208,39 @@ def test_a_bug_of_ours_is_not_hidden(call: Call, monkeypatch: pytest.MonkeyPatch
     monkeypatch.setattr("sandbox.tracebacks.is_ours", lambda filename: True)  # this test stands in for our own code
     with pytest.raises(IndexError):
         call("run", "golf")
+
+
+def test_an_error_text_without_an_end_is_cut(call: Call, scene: Path):
+    change(scene / OF_DROP, FORCE, f"        raise ValueError('y' * 100_000)\n{FORCE}")
+    outcome = call("run", "./drop")
+    assert (outcome.code, len(outcome.err) < 1_000) == (1, True)
+    assert "ValueError: yyy" in outcome.err
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        (
+            'return "Bounced"',
+            'return 100_000 * "x"',
+            "verdict must return text of at most 400 characters, but returned 'x",
+        ),
+        ("float(run.state", "10**5000 * int(run.state", "final_height must return a number, a text of at most 400"),
+        ("float(run.state", "100_000 * str(run.state", "final_height must return a number, a text of at most 400"),
+        (
+            "float(run.state",
+            "dict.fromkeys([500 * 'k'], 1.0) or (run.state",
+            "final_height must return a number, a text",
+        ),
+    ],
+)
+def test_what_no_card_has_room_for_is_refused(call: Call, scene: Path, old: str, new: str, expected: str):
+    change(scene / OF_DROP, old, new)
+    assert_refused(call("run", "./drop", "--poster", "x.png"), expected, 1)
+
+
+def test_an_array_of_numpys_is_a_list(call: Call, scene: Path):
+    change(scene / OF_DROP, "float(run.state", "__import__('numpy').array([1.0, 2.0]) if run else (run.state")
+    outcome = call("run", "./drop", "--json")
+    assert json.loads(outcome.out)["result"]["final_height"] == [1.0, 2.0]
+    assert call("run", "./drop", "--poster", "x.png").code == 0

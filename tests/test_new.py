@@ -61,7 +61,7 @@ def test_what_it_writes_is_whole_and_little_enough_to_read_before_lunch(call, na
     assert f"pytest {name} --golden-update" in out
     texts = {file: Path(name, file).read_text("utf-8") for file in files}
     assert not any(re.search(r"\btemplate", text) for text in texts.values())
-    assert sum(len(texts[file].splitlines()) for file in ("scene.py", "picture.py")) < 120
+    assert sum(len(texts[file].splitlines()) for file in ("scene.py", "picture.py")) < 130
     assert json.loads(texts[f"{name}.schema.json"]) == json.loads(call("schema", f"./{name}").out)
     assert texts[f"{name}.toml"].startswith(f"#:schema ./{name}.schema.json\n")
 
@@ -236,7 +236,8 @@ def test_their_golden_tests(scene: Path, above: Path):
         assert f"{golden}: new" in made.stdout
         assert 3_000 < golden.stat().st_size < 60_000
     change(scene / f"{NAME}.toml", "push = 4.0", "push = 3.9")
-    change(above / "picture.py", "(240, 176, 64)", "(64, 176, 240)")
+    # Another length, as Python takes a file of the same second and size from its cache.
+    change(above / "picture.py", "(240, 176, 64)", "(64, 76, 240)")
     changed = pytest_in(scene.parent, NAME, ABOVE)
     assert changed.returncode == 1
     assert "the physics changed" in changed.stdout

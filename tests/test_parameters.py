@@ -19,20 +19,20 @@ from sandbox.parameters import (
     Group,
     Quantity,
     choice,
-    either,
     every_key,
     group,
     groups,
     known_keys,
     merged,
+    one_of,
     parse_assignment,
     quantity,
     switch,
+    text,
     validate,
     vector,
     vectors,
     walk,
-    word,
 )
 from sandbox.schema import json_schema
 from sandbox.toml import read_toml
@@ -63,7 +63,7 @@ class FittedDrag(Group):
 class Ball(Group):
     mass: float = quantity(1.0, "kg", low=1e-6, high=100, meaning="mass")
     radius: float = quantity(0.1, "m", low=1e-6, high=1, meaning="radius")
-    drag: NoDrag | ConstantDrag | FittedDrag = either(FittedDrag(), "drag of the air")
+    drag: NoDrag | ConstantDrag | FittedDrag = one_of(FittedDrag(), "drag of the air")
 
 
 class Air(Group):
@@ -72,7 +72,7 @@ class Air(Group):
 
 
 class Place(Group):
-    name: str = word("whose place it is")
+    name: str = text("whose place it is")
     x: float = quantity(0.0, "m", low=0, high=1, meaning="along the table")
 
 
@@ -110,7 +110,7 @@ def test_what_a_file_leaves_out_takes_the_default_of_the_scene():
 
 class OwnBall(Group):
     shape: Literal["round", "long"] = choice(..., "seen from the side")
-    drag: NoDrag | FittedDrag = either(FittedDrag(critical=6e4), "drag of the air")
+    drag: NoDrag | FittedDrag = one_of(FittedDrag(critical=6e4), "drag of the air")
 
 
 class Needs(Group):
@@ -272,7 +272,7 @@ def test_a_bad_number_is_refused_with_file_key_value_bound_and_unit(value: Any, 
         ({"ball": {"drag": {"qqq": 1}}}, "ball.drag.qqq: unknown key; ball.drag has model, critical, velocity"),
         (
             {"ball": {"drag": {"coefficient": 1}}},
-            'coefficient: unknown key here; it goes with ball.drag.model = "con',
+            'coefficient: unknown key here; it belongs to ball.drag.model = "con',
         ),
         ({"balls": [{"name": "one", "y": 0}]}, "balls[0].y: unknown key; balls has name, x"),
         # a value of the wrong kind
@@ -315,7 +315,7 @@ def test_several_mistakes_take_two_lines():
     message = refusal({"gravity": 99, "holed": 3, "launch": {"speed": 400, "sped": 3}})
     assert message.splitlines() == [
         "shot.toml: gravity = 99: must be from 0 to 30 m/s^2",
-        "(3 more like this: shot.toml: launch.speed = 400: must be from 0 to 340 m/s, ...)",
+        "(and 3 more: shot.toml: launch.speed = 400: must be from 0 to 340 m/s, ...)",
     ]
 
 
@@ -406,7 +406,7 @@ def test_a_byte_order_mark_does_no_harm_and_unreadable_files_are_refused(tmp_pat
     assert read_toml(tmp_path / "shot.toml") == {"gravity": 3}
     with pytest.raises(RequestError, match="no such file"):
         read_toml(tmp_path / "none.toml")
-    with pytest.raises(RequestError, match="is a directory"):
+    with pytest.raises(RequestError, match="is a folder"):
         read_toml(tmp_path)
 
 

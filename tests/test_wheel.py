@@ -137,7 +137,9 @@ def test_a_failure_there_shows_nothing_of_ours(installed: Call):
 
 
 def test_types_are_seen_there(installed: Call):
-    source = "import sandbox\nfrom sandbox.engine.setup import Ball\nreveal_type(sandbox.load('golf').name)\nBall(1)\n"
+    source = (
+        "import sandbox\nfrom sandbox.engine.model.setup import Ball\nreveal_type(sandbox.load('golf').name)\nBall(1)\n"
+    )
     checked(installed("python", "-c", f"open('typed.py', 'w').write({source!r})"))
     # to read the libraries as well would take as long again
     options = "[mypy]\n[mypy-numpy.*,pydantic.*]\nfollow_imports = skip\nfollow_imports_for_stubs = True\n"

@@ -25,7 +25,10 @@ def main(args: list[str] | None = None) -> int:
         if args is None:
             interrupts.begin()
         from sandbox.cli.program import call
+        from sandbox.errors import no_forks
 
+        if args is None:
+            no_forks()
         code = call(args)
     except BaseException as error:
         if not is_interrupt(error):

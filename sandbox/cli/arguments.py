@@ -1,4 +1,4 @@
-"""What several commands share: arguments for a scene and changes to it, and printing."""
+"""Parts that several commands share: arguments for a scene and changes to it, and printing."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ scene_argument = click.argument(
     "scene", metavar="SCENE", help="A scene (golf), a preset (golf/driver) or a scene file of your own."
 )
 optional_scene = click.argument(
-    "scene", metavar="[SCENE]", required=False, help="A scene, preset or scene file; all scenes if none."
+    "scene", metavar="[SCENE]", required=False, help="A scene, preset or scene file.  [default: all scenes]"
 )
-json_option = click.option("--json", "as_json", is_flag=True, help="Print one JSON value in place of the text.")
+json_option = click.option("--json", "as_json", is_flag=True, help="Print JSON instead of text.")
 
 
 def changes_options(command: Command) -> Command:
@@ -40,7 +40,7 @@ def changes_options(command: Command) -> Command:
     @click.option(
         "--accuracy",
         type=click.Choice(LEVELS),
-        help="Speed against accuracy, in place of the scene file's accuracy.level.",
+        help="Accuracy level; overrides the scene file's.",
     )
     @wraps(command)
     def changed(*, settings: tuple[str, ...], accuracy: str | None, **arguments: Any) -> None:

@@ -1,8 +1,13 @@
-"""Ctrl-C, SIGTERM and a closed terminal as one KeyboardInterrupt that is never lost."""
+"""Ctrl-C, SIGTERM and a closed terminal as one KeyboardInterrupt that is never lost.
+
+A scene may be inside a call of C that never ends, such as ``sum(range(10**12))``: Python cannot raise anything there,
+and a second signal ends the program.
+"""
 
 from __future__ import annotations
 
 import _thread
+import ctypes
 import os
 import signal
 import sys
@@ -26,7 +31,7 @@ if hasattr(signal, "SIGHUP"):
 
 
 def is_interrupt(error: BaseException) -> bool:
-    """Whether an error is an interrupt; Python 3.11 makes a RuntimeError of what ``__set_name__`` raises."""
+    """True if an error is an interrupt; Python 3.11 makes a RuntimeError of what ``__set_name__`` raises."""
     return isinstance(error, KeyboardInterrupt) or isinstance(error.__cause__, KeyboardInterrupt)
 
 
@@ -41,7 +46,7 @@ class Interrupts:
         """Handle the signals that nobody else handles or ignores."""
         for number, default in _HANDLED.items():
             if signal.getsignal(number) is default:
-                signal.signal(number, self)
+                self._handle_once(number)
         sys.unraisablehook = self._lost
 
     def end(self) -> None:
@@ -50,7 +55,18 @@ class Interrupts:
             if signal.getsignal(number) is self:
                 signal.signal(number, signal.SIG_IGN)
 
+    def _handle_once(self, number: int) -> None:
+        """Handle a signal; from when it is received until Python calls this handler, another one ends the program. So
+        it is where the C library has ``sysv_signal``; elsewhere another one has no effect until then."""
+        signal.signal(number, self)
+        handle = getattr(ctypes.CDLL(None), "sysv_signal", None) if os.name == "posix" else None
+        if handle is not None:
+            handler = ctypes.pythonapi.PyOS_getsig  # Python's own, in C
+            handler.restype = ctypes.c_void_p
+            handle(number, ctypes.c_void_p(handler(number)))
+
     def __call__(self, number: int, frame: FrameType | None) -> None:
+        self._handle_once(number)
         now = time.monotonic()
         if now - self._last >= _ONE:
             self._last = now

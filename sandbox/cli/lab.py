@@ -18,10 +18,10 @@ from sandbox.files import json_text, writing
     "--vary", metavar="KEY=LO:HI", multiple=True, required=True, help="A number and its range; once or twice."
 )
 @click.option("--target", metavar="NAME=VALUE", multiple=True, help="A result and its target value; once or twice.")
-@click.option("--maximize", metavar="NAME", help="A number that is to be as great as possible.")
+@click.option("--maximize", metavar="NAME", help="Result to maximize.")
 @changes_options
 @json_option
-@click.option("--show", metavar="F.png", type=Path, help="Draw the results of all tries.")
+@click.option("--show", metavar="F.png", type=Path, help="Draw the results of all trials.")
 def aim(
     scene: str,
     vary: tuple[str, ...],
@@ -36,6 +36,9 @@ def aim(
     Each has its numerical error. For a target that is true or false, or a word, it finds intervals: the widest first,
     with its middle, which is the most forgiving value; by two parameters it finds regions, each with its most forgiving
     point. If there is no solution it reports the nearest result, and the exit code is 0.
+
+    A number that jumps, as where a golf ball stops, takes a minute or two, since each place where it may reach the
+    target is searched. A target that is not a number takes 500 to 2,000 runs, and more where it changes.
 
     \b
     Examples:
@@ -84,7 +87,7 @@ def aim(
     required=True,
     help="A parameter and its values, also as KEY=A,B,C; repeatable.",
 )
-@click.option("--out", metavar="F.csv", type=Path, required=True, help="One row for each point.")
+@click.option("--out", metavar="F.csv", type=Path, required=True, help="CSV file to write, one row per point.")
 @changes_options
 @click.option(
     "--samples",
@@ -99,7 +102,7 @@ def aim(
     "--html", metavar="F.html", type=Path, help="A page with the map, and the path of the point under the cursor."
 )
 @click.option("--of", metavar="NAME", help="The result that --plot and --html show.")
-@click.option("--jobs", metavar="N", type=int, help="Number of processes.  [default: as many as save time]")
+@click.option("--jobs", metavar="N", type=int, help="Number of processes.  [default: chosen automatically]")
 @click.option("--scheduler", metavar="ADDRESS", help="Run on the workers of a Dask scheduler.")
 def sweep(
     scene: str,
@@ -117,8 +120,8 @@ def sweep(
 ) -> None:
     """Run a scene for each point of a grid, or for random points.
 
-    Each is a row of the file. Ctrl-C keeps the rows that are done; the same command again resumes from there. If the
-    file holds another sweep, it is kept as F.csv~. A point that fails is a row with its error.
+    Writes one row per point. Ctrl-C keeps the rows that are done; the same command again resumes from there. If the
+    file holds another sweep, that is kept as F.csv~. A point that fails is a row with its error.
 
     \b
     Examples:
@@ -130,16 +133,16 @@ def sweep(
     from sandbox.lab.axes import parse_axis
     from sandbox.lab.plan import Plan
     from sandbox.lab.row_file import rows
-    from sandbox.lab.sweep import jobs_that_pay, sweep_to_file, workers
+    from sandbox.lab.sweep import sweep_to_file, workers, worthwhile_jobs
     from sandbox.progress import bar
 
     chosen = load(scene, changes)
     plan = Plan(chosen, tuple(parse_axis(chosen, "--over", text) for text in over), samples or 0, seed or 0, check)
     check_file("--out", out, ".csv")
     if seed is not None and samples is None:
-        raise RequestError(f"--seed {seed}: goes with --samples")
+        raise RequestError(f"--seed {seed}: requires --samples")
     if of is not None and plot is None and html is None:
-        raise RequestError(f"--of {of}: goes with --plot or --html")
+        raise RequestError(f"--of {of}: requires --plot or --html")
     if plot is not None:
         from sandbox.lab.chart import check_chart
         from sandbox.lab.maps import check_plot
@@ -153,7 +156,7 @@ def sweep(
         check_file("--html", html, ".html")
         check_installed("--html", "matplotlib")
         page.check_page(plan)
-    with workers(jobs_that_pay(plan) if jobs is None else jobs, scheduler) as pool, bar("sweep") as progress:
+    with workers(worthwhile_jobs(plan) if jobs is None else jobs, scheduler) as pool, bar("sweep") as progress:
         done = sweep_to_file(plan, out, pool, progress)
     if plot is not None:
         from sandbox.lab.maps import draw_sweep
@@ -179,9 +182,9 @@ def sweep(
 @json_option
 @click.option("--plot", metavar="F.png", type=Path, help="Draw error against speed, a curve for each method.")
 def trade(scene: str, changes: dict[str, Any], as_json: bool, plot: Path | None) -> None:
-    """Measure speed against accuracy for a scene.
+    """Measure the speed-accuracy trade-off of a scene.
 
-    Of every method and level; and what each part of the model contributes. Takes half a minute on an idle machine.
+    Covers every method and level, and the effect of each part of the model. Takes half a minute on an idle machine.
 
     \b
     Examples:
@@ -211,7 +214,7 @@ def trade(scene: str, changes: dict[str, Any], as_json: bool, plot: Path | None)
 def stress(scene: str | None, changes: dict[str, Any], as_json: bool) -> None:
     """Run a scene, or all of them, at extreme values.
 
-    With every method; the report says what happened at each.
+    Tries every method and reports each outcome.
 
     \b
     Examples:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,7 +15,7 @@ from sandbox.errors import RequestError
 from sandbox.files import LARGEST, SMALLEST, check_size, writing
 
 if TYPE_CHECKING:
-    from sandbox.engine.run import Run
+    from sandbox.scene.scene_run import SceneRun
 
 #: The size of pictures in px, unless another is asked for.
 USUAL = (1280, 720)
@@ -26,12 +27,22 @@ Size = tuple[int, int]
 
 @dataclass(frozen=True)
 class Drawn:
-    """A run to write, and the requested size and rate of its pictures; ``rate`` is in frames per second."""
+    """A run to write, and the requested size and rate of its pictures; ``rate`` is in frames per second.
 
-    run: Run
+    ``others`` are the runs that it is compared with, each by the scene's name or file as it was requested.
+    """
+
+    run: SceneRun
     size: Size | None = None
     rate: int | None = None
-    ghosts: Mapping[str, Run] | None = None
+    others: Mapping[str, SceneRun] = field(default_factory=dict)
+
+    @property
+    def ghosts(self) -> Mapping[str, SceneRun]:
+        """The other runs by the short names that pictures show; in full where two would be alike."""
+        short = {source: source.removesuffix(".toml").split("/")[-1] for source in self.others}
+        alike = Counter(short.values())
+        return {name if alike[name] == 1 else source: self.others[source] for source, name in short.items()}
 
     @cached_property
     def picture(self) -> Any:
@@ -55,7 +66,7 @@ class Output:
 def _trajectory(drawn: Drawn, path: Path) -> None:
     from sandbox import report
 
-    report.write_trajectory(drawn.run, path)
+    report.write_trajectory(drawn.run, path, drawn.others)
 
 
 def _poster(drawn: Drawn, path: Path) -> None:
@@ -67,8 +78,11 @@ def _poster(drawn: Drawn, path: Path) -> None:
 def _html(drawn: Drawn, path: Path) -> None:
     from sandbox.page.parts import save
     from sandbox.page.replay import page_of
+    from sandbox.sport.amounts import chosen_units
 
-    save(page_of(drawn.run, drawn.ghosts), path)
+    options = [word for source in drawn.others for word in ("--compare", source)]
+    options += ["--units", chosen_units()] if chosen_units() != "si" else []
+    save(page_of(drawn.run, drawn.ghosts, options), path)
 
 
 def _strip(drawn: Drawn, path: Path) -> None:
@@ -81,10 +95,10 @@ def _strip(drawn: Drawn, path: Path) -> None:
 
 
 def _energy(drawn: Drawn, path: Path) -> None:
-    from sandbox.picture.energy_chart import energy_chart
+    from sandbox.picture.energy_chart import energy_charts
     from sandbox.picture.frames import save_png
 
-    save_png(energy_chart(drawn.run, drawn.size or USUAL), path)
+    save_png(energy_charts([drawn.run, *drawn.others.values()], drawn.size or USUAL), path)
 
 
 def _graph(drawn: Drawn, path: Path) -> None:
@@ -118,7 +132,7 @@ OUTPUTS = (
     Output("--html", ".html", _html, "Write a page for any browser that plays the run; it needs no network.", False),
     Output("--strip", ".png", _strip, "Write some frames side by side."),
     Output("--energy", ".png", _energy, "Write a chart of where the energy goes."),
-    Output("--graph", ".png", _graph, "Write graphs over time: place, speed, spin, acceleration, forces, energy."),
+    Output("--graph", ".png", _graph, "Write graphs over time: position, speed, spin, acceleration, forces, energy."),
     Output("--gif", ".gif", _animation("save_gif", 25, SMALL), "Write it as an animation below 5 MB.", moves=True),
     Output("--webp", ".webp", _animation("save_webp", 25), "Write it as WebP: all colours, smaller file.", moves=True),
     Output(
@@ -162,9 +176,9 @@ def requested(paths: Mapping[str, Path | None], size: Size | None, rate: int | N
             check_frames_folder(output.option, path)
     check_distinct(given)
     if rate is not None and not any(output.moves for output in chosen):
-        raise RequestError(f"--fps {rate}: goes with --frames, --gif, --video or --webp")
+        raise RequestError(f"--fps {rate}: requires --frames, --gif, --video or --webp")
     if size is not None and not any(output.is_picture for output in chosen):
-        raise RequestError(f"--size {'x'.join(map(str, size))}: goes with a picture, such as --poster F.png")
+        raise RequestError(f"--size {'x'.join(map(str, size))}: requires a picture, such as --poster F.png")
     return chosen
 
 

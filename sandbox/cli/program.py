@@ -13,7 +13,7 @@ import click
 import sandbox
 from sandbox.cli.interrupts import is_interrupt
 from sandbox.errors import SandboxError, Stopped
-from sandbox.text import printable
+from sandbox.text import one_line, printable
 
 #: The commands of each module, which is imported when one of them is needed.
 COMMANDS = {
@@ -60,8 +60,6 @@ def call(args: Sequence[str] | None) -> int:
         return 0
     except click.exceptions.Exit as done:  # after --help
         return done.exit_code
-    except BrokenPipeError:  # nobody reads what is printed
-        return 1
     except click.ClickException as error:  # unknown command, missing argument, bad option
         hint = _unquoted(given, error.format_message()) or f"{_command_of(error, given)} --help shows its arguments"
         return _fail(f"{error.format_message()}\n{hint}", error.exit_code)
@@ -74,9 +72,30 @@ def call(args: Sequence[str] | None) -> int:
         from sandbox.tracebacks import of_user_code
 
         text = None if is_interrupt(error) else of_user_code(error)
+        if text is not None:
+            return _fail(text, 1)
+        if isinstance(error, BrokenPipeError):  # nobody reads what is printed
+            return 1
+        text = _of_the_machine(error)
         if text is None:
             raise
         return _fail(text, 1)
+
+
+def _of_the_machine(error: BaseException) -> str | None:
+    """Return what the machine lacks, if that is why a command failed: memory, room on a disk, open files; else None."""
+    first = error
+    while first.__cause__ or first.__context__:
+        first = first.__cause__ or first.__context__ or first
+    if isinstance(first, MemoryError) or str(first) == "Out of memory":  # Python's, and pygame's
+        return "there is not enough memory"
+    if isinstance(error, OSError):
+        from sandbox.files import reason
+
+        return f"{error.filename or 'stdout'}: {reason(error)}"
+    if isinstance(error, ImportError) and ".so" in str(first):
+        return f"a library cannot be loaded: {one_line(str(first))}"
+    return None
 
 
 def _unquoted(args: list[str], message: str) -> str:

@@ -22,12 +22,15 @@ if TYPE_CHECKING:
 @click.option(
     "--check",
     is_flag=True,
-    help="Run again, finer and from starts 1 nm away: each number's error, and what is chaotic.",
+    help="Rerun at finer accuracy and from starts moved by 1 nm: each number's error, and what is chaotic.",
 )
 @units_option
 @outputs.options
 @click.option(
-    "--compare", metavar="SCENE", help="Another preset or scene file: its numbers and its path next to this one's."
+    "--compare",
+    metavar="SCENE",
+    multiple=True,
+    help="Another preset or scene file: its numbers and its path next to this one's; repeatable.",
 )
 @click.option(
     "--fps",
@@ -47,7 +50,7 @@ def run(
     changes: dict[str, Any],
     as_json: bool,
     check: bool,
-    compare: str | None,
+    compare: tuple[str, ...],
     fps: int | None,
     size: outputs.Size | None,
     **paths: Path | None,
@@ -60,7 +63,7 @@ def run(
       sandbox run golf --set launch.speed="171 mph" --set air.wind=[-3,0]
       sandbox run golf --poster golf.png --trajectory golf.csv
       sandbox run golf --frames frames --fps 30 --size 1920x1080
-      sandbox run golf --compare golf/headwind --poster both.png
+      sandbox run golf --compare golf/headwind --compare golf/moon --poster three.png
       sandbox run my-shot.toml --accuracy precise --check --json
     """
     from sandbox import report
@@ -76,13 +79,12 @@ def run(
         except RequestError as error:  # what only the scene can check: two balls in one place
             raise RequestError(f"{scene}: {error}") from None
         checked = check_scene(chosen, done, progress) if check else None
-        other = None if compare is None else (compare, simulate(_comparable(chosen, compare, changes), progress))
+        others = {source: simulate(_comparable(chosen, source, changes), progress) for source in compare}
     if as_json:
-        said = report.as_json(chosen, done, checked, None if other is None else other[1])
+        said = report.as_json(chosen, done, checked, list(others.values()))
     else:
-        said = "\n".join(report.card(chosen, done, checked, other))
-    ghosts = {} if other is None else {other[0].removesuffix(".toml").split("/")[-1]: other[1]}
-    outputs.write(files, outputs.Drawn(done, size, fps, ghosts))
+        said = "\n".join(report.card(chosen, done, checked, others))
+    outputs.write(files, outputs.Drawn(done, size, fps, others))
     written = [] if as_json else [f"wrote {path}" for path in files.values()]
     say("\n".join([said, *written]))
 

@@ -42,10 +42,10 @@ def schema(scene: str) -> None:
 
 
 @click.command()
-@click.argument("name", metavar="NAME", type=Path, help="The folder to make: its name is the scene's.")
-@click.option("--from-above", is_flag=True, help="Show it from above, not from the side.")
+@click.argument("name", metavar="NAME", type=Path, help="Folder to create; it names the scene.")
+@click.option("--from-above", is_flag=True, help="Seen from above, not from the side.")
 def new(name: Path, from_above: bool) -> None:
-    """Create a scene of your own: one that works, for you to edit.
+    """Create a working scene to edit.
 
     \b
     Example:

@@ -1,16 +1,22 @@
-"""The engine: exact flight, exact times of contact, impulses by pymunk. Only this package imports pymunk."""
+"""The engine: exact flight, exact times of contact, impulses by pymunk. Only this package imports pymunk.
+
+What simulates is imported when it is first used: it brings pymunk, which reading a scene does not need.
+"""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from sandbox.renamed import name_old_modules
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
-    from sandbox.engine.accuracy import Accuracy
-    from sandbox.engine.clusters import Asking
-    from sandbox.engine.run import Run
-    from sandbox.engine.setup import Setup
+    from sandbox.engine.model.accuracy import Accuracy
+    from sandbox.engine.model.setup import Setup
+    from sandbox.engine.paths.run import Run
+
+name_old_modules()
 
 
 def simulate(setup: Setup, accuracy: Accuracy, progress: Callable[[float, float], None] | None = None) -> Run:
@@ -19,43 +25,39 @@ def simulate(setup: Setup, accuracy: Accuracy, progress: Callable[[float, float]
     The plain method, which may take many steps, reports to ``progress`` the time simulated and the most that it can
     become, in s.
     """
-    from sandbox.engine.simulation import alone  # here, not above: it brings pymunk
+    from sandbox.engine.model.setup_errors import setup_errors_named
 
-    return alone(_run(setup, accuracy, progress))
+    with setup_errors_named():
+        if accuracy.method == "plain":
+            from sandbox.engine.plain import PlainSimulation
 
+            return PlainSimulation(setup, accuracy, progress).run()
+        from sandbox.engine.simulation import Simulation
 
-def _run(setup: Setup, accuracy: Accuracy, progress: Callable[[float, float], None] | None = None) -> Asking[Run]:
-    # here, not above: they bring pymunk, which reading a scene does not need
-    if accuracy.method == "plain":
-        from sandbox.engine.plain import PlainSimulation
-
-        return PlainSimulation(setup, accuracy, progress).run()
-    from sandbox.engine.simulation import Simulation
-
-    return (yield from Simulation(setup, accuracy).run())
+        return Simulation(setup, accuracy).run()
 
 
-def simulate_many(setups: Sequence[Setup], accuracy: Accuracy, at_once: int = 1) -> Iterator[Run | Exception]:
-    """A run of each setup, in order, or the exception it ended with.
+def simulate_many(setups: Sequence[Setup], accuracy: Accuracy) -> Iterator[Run | Exception]:
+    """Yield a run of each setup, in order, or the exception it ended with.
 
-    Setups of one flight that differ only in numbers are computed together, with the results of ``simulate`` to
+    Setups of one ball in flight that differ only in numbers are computed together, with the results of ``simulate`` to
     rounding; their forces are then called with arrays of shape (n,) for time, position, velocity and spin. If there are
-    others among them, or forces that cannot take arrays, all run one at a time; or so many ``at_once``, which pass
-    together through their first contacts of several balls, as racks do: quicker, with other rounding and a step that
-    they have in common.
+    others among them, or forces that cannot take arrays, all run one at a time.
     """
-    from sandbox.engine.batch import together
-    from sandbox.engine.simulation import side_by_side
+    from sandbox.engine.many.batch import simulate_batch
 
-    runs = together(setups, accuracy) if accuracy.method == "exact" else None
-    if runs is not None:
-        yield from runs
-        return
-    for first in range(0, len(setups), at_once):
-        places = range(first, min(first + at_once, len(setups)))
-        yield from side_by_side([_run(setups[place], accuracy) for place in places])
+    batch = simulate_batch(setups, accuracy) if accuracy.method == "exact" else None
+    for setup in setups:
+        yield _run_or_error(setup, accuracy) if batch is None else next(batch)
 
 
-def flies_in_batches(setup: Setup, accuracy: Accuracy) -> bool:
-    """Whether ``simulate_many`` is quicker for setups of this kind than ``simulate`` one by one."""
-    return accuracy.method == "exact" and setup.is_flight
+def _run_or_error(setup: Setup, accuracy: Accuracy) -> Run | Exception:
+    try:
+        return simulate(setup, accuracy)
+    except Exception as error:
+        return error
+
+
+def can_batch(setup: Setup, accuracy: Accuracy) -> bool:
+    """True if ``simulate_many`` is quicker for setups of this kind than ``simulate`` one by one."""
+    return accuracy.method == "exact" and setup.is_single_ball

@@ -10,12 +10,12 @@ from collections import defaultdict
 from dataclasses import dataclass
 from itertools import pairwise
 
-from sandbox.engine.acting import acceleration, by_cause
-from sandbox.engine.arc import Arc
-from sandbox.engine.lasting import LastingContact
-from sandbox.engine.run import Run
-from sandbox.engine.setup import Ball, kinetic
-from sandbox.engine.track import Heaped, Pressing
+from sandbox.engine.model.ball import Ball, kinetic
+from sandbox.engine.motion.forces_on_ball import acceleration_function, by_cause
+from sandbox.engine.motion.moving_ball import InCluster, InHeap
+from sandbox.engine.motion.sustained_contact import SustainedContact
+from sandbox.engine.paths.arc import Arc
+from sandbox.engine.paths.run import Run
 from sandbox.physics.integrators import INTEGRATORS
 
 #: Gauss-Legendre nodes and weights on [0, 1]: exact for polynomials of degree 9.
@@ -54,12 +54,12 @@ def ledger(run: Run) -> Ledger:
         end += kinetic(ball, arcs[-1].state(arcs[-1].t1), arcs[-1].t1)
         for arc in arcs:
             gain = kinetic(ball, arc.state(arc.t1), arc.t1) - kinetic(ball, arc.start, arc.t0)
-            if isinstance(arc.contact, Pressing):
+            if isinstance(arc.contact, InCluster):
                 impacts[met.partner(ball.name, *arc.contact) or ""] += gain
                 continue
             if run.setup.plane is not None:
                 contacts[run.setup.plane_of(ball.name).name] += gain
-            elif isinstance(arc.contact, Heaped):
+            elif isinstance(arc.contact, InHeap):
                 lifted = -_work_of_forces(ball, arc, arc.contact)
                 contacts["position correction"] += lifted
                 contacts["heap"] += gain - lifted - _book(ball, arc, work, contacts)
@@ -71,9 +71,9 @@ def ledger(run: Run) -> Ledger:
             lasting = after.contact or before.contact
             if hit is not None:
                 impacts[hit] += jump
-            elif isinstance(lasting, Heaped):
+            elif isinstance(lasting, InHeap):
                 contacts["heap"] += jump
-            elif isinstance(lasting, LastingContact):
+            elif isinstance(lasting, SustainedContact):
                 contacts[lasting.obstacle.surface.name] += jump
             else:
                 residue += jump
@@ -104,7 +104,7 @@ class _Impacts:
         self._hits = [event for event in run.events if event.kind == "impact"]
 
     def partner(self, ball: str, start: float, end: float) -> str | None:
-        """What a ball met between two times: in an impact of its own, or else in one of balls that touch it."""
+        """The name of what a ball met between two times, in its own impact or in one of balls that touch it."""
         first = bisect_left(self._hits, start, key=lambda hit: hit.t)
         during = self._hits[first : bisect_right(self._hits, end, key=lambda hit: hit.t)]
         own = next((hit for hit in during if ball in (hit.ball, hit.partner)), during[0] if during else None)
@@ -113,7 +113,7 @@ class _Impacts:
         return " and ".join(sorted((own.ball, own.partner))) if own.partner in self._balls else own.partner
 
 
-def _work_of_forces(ball: Ball, arc: Arc, moved: Heaped) -> float:
+def _work_of_forces(ball: Ball, arc: Arc, moved: InHeap) -> float:
     """The work in J of the forces on a ball while position correction moves it."""
     forces = [force for _, force in by_cause(ball.forces, arc.t0, arc.start)]
     return (arc.t1 - arc.t0) * sum(fx * moved.vx + fy * moved.vy for fx, fy in forces)
@@ -135,10 +135,10 @@ def _book(ball: Ball, arc: Arc, work: dict[str, float], contacts: dict[str, floa
         for name, power in powers:
             work[name] += weight * h * power
             applied += power
-        if isinstance(contact, LastingContact):
-            (ax, ay, alpha), _, _ = contact.forces(ball, acceleration(ball, t, state), state)
+        if isinstance(contact, SustainedContact):
+            (ax, ay, alpha), _, _ = contact.forces(ball, acceleration_function(ball)(t, state), state)
             lost = powers[-1][1] if ball.loss is not None else 0.0
-            total = ball.left(t) * (ball.mass * (ax * vx + ay * vy) + ball.inertia * alpha * spin) + lost
+            total = ball.mass_fraction(t) * (ball.mass * (ax * vx + ay * vy) + ball.inertia * alpha * spin) + lost
             contacts[contact.obstacle.surface.name] += weight * h * (total - applied)
             applied = total
         booked += weight * h * applied

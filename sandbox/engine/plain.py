@@ -17,21 +17,23 @@ from typing import Any
 
 import pymunk
 
-from sandbox.engine.accuracy import Accuracy
-from sandbox.engine.acting import law_of, refused
-from sandbox.engine.arc import Arc
-from sandbox.engine.event import Event
-from sandbox.engine.impacts import after_one, of_two, with_surface
-from sandbox.engine.meeting import meeting_at
-from sandbox.engine.path import Path
-from sandbox.engine.real_space import RealSpace, rolls, speeds_at
-from sandbox.engine.run import Numerics, Run
-from sandbox.engine.setup import Ball, Body, Setup, Surface
-from sandbox.engine.setup_errors import failed
-from sandbox.engine.shapes import Ellipse
-from sandbox.engine.step_control import JUMP, stiff
-from sandbox.engine.surfaces import leaves_at, press
-from sandbox.engine.touch import Outline
+from sandbox.engine.contact.manifold import meeting_at
+from sandbox.engine.contact.surfaces import press, takeoff_speed
+from sandbox.engine.contact.touch import Outline
+from sandbox.engine.heap.pymunk_world import PymunkWorld, rolls, speeds_at
+from sandbox.engine.impact.impacts import after_single_contact, contact_of_two, contact_with_surface
+from sandbox.engine.model.accuracy import Accuracy
+from sandbox.engine.model.ball import Ball, Body
+from sandbox.engine.model.event import Event
+from sandbox.engine.model.setup import Setup
+from sandbox.engine.model.setup_errors import failed
+from sandbox.engine.model.shapes import Ellipse
+from sandbox.engine.model.surface import Surface
+from sandbox.engine.motion.forces_on_ball import acceleration_function, force_error
+from sandbox.engine.motion.step_control import JUMP, stiff
+from sandbox.engine.paths.arc import Arc
+from sandbox.engine.paths.path import Path
+from sandbox.engine.paths.run import Numerics, Run
 from sandbox.errors import RequestError, RunError
 from sandbox.physics.integrators import Acceleration, State
 
@@ -68,25 +70,25 @@ class _Tracked:
         self.ball = ball
         self.body = body
         self.take(start)
-        self.law = law_of(ball)
+        self.law = acceleration_function(ball)
         self.path: list[Arc] = []
         self.since = 0.0  # s, start of the current arc
         self.start: State = self.state()
         self.last: tuple[State, Acceleration] = self.start, (0.0, 0.0, 0.0)  # before the forces of the last step
         self.touched = -2  # number of the last step in which it touched something
-        self.resisted: dict[Any, float] = {}  # rolling resistance of lasting contact, by the surface's shape
+        self.resisted: dict[Any, float] = {}  # rolling resistance of sustained contact, by the surface's shape
         self.caught = False
         self.moved = 0.0  # s, when it last moved, or touched nothing
 
     def state(self) -> State:
         body = self.body
-        more = (body.angle,) if self.ball.turns else self.rolling_spin
+        more = (body.angle,) if self.ball.rotates else self.rolling_spin
         return (*body.position, *body.velocity, body.angular_velocity, *more)
 
     def take(self, state: State) -> None:
         """Set the velocities and spins to those of this state."""
         self.body.velocity, self.body.angular_velocity = state[2:4], state[4]
-        self.rolling_spin: tuple[float, ...] = () if self.ball.turns else state[5:]  # rad/s
+        self.rolling_spin: tuple[float, ...] = () if self.ball.rotates else state[5:]  # rad/s
 
     def record(self, t: float) -> None:
         if t > self.since or not self.path:
@@ -113,7 +115,7 @@ class PlainSimulation:
         self._t = 0.0
         self._steps = 0
         self._hit: list[_Tracked] = []  # in the current step
-        self._real = RealSpace(setup.surfaces, _ITERATIONS, _SLOP)
+        self._real = PymunkWorld(setup.surfaces, _ITERATIONS, _SLOP)
         self._real.on_contact(self._meet, self._part)
         self._tracked: dict[Any, _Tracked] = {}
         for ball in setup.balls:
@@ -180,12 +182,12 @@ class PlainSimulation:
     def _catch(self, tracked: _Tracked) -> None:
         """Remove a ball that is in a pocket; noticed at the next recording, so up to one interval late."""
         x, y = tracked.body.position
-        for catch in self._setup.catches:
-            if catch.takes(tracked.ball.name) and Outline.of(catch.shape, 0.0).near(x, y).gap <= 0.0:
+        for trap in self._setup.traps:
+            if trap.takes(tracked.ball.name) and Outline.of(trap.shape, 0.0).near(x, y).gap <= 0.0:
                 tracked.caught = True
                 self._real.space.remove(tracked.body, *tracked.body.shapes)
                 speed = tracked.body.velocity.length
-                self._note(Event(self._t, "caught", tracked.ball.name, catch.name, speed, x, y))
+                self._note(Event(self._t, "caught", tracked.ball.name, trap.name, speed, x, y))
                 return
 
     def _rests(self, tracked: _Tracked) -> bool:
@@ -209,7 +211,7 @@ class PlainSimulation:
         tracked, setup = self._tracked[body], self._setup
         state = tracked.state()
         x, y, vx, vy, spin = state[:5]
-        before = state if tracked.ball.turns else state[:5]
+        before = state if tracked.ball.rotates else state[:5]
         acceleration = tracked.law(self._t, before)
         self._refuse_leap(tracked, tracked.last[0][:2], (x, y))
         if tracked.touched != self._steps:
@@ -222,7 +224,7 @@ class PlainSimulation:
             after = (x, y, *phase.after(h)[2:])
         after = (*after[:4], after[4] + h * alpha, *after[5:])
         if not setup.bounds.hold(after):
-            raise refused(tracked.ball, self._t, before, setup.bounds.broken_by(after))
+            raise force_error(tracked.ball, self._t, before, setup.bounds.describe_violation(after))
         tracked.take(after)
 
     def _meet(self, arbiter: pymunk.Arbiter) -> None:
@@ -233,9 +235,9 @@ class PlainSimulation:
         points = [(point.point_a.x, point.point_a.y) for point in arbiter.contact_point_set.points]
         found = meeting_at(balls, states, 0.0, normal, points)
         if surface is None:
-            contact = of_two((0, 1), balls, self._setup, found, found.fastest)
+            contact = contact_of_two((0, 1), balls, self._setup, found, found.fastest)
         else:
-            contact = with_surface(0, first.ball, states[0], surface, found, found.fastest)
+            contact = contact_with_surface(0, first.ball, states[0], surface, found, found.fastest)
         for tracked in met:
             tracked.touched = self._steps
         if arbiter.is_first_contact and contact.speed > 0.0:
@@ -249,11 +251,11 @@ class PlainSimulation:
             by = press(states[0], first.last[1], nx, ny, 0.0)  # m/s^2
             # no faster than what weight alone adds in a step or two
             lasts = abs(contact.speed) <= 2.0 * by * self._accuracy.step
-            lowest = leaves_at(by, surface.lowest_bounce)  # m/s, a bounce no faster than this is absorbed
+            lowest = takeoff_speed(by, surface.lowest_bounce)  # m/s, a bounce no faster than this is absorbed
         more = any((contact.sine, *bounce[2:], contact.speeds[2]))  # than Chipmunk has
         arbiter.process_collision = not more or lasts or contact.speed <= 0.0  # it is remembered
         if not arbiter.process_collision:
-            for tracked, state in zip(met, after_one(balls, states, contact), strict=True):
+            for tracked, state in zip(met, after_single_contact(balls, states, contact), strict=True):
                 tracked.take(state)
             away = first.body.velocity.dot(normal)
             if surface is not None and away <= lowest:

@@ -1,22 +1,20 @@
-"""Where balls start: moved out of slight overlaps."""
+"""Start positions: balls are moved out of slight overlaps."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from math import dist
 
-from sandbox.engine.meeting import meeting, surfaces_met
-from sandbox.engine.setup import Ball
-from sandbox.engine.touch import TOUCHING_GAP, Obstacle
+from sandbox.engine.contact.manifold import meeting, surfaces_met
+from sandbox.engine.contact.touch import Obstacle
+from sandbox.engine.model.ball import Ball
+from sandbox.engine.model.tolerances import NEGLIGIBLE_OVERLAP, TOUCHING_GAP
 from sandbox.errors import RequestError
 from sandbox.physics.integrators import State
 
 #: Deepest overlap that is corrected, as a fraction of the radius; deeper is an error in the scene. And the most
 #: attempts, as one correction may cause another overlap.
 _SLIGHT, _MOST_PUSHES = 0.02, 200
-
-#: Overlap in m of a ball and a surface that is rounding.
-_ROUNDING = 1e-12
 
 
 def starts(balls: Sequence[Ball], obstacles: Mapping[float, Sequence[Obstacle]]) -> list[list[float]]:
@@ -41,7 +39,7 @@ def starts(balls: Sequence[Ball], obstacles: Mapping[float, Sequence[Obstacle]])
                 places[index][1] += push * ny
         if not name:
             return places
-    raise RequestError(f"ball {name!r} does not fit where it starts: it is overlapped from several sides")
+    raise RequestError(f"ball {name!r} does not fit where it starts: several things overlap it")
 
 
 def _overlaps(
@@ -61,10 +59,10 @@ def _overlaps(
     for i, j, found in overlapping:
         yield i, j, balls[j].name, balls[i].radius + balls[j].radius, -found.gap, *found.normal
     for i, ball in enumerate(balls):
-        for obstacle, met in surfaces_met(ball, obstacles[ball.radius], _placed(ball, places[i]), -_ROUNDING):
+        for obstacle, met in surfaces_met(ball, obstacles[ball.radius], _placed(ball, places[i]), -NEGLIGIBLE_OVERLAP):
             yield i, None, obstacle.surface.name, ball.radius, -met.gap, *met.normal
 
 
 def _placed(ball: Ball, place: Sequence[float]) -> State:
     """The state of a ball or body there; its motion does not matter."""
-    return (*place, 0.0, 0.0, 0.0, *ball.turned)
+    return (*place, 0.0, 0.0, 0.0, *ball.initial_angle)

@@ -8,13 +8,14 @@ from functools import partial
 from math import hypot, isclose
 from typing import Any, NamedTuple
 
-from sandbox.engine.accuracy import LEVELS
-from sandbox.engine.acting import cause
-from sandbox.engine.run import Run
-from sandbox.engine.setup import Always, Ball, Bounce, Force, Setup, Surface
+from sandbox.engine.model.accuracy import LEVELS
+from sandbox.engine.model.ball import Ball, Force
+from sandbox.engine.model.setup import Setup
+from sandbox.engine.model.surface import Bounce, BounceLaw, ConstantBounce, Surface
+from sandbox.engine.motion.forces_on_ball import cause
 from sandbox.errors import SandboxError
 from sandbox.lab.reference import Reference, apart, places, until
-from sandbox.lab.tables import length_above, table
+from sandbox.lab.tables import length_or_below, table
 from sandbox.lab.timing import Timed, repeat
 from sandbox.lab.verdicts import verdict
 from sandbox.physics.air import UniformWind
@@ -23,6 +24,7 @@ from sandbox.physics.forces import Drag, Magnus, SpinDecay
 from sandbox.physics.plane import without
 from sandbox.scene import compare
 from sandbox.scene.running import simulate_at
+from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.amounts import significant
 
 #: Shifts below this, in m, do not matter to a player.
@@ -40,8 +42,8 @@ _FLOWS = tuple((reynolds, spin_ratio) for reynolds in (3e4, 1e5, 3e5) for spin_r
 #: Result numbers shown for each part, and the relative change below which a number counts as the same.
 _SHOWN, _SAME = 2, 1e-6
 
-#: A law of impacts: how a surface, or a ball, responds to a normal and a tangential speed.
-Law = Callable[[float, float], Bounce]
+#: A saving is shown from this fraction on, and from this multiple of its noise.
+_LEAST_SAVED, _NOISES = 0.01, 2.0
 
 
 class Variant(NamedTuple):
@@ -64,20 +66,20 @@ class Ablated:
     flight_m: float | None = None  # at the first contact of the ball, with the part or without
     results: dict[str, tuple[float, float]] | None = None  # numbers of the result, with the part and without
     saves: float | None = None  # fraction of the scene's time at the level "balanced"
-    saves_noise: float = 0.0  # relative difference of the shortest repeats
+    saves_noise: float = 0.0  # of ``saves``, from the differences of the shortest repeats
     resolution_m: float = 0.0  # error of the compared runs
     idle: bool = False  # whether it concerns contact, and nothing was touched
     problem: str = ""
 
     @property
     def is_nothing(self) -> bool:
-        """Whether the change has no visible effect, in flight or at the end."""
+        """True if the change has no visible effect, in flight or at the end."""
         shifts = self.shift_m, self.flight_m
         return all(m is not None and m < NOTHING for m in shifts) and self.verdict[0] == self.verdict[1]
 
     @property
     def effect(self) -> str:
-        """What changes in the result, in words."""
+        """The changes in the result, in words."""
         if self.problem:
             return f"run failed: {self.problem}"
         if self.is_nothing:
@@ -90,10 +92,9 @@ class Ablated:
 
     def cells(self) -> list[str]:
         """A row of the table: the part, the change, both shifts, and what it saves."""
-        shifts = [length_above(shift, self.resolution_m) for shift in (self.flight_m, self.shift_m)]
-        least = max(1.0, 200.0 * self.saves_noise)
-        saves = 100.0 * (self.saves or 0.0)
-        saved = "" if self.saves is None else f"{saves:.0f} %" if abs(saves) >= least else f"< {least:.0f} %"
+        shifts = [length_or_below(shift, self.resolution_m) for shift in (self.flight_m, self.shift_m)]
+        seen = abs(self.saves or 0.0) >= max(_LEAST_SAVED, _NOISES * self.saves_noise)
+        saved = "" if self.saves is None else f"{100.0 * self.saves:.0f} %" if seen else "-"
         return [self.part, self.change, *shifts, saved]
 
 
@@ -134,8 +135,8 @@ def ablation(reference: Reference) -> list[Ablated]:
             part,
             change,
             (before, ""),
-            saves=None if cost.problem or own.problem else 1.0 - min(cost.walls) / min(own.walls),
-            saves_noise=max(own.noise, cost.noise),
+            saves=None if cost.problem or own.problem else 1.0 - cost.wall / own.wall,
+            saves_noise=cost.wall / own.wall * (own.noise + cost.noise),
             resolution_m=resolution,
             idle=touching and reference.first_touch >= reference.time,
         )
@@ -156,7 +157,7 @@ def ablation(reference: Reference) -> list[Ablated]:
     return rows
 
 
-def _differences(a: Run, b: Run) -> dict[str, tuple[float, float]]:
+def _differences(a: SceneRun, b: SceneRun) -> dict[str, tuple[float, float]]:
     """The numbers of the result that differ, in the scene's order."""
     both = {name: (a.result[name], b.result[name]) for name in compare(a, b).errors}
     return {
@@ -250,7 +251,7 @@ def _with_decay(ball: Ball) -> Ball:
 
 
 def _of_contacts(setup: Setup) -> Iterator[Variant]:
-    """What surfaces do, and how balls meet."""
+    """Yield the variants of surfaces, and of impacts between balls."""
     for (part, change), changed in _OF_SURFACES.items():
         yield Variant(part, change, replace(setup, surfaces=[changed(surface) for surface in setup.surfaces]), True)
     if len(setup.balls) > 1:
@@ -258,7 +259,7 @@ def _of_contacts(setup: Setup) -> Iterator[Variant]:
         yield Variant("contact mechanics", "one impact after another", replace(setup, contact=one_by_one), True)
         yield Variant(throw, "left out", replace(setup, between_balls=_law_without(law, "friction")), True)
         if law(*_FAST) != law(*_SLOW):
-            slow = replace(setup, between_balls=Always(law(*_SLOW)))
+            slow = replace(setup, between_balls=ConstantBounce(law(*_SLOW)))
             yield Variant(throw, "at any speed as at 1 m/s", slow, True)
 
 
@@ -266,14 +267,14 @@ def _of_contacts(setup: Setup) -> Iterator[Variant]:
 class _Without:
     """A law of impacts with one part left out."""
 
-    law: Law
+    law: BounceLaw
     part: str
 
     def __call__(self, normal_speed: float, slip_speed: float) -> Bounce:
         return self.law(normal_speed, slip_speed)._replace(**{self.part: 0.0})
 
 
-def _law_without(law: Law, part: str) -> Law:
+def _law_without(law: BounceLaw, part: str) -> BounceLaw:
     """A law without one of its parts; the law itself where that changes nothing."""
     return law if not getattr(law(*_FAST), part) else _Without(law, part)
 
@@ -296,7 +297,7 @@ _OF_SURFACES: dict[tuple[str, str], Callable[[Surface], Surface]] = {
 
 
 def _of_planes(setup: Setup) -> Iterator[Variant]:
-    """What balls slide and roll on."""
+    """Yield the variants of the planes on which balls slide and roll."""
     every = [] if setup.plane is None else [setup.plane, *(plane for _, plane in setup.planes)]
     parts = {(term, plane.name): called for plane in every for term, called in plane.TERMS.items()}
     for (term, name), called in parts.items():

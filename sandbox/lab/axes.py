@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from math import ceil, log10, ulp
 from typing import Any
 
 import numpy as np
@@ -68,7 +69,19 @@ def parse_axis(scene: Scene, option: str, text: str) -> Axis:
     count = int(parts[2]) if parts[2].isdecimal() and len(parts[2]) < 9 else 0
     if not 1 <= count <= MOST_VALUES:
         raise RequestError(f"{option} {text}: {parts[2]!r} is not a number of points from 1 to {MOST_VALUES:,}")
-    return Values(key, tuple(np.linspace(low, high, count).tolist()) if count > 1 else (low,))
+    return Values(key, spaced(low, high, count))
+
+
+def spaced(low: float, high: float, count: int) -> tuple[float, ...]:
+    """So many evenly spaced numbers from low to high; -28.8 where rounding would give -28.799999999999997."""
+    if count < 2 or low == high:
+        return (low,) * count
+    largest = max(abs(low), abs(high))
+    digits = 12 - ceil(log10(largest))
+    rounding = 4.0 * ulp(largest)
+    values = (np.linspace(low, high, count) + 0.0).tolist()
+    rounded = ((round(value, digits) + 0.0, value) for value in values)  # + 0.0: no -0.0
+    return tuple(short if abs(short - value) <= rounding else value for short, value in rounded)
 
 
 def parse_span(scene: Scene, option: str, text: str) -> Span:
@@ -196,7 +209,7 @@ class Varied:
 
 
 def _can_set_unchecked(parameters: Any, path: Path) -> bool:
-    """Whether a number may be set at ``path`` unchecked: no group on the path has checks of its own.
+    """True if a number may be set at ``path`` unchecked: no group on the path has checks of its own.
 
     The accuracy may not: it is one for all shots that are computed together.
     """

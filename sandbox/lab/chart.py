@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from sandbox import resources
-from sandbox.files import check_file, check_installed, written_whole
+from sandbox.files import atomic_write, check_file, check_installed
 from sandbox.lab.tables import length
 from sandbox.sport.amounts import significant
 
@@ -54,12 +54,12 @@ def chart(path: Path, title: str, about: str) -> Iterator[tuple[Any, dict[str, A
         axes.annotate(title, (0, 1), xytext=(0, 36), xycoords="axes fraction", textcoords="offset points",
                       fontsize=15, fontweight="bold")  # fmt: skip
         yield axes, colours
-        with written_whole(path) as out:
+        with atomic_write(path) as out:
             figure.savefig(out.buffer, format="png")
 
 
 def _style(colours: dict[str, Any]) -> Any:
-    """What all charts have in common, as matplotlib's parameters."""
+    """The style of all charts, as matplotlib's parameters."""
     from cycler import cycler
 
     card = colours["card"]

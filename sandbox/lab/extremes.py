@@ -10,8 +10,11 @@ from math import nan, pi
 from typing import Any, NamedTuple
 
 from sandbox import parameters as declared
-from sandbox.engine.accuracy import Accuracy
-from sandbox.engine.setup import Always, Ball, Bounce, Circle, Force, Segment, Setup, Surface, Vector
+from sandbox.engine.model.accuracy import Accuracy
+from sandbox.engine.model.ball import Ball, Force
+from sandbox.engine.model.setup import Setup
+from sandbox.engine.model.shapes import Vector
+from sandbox.engine.model.surface import Bounce, Circle, ConstantBounce, Segment, Surface
 from sandbox.errors import RequestError
 from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity, Magnus
@@ -29,7 +32,7 @@ _LONGEST, HOUR = 10.0, 3600.0
 
 
 def controls_error(how: Accuracy) -> bool:
-    """Whether the integrator chooses its steps."""
+    """True if the integrator chooses its steps."""
     return how.method == "exact" and INTEGRATORS[how.integrator].controls_error
 
 
@@ -75,7 +78,7 @@ def _changed(scene: Scene, name: str, changes: dict[str, Any]) -> Extreme:
 
 
 def _is_built(extreme: Extreme, own: Setup) -> bool:
-    """Whether it is the scene's own setup: its number is one that this shot does not need."""
+    """True if it is the scene's own setup: its number is one that this shot does not need."""
     try:
         return extreme.build() == _ended(own, _LONGEST)
     except RequestError:
@@ -161,7 +164,7 @@ def _rack(gap: float) -> Setup:
     spots = [(0.5 * 3**0.5 * pitch * row, pitch * (k - 0.5 * row)) for row in range(5) for k in range(row + 1)]
     balls = [Ball("cue", 0.17, radius, (-1.0, 0.0), (8.0, 0.1))]
     balls += [Ball(f"{k}", 0.17, radius, spot) for k, spot in enumerate(spots, 1)]
-    return Setup(balls, duration=1.0, between_balls=Always(Bounce(0.95, 0.05)))
+    return Setup(balls, duration=1.0, between_balls=ConstantBounce(Bounce(0.95, 0.05)))
 
 
 def _bullet() -> Setup:
@@ -189,4 +192,4 @@ def _heap() -> Setup:
     weight = [Gravity(0.005, 9.81)]
     spots = [(-0.65 + 0.026 * (k % 50) + 0.001 * (k // 50 % 2), 0.05 + 0.03 * (k // 50)) for k in range(1000)]
     balls = [Ball(f"{k}", 0.005, 0.01, spot, forces=weight) for k, spot in enumerate(spots)]
-    return Setup(balls, surfaces, duration=0.5, between_balls=Always(Bounce(0.5, 0.3)))
+    return Setup(balls, surfaces, duration=0.5, between_balls=ConstantBounce(Bounce(0.5, 0.3)))

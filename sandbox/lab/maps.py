@@ -58,7 +58,7 @@ class Found:
 
     @property
     def counts(self) -> bool:
-        """Whether the numbers are few integers, for which contour lines make no sense."""
+        """True if the numbers are few integers, for which contour lines make no sense."""
         if self.numbers is None:
             return False
         known = self.numbers[np.isfinite(self.numbers)]
@@ -294,7 +294,7 @@ def _mark_own(axes: Any, own: Sequence[float], found: Found, places: np.ndarray,
 
 
 def _is_high(found: Found, places: np.ndarray, own: float) -> bool:
-    """Whether the curve is in the upper half of its range at the scene file's own shot."""
+    """True if the curve is in the upper half of its range at the scene file's own shot."""
     if found.numbers is None or not np.isfinite(found.numbers).any():
         return False
     height = found.numbers[np.nanargmin(np.abs(places - own))]

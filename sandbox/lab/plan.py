@@ -20,7 +20,7 @@ from sandbox.scene import Scene, compare
 from sandbox.tracebacks import one_line_error
 
 if TYPE_CHECKING:
-    from sandbox.engine.run import Run
+    from sandbox.scene.scene_run import SceneRun
 
 #: Columns of a run's cost in a sweep: counts only, since times differ from run to run.
 FLAGS = ("impacts", "steps", "refined_steps")
@@ -117,7 +117,7 @@ class Plan:
             names.append(CHANGED)
         return [*dict.fromkeys(names), "error"]
 
-    def _first_run(self) -> Run | Exception:  # not kept: a plan is sent to workers, and not every run can be
+    def _first_run(self) -> SceneRun | Exception:  # not kept: a plan is sent to workers, and not every run can be
         return next(runs(self.scene, self.keys, list(self.points(0, 1)), asked=self.asked))
 
     def points(self, start: int, stop: int) -> Iterator[tuple[Any, ...]]:
@@ -143,7 +143,7 @@ class Plan:
 
     @cached_property
     def provenance(self) -> Provenance:
-        """What the rows depend on apart from this plan."""
+        """All that the rows depend on apart from this plan."""
         return provenance(self.scene)
 
     @cached_property
@@ -203,7 +203,7 @@ def _rows(plan: Plan, start: int, stop: int) -> list[Record]:
     return rows
 
 
-def _record(keys: Sequence[str], values: Sequence[Any], run: Run | Exception) -> Record:
+def _record(keys: Sequence[str], values: Sequence[Any], run: SceneRun | Exception) -> Record:
     row: Record = dict(zip(keys, values, strict=True))
     if isinstance(run, Exception):
         return row | {"error": one_line_error(run)}
@@ -215,7 +215,7 @@ def _record(keys: Sequence[str], values: Sequence[Any], run: Run | Exception) ->
     return row
 
 
-def _accuracy_columns(run: Run | Exception, finer: Run | Exception) -> Record:
+def _accuracy_columns(run: SceneRun | Exception, finer: SceneRun | Exception) -> Record:
     """The estimated error of each number, and which other results depend on the accuracy."""
     if isinstance(run, Exception):
         return {}

@@ -1,4 +1,4 @@
-"""What the rows of a sweep depend on apart from its plan: the program's code, the scene's files, versions, the
+"""All that the rows of a sweep depend on apart from its plan: the program's code, the scene's files, versions, the
 platform.
 
 Rows from different days or machines are combined only if all of these are the same.
@@ -146,5 +146,5 @@ def _source(place: Path, name: str) -> Path | None:
 
 
 def _is_users(file: Path) -> bool:
-    """Whether a module belongs neither to the sandbox nor to Python or an installed package."""
+    """True if a module belongs neither to the sandbox nor to Python or an installed package."""
     return file.suffix == ".py" and not file.is_relative_to(resources.PACKAGE) and not is_of_library(file)

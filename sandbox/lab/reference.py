@@ -8,9 +8,10 @@ from dataclasses import dataclass, replace
 from math import hypot
 
 from sandbox.engine import simulate
-from sandbox.engine.accuracy import LEVELS, SKIN, Accuracy
-from sandbox.engine.run import Run
-from sandbox.engine.setup import Setup
+from sandbox.engine.model.accuracy import LEVELS, Accuracy
+from sandbox.engine.model.setup import Setup
+from sandbox.engine.model.tolerances import SKIN
+from sandbox.engine.paths.run import Run
 from sandbox.errors import RequestError
 from sandbox.scene import Scene
 from sandbox.scene.running import NUDGE, nudged

@@ -137,7 +137,7 @@ class RowFile:
             return f"{self._plan.fingerprint} {hashlib.file_digest(file, 'sha256').hexdigest()}\n"
 
     def _is_complete(self) -> bool:
-        """Whether the file is just as this sweep left it when it was finished."""
+        """True if the file is just as this sweep left it when it was finished."""
         try:
             return self._seal_path.read_text("utf-8") == self._seal()
         except (OSError, UnicodeDecodeError):
@@ -206,7 +206,7 @@ def _cells(line: bytes) -> list[str] | None:
 
 
 def is_of_a_sweep(path: Path) -> bool:
-    """Whether a file is a table written by this program, rows of a sweep or a trajectory, or is still empty."""
+    """True if a file is a table written by this program, rows of a sweep or a trajectory, or is still empty."""
     try:
         with path.open("rb") as file:
             first = file.readline(1 << 16).rstrip(b"\r\n")

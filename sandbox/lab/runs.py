@@ -11,16 +11,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from sandbox import parameters as declared
-from sandbox.engine import flies_in_batches, simulate_many
-from sandbox.engine.accuracy import Accuracy, resolve
-from sandbox.engine.setup import Setup, Touches, Until, is_over
-from sandbox.engine.stacking import FEWEST, Stack, agree
+from sandbox.engine import can_batch, simulate_many
+from sandbox.engine.many.stacking import FEWEST, Stack, agree
+from sandbox.engine.model.accuracy import Accuracy, resolve
+from sandbox.engine.model.setup import Setup, Touches, Until, is_over
 from sandbox.lab.axes import Varied
 from sandbox.scene import Scene
+from sandbox.scene.scene_run import SceneRun
 
 if TYPE_CHECKING:
-    from sandbox.engine.event import Event
-    from sandbox.engine.run import Run
+    from sandbox.engine.model.event import Event
+    from sandbox.engine.paths.run import Run
     from sandbox.parameters import SceneParameters
     from sandbox.physics.integrators import State
 
@@ -30,8 +31,8 @@ if TYPE_CHECKING:
 Progress = Callable[[int, int], None]
 
 
-def silent(done: int, total: int) -> None:
-    """No progress is shown."""
+def no_progress(done: int, total: int) -> None:
+    """Show no progress."""
 
 
 def runs(
@@ -40,13 +41,11 @@ def runs(
     points: Sequence[Sequence[Any]],
     finer: bool = False,
     asked: Sequence[str] = (),
-    at_once: int = 1,
-) -> Iterator[Run | Exception]:
+) -> Iterator[SceneRun | Exception]:
     """The run at each of the points, in order, with its result; or the exception it ended with.
 
     Similar shots are computed together. ``finer`` halves the steps, to estimate errors. If only some facts are
-    ``asked`` for, each run ends when these are settled, and its result contains only these. ``at_once`` is as in
-    ``simulate_many``.
+    ``asked`` for, each run ends when these are settled, and its result contains only these.
     """
     build, read, varied = builder(scene, asked), scene.reader(asked), Varied(scene, keys)
     parameters: dict[int, SceneParameters] = {}
@@ -54,19 +53,22 @@ def runs(
     for places, many in varied.together(points):
         each = [] if isinstance(many, Exception) else [varied.parameters(points[place]) for place in places]
         parameters |= zip(places, each, strict=False)
-        found |= dict.fromkeys(places, _outcomes(build, many, each, finer, at_once))
+        found |= dict.fromkeys(places, _outcomes(build, many, each, finer))
     for place in range(len(points)):
         run = next(found[place])
-        if not isinstance(run, Exception):
-            try:
-                run.result = read(run, parameters[place])
-            except Exception as error:
-                run = error
-        yield run
+        yield run if isinstance(run, Exception) else _of_scene(run, replace(scene, parameters=parameters[place]), read)
+
+
+def _of_scene(run: Run, scene: Scene, read: Callable[[Run, Any], dict[str, Any]]) -> SceneRun | Exception:
+    """The run of a scene with the facts that are ``read`` from it, or what they raise."""
+    try:
+        return SceneRun.of(run, scene, read(run, scene.parameters))
+    except Exception as error:
+        return error
 
 
 def _outcomes(
-    build: Build, many: SceneParameters | Exception, each: Sequence[SceneParameters], finer: bool, at_once: int
+    build: Build, many: SceneParameters | Exception, each: Sequence[SceneParameters], finer: bool
 ) -> Iterator[Run | Exception]:
     """The outcomes of runs that differ only in numbers: ``many`` has the parameters of all in one, or is the error that
     explains why there are none."""
@@ -78,9 +80,9 @@ def _outcomes(
         return repeat(error)
     stack = built_at_once(build, many, each)
     if stack is not None:
-        return simulate_many(stack, accuracy, at_once)
+        return simulate_many(stack, accuracy)
     setups = [_or_error(build, parameters) for parameters in each]
-    found = simulate_many([setup for setup in setups if not isinstance(setup, Exception)], accuracy, at_once)
+    found = simulate_many([setup for setup in setups if not isinstance(setup, Exception)], accuracy)
     return (setup if isinstance(setup, Exception) else next(found) for setup in setups)
 
 
@@ -146,9 +148,9 @@ def _resolved(accuracy: declared.Accuracy, finer: bool) -> Accuracy:
 
 
 def fly_together(scene: Scene, keys: Sequence[str], values: Sequence[Any]) -> bool:
-    """Whether the engine computes many runs of this kind at once, judged by the one with these values."""
+    """True if the engine computes many runs of this kind at once, judged by the one with these values."""
     try:
         parameters = Varied(scene, keys).parameters(values)
-        return flies_in_batches(replace(scene, parameters=parameters).build(), _resolved(parameters.accuracy, False))
+        return can_batch(replace(scene, parameters=parameters).build(), _resolved(parameters.accuracy, False))
     except Exception:
         return False  # its row reports the error

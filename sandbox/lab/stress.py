@@ -19,18 +19,18 @@ from typing import Any
 import numpy as np
 
 from sandbox.engine import simulate
-from sandbox.engine.accuracy import LEVELS, Accuracy
+from sandbox.engine.contact.manifold import all_round, fixed_outline
+from sandbox.engine.contact.touch import Outline
 from sandbox.engine.ledger import ledger
-from sandbox.engine.meeting import discs, standing
-from sandbox.engine.nearest import Pose, nearest
-from sandbox.engine.run import Run
-from sandbox.engine.setup import Ball, kinetic, outline_of
-from sandbox.engine.shapes import Shape
-from sandbox.engine.touch import Outline
-from sandbox.engine.track import Heaped, Pressing
+from sandbox.engine.model.accuracy import LEVELS, Accuracy
+from sandbox.engine.model.ball import Ball, kinetic, outline_of
+from sandbox.engine.model.nearest import Pose, nearest
+from sandbox.engine.model.shapes import Shape
+from sandbox.engine.paths.phase import Phase
+from sandbox.engine.paths.run import Run
 from sandbox.errors import RequestError, SandboxError
 from sandbox.lab.extremes import Extreme, bare, of_scene
-from sandbox.lab.runs import Progress, silent
+from sandbox.lab.runs import Progress, no_progress
 from sandbox.lab.tables import length, paragraph, percent, table
 from sandbox.physics.integrators import INTEGRATORS
 from sandbox.scene import Scene
@@ -90,7 +90,7 @@ def every_method(level: str = "balanced") -> dict[str, Accuracy]:
 
 
 def stress(
-    scenes: Sequence[Scene], level: str = "balanced", with_bare: bool = True, progress: Progress = silent
+    scenes: Sequence[Scene], level: str = "balanced", with_bare: bool = True, progress: Progress = no_progress
 ) -> list[Outcome]:
     """Run every extreme of the scenes, and those without a scene, with every method."""
     rows = [("", extreme, ALL) for extreme in bare()] if with_bare else []
@@ -105,12 +105,12 @@ def stress(
 
 
 def _is_heap(scene: Scene, accuracy: Accuracy) -> bool:
-    """Whether most of the scene's own run is a heap."""
+    """True if most of the scene's own run is a heap."""
     try:
         run = simulate(scene.build(), accuracy)
     except SandboxError:
         return False  # its rows say why
-    heaped = [isinstance(arc.contact, Heaped) for own in run.arcs.values() for arc in own]
+    heaped = [arc.phase is Phase.HEAP for own in run.arcs.values() for arc in own]
     return 2 * sum(heaped) > len(heaped)
 
 
@@ -189,31 +189,32 @@ def _overlap(run: Run) -> tuple[float, bool, str]:
         times, x, y = run.trajectory(ball.name, max(run.duration, 1e-9) / _SAMPLES, ends=True)[:, :3].T
         for surface in run.setup.surfaces:
             outline = Outline.of(surface.shape, np.full_like(x, ball.radius))
-            fixed = standing(surface.shape).shape
+            fixed = fixed_outline(surface.shape).shape
             for t, gap in [(t, gap) for t, gap in zip(times, outline.near(x, y).gap, strict=True) if gap < 0.0]:
-                if ball.turns:  # the disc around it may overlap: its outline counts
+                if ball.rotates:  # the disc around it may overlap: its outline counts
                     gap = nearest(*_outline(run, ball, t), fixed, Pose(0.0, 0.0, 0.0)).gap
-                found.append((-float(gap), _allowed(run, ball, t, Pressing)))
+                found.append((-float(gap), _allowed(run, ball, t, Phase.CLUSTER)))
             through = through or (surface.name if _crosses(outline, x, y) else "")
     return max(found)[0], any(deep > allowed for deep, allowed in found), through
 
 
-def _allowed(run: Run, ball: Ball, t: float, *pressed: type) -> float:
-    """The overlap in m that is allowed for a ball up to t: it may just have left a heap, or what ``pressed`` it."""
+def _allowed(run: Run, ball: Ball, t: float, *pressed: Phase) -> float:
+    """The overlap in m that is allowed for a ball up to t: it may just have left a heap, or a phase in
+    which others ``pressed`` it."""
     path = run.arcs[ball.name]
     at = min(bisect_left(path.stops, t), len(path) - 1)
-    if not any(isinstance(arc.contact, (Heaped, *pressed)) for arc in (path[max(0, at - 1)], path[at])):
+    if not any(arc.phase in (Phase.HEAP, *pressed) for arc in (path[max(0, at - 1)], path[at])):
         return OVERLAP
     return ball.radius * (AT_REST if path[at].rests else POURED)
 
 
 def _outline(run: Run, ball: Ball, t: float) -> tuple[Shape, Pose]:
     """The outline of a ball or body, and where it is."""
-    return outline_of(ball), Pose(*run.state(ball.name, t)[:2], run.angle(ball.name, t) if ball.turns else 0.0)
+    return outline_of(ball), Pose(*run.state(ball.name, t)[:2], run.angle(ball.name, t) if ball.rotates else 0.0)
 
 
 def _crosses(outline: Outline, x: np.ndarray, y: np.ndarray) -> bool:
-    """Whether a path crosses the line in the middle of a surface, between its ends."""
+    """True if a path crosses the line in the middle of a surface, between its ends."""
     across, along = outline.across(x, y), outline.along(x, y)
     before, after = across[:-1], across[1:]
     share = before / np.where(before == after, 1.0, before - after)
@@ -227,7 +228,7 @@ def _overlaps_of_balls(run: Run) -> Iterator[tuple[float, float]]:
     balls, times = run.setup.balls, [run.duration]
     if len(balls) <= _MOST_PAIRED:
         arcs = [arc for own in run.arcs.values() for arc in own]
-        contacts = {arc.contact for arc in arcs if isinstance(arc.contact, Pressing)}
+        contacts = {arc.contact_span for arc in arcs if arc.contact_span is not None}
         times = sorted(t for t in {arc.t1 for arc in arcs} if not any(start < t < end for start, end in contacts))
         times = times[:: max(1, len(times) // _LOOKS)]
     gone = {ball.name: inf if (t := run.caught_at(ball.name)) is None else t for ball in balls}
@@ -238,7 +239,7 @@ def _overlaps_of_balls(run: Run) -> Iterator[tuple[float, float]]:
         gaps = np.hypot(*(places[:, None] - places[None]).transpose(2, 0, 1)) - radii[:, None] - radii[None]
         for i, j in np.argwhere(np.triu(gaps < 0.0, 1)):
             one, other = there[i], there[j]
-            gap = gaps[i, j] if discs(one, other) else nearest(*_outline(run, one, t), *_outline(run, other, t)).gap
+            gap = gaps[i, j] if all_round(one, other) else nearest(*_outline(run, one, t), *_outline(run, other, t)).gap
             yield -float(gap), min(_allowed(run, one, t), _allowed(run, other, t))
 
 
@@ -282,7 +283,7 @@ def _grouped(outcomes: Sequence[Outcome], by: str) -> list[tuple[str, list[Outco
 
 
 def _sums(measured: Sequence[Outcome], outcomes: Sequence[Outcome]) -> list[str]:
-    """How many held, were refused, and failed; of those measured the largest energy gain and overlap."""
+    """The runs that held, were refused, and failed, counted; of those measured the largest energy gain and overlap."""
     counts = [sum(each.outcome == word for each in outcomes) for word in (HELD, REFUSED, FAILED)]
     energy = [each.energy_gained for each in measured if each.energy_gained is not None]
     overlap = [each.penetration_m for each in measured if each.penetration_m is not None]

@@ -9,7 +9,6 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import lru_cache
-from importlib import import_module
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -21,8 +20,8 @@ from sandbox.errors import RequestError, RunError, Stopped
 from sandbox.lab.axes import Values, as_axis
 from sandbox.lab.plan import Plan, Record, records
 from sandbox.lab.row_file import RowFile
-from sandbox.lab.runs import Progress, silent
-from sandbox.scene import Scene, as_scene
+from sandbox.lab.runs import Progress, no_progress
+from sandbox.scene import Scene, as_scene, display
 from sandbox.workers import Call, Cluster, InTurn, Processes, WorkerLost, Workers, cores
 
 #: Target time in s of one call to a worker, so that progress is shown and Ctrl-C handled a few times a second.
@@ -68,11 +67,10 @@ class Sweep:
     def plot(self, path: Path | str | None = None, of: str | None = None) -> Any:
         """The map or the curves of one result (``of``, by default the verdict or the first): written to ``path`` (a
         PNG), or without one handed back as a Pillow image."""
-        return import_module("sandbox.page.notebook").sweep_plot(self, path, of)
+        return display.notebook().sweep_plot(self, path, of)
 
     def _repr_html_(self) -> str:
-        html: str = import_module("sandbox.page.notebook").sweep_html(self)
-        return html
+        return display.notebook().sweep_html(self)
 
     @property
     def axes(self) -> dict[str, np.ndarray]:
@@ -111,7 +109,7 @@ def sweep(
     check: bool = False,
     jobs: int = 1,
     scheduler: str | None = None,
-    progress: Progress = silent,
+    progress: Progress = no_progress,
 ) -> Sweep:
     """One run for each point: ``sweep("golf", {"launch.angle": np.linspace(5, 60, 56), "launch.spin": [0, 3000]})``.
 
@@ -136,7 +134,7 @@ def sweep(
 
 
 @dataclass(frozen=True)
-class Written:
+class SweepSummary:
     """The outcome of a sweep written to a file."""
 
     points: int
@@ -150,10 +148,10 @@ class Written:
     def as_text(self) -> str:
         """A summary: number of points, speed, failures, and the file's previous content."""
         new = self.points - self.resumed
-        before = f", {self.resumed:,} of them from before" if self.resumed else ""
+        before = f", {self.resumed:,} already in the file" if self.resumed else ""
         points = "1 point" if self.points == 1 else f"{self.points:,} points"
         if not new:
-            return f"{points}, all of them from before: the sweep is complete"
+            return f"{points}, all already in the file: the sweep is complete"
         lines = [f"{points}{before}; {new:,} in {self.seconds:.1f} s, {new / self.seconds:,.0f}/s"]
         if self.failures:
             lines.append(f"{self.failures:,} failed, first with: {self.first_error}")
@@ -164,7 +162,7 @@ class Written:
         return "\n".join(lines)
 
 
-def sweep_to_file(plan: Plan, path: Path, pool: Workers, progress: Progress = silent) -> Written:
+def sweep_to_file(plan: Plan, path: Path, pool: Workers, progress: Progress = no_progress) -> SweepSummary:
     """Write all rows of the plan as CSV, resuming an interrupted sweep in the same file.
 
     Raises Stopped on Ctrl-C, and RunError if the file cannot be written completely; both keep the rows done so far.
@@ -186,7 +184,7 @@ def sweep_to_file(plan: Plan, path: Path, pool: Workers, progress: Progress = si
             raise Stopped(f"stopped: {kept}; run the same command to resume") from None
         file.finish()
     before = file.before if file.before.is_file() else None
-    return Written(plan.size, resumed, failures, first_error, perf_counter() - began, file.damaged, before)
+    return SweepSummary(plan.size, resumed, failures, first_error, perf_counter() - began, file.damaged, before)
 
 
 # ---------------------------------------------------------------------------------------------------------------------
@@ -194,7 +192,7 @@ def sweep_to_file(plan: Plan, path: Path, pool: Workers, progress: Progress = si
 # ---------------------------------------------------------------------------------------------------------------------
 
 
-def jobs_that_pay(plan: Plan) -> int:
+def worthwhile_jobs(plan: Plan) -> int:
     """One process per core, or a single one if shots computed together finish before another has started."""
     return 1 if plan.block > 1 and plan.size <= max(_ONE_PROCESS, plan.block) else min(cores(), plan.size)
 
@@ -219,7 +217,7 @@ class RowsInOrder:
     A call returns the points it computed in a short time; the rest is queued again.
     """
 
-    def __init__(self, plan: Plan, pool: Workers, first: int = 0, progress: Progress = silent) -> None:
+    def __init__(self, plan: Plan, pool: Workers, first: int = 0, progress: Progress = no_progress) -> None:
         self._plan = plan
         self._pool = pool
         self._progress = progress

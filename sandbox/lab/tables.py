@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import textwrap
 from collections.abc import Iterable, Sequence
@@ -10,6 +11,7 @@ from unicodedata import east_asian_width
 
 from sandbox.sport.amounts import significant
 from sandbox.text import one_line
+from sandbox.units import KIND_OF
 
 #: Units of length, with the length in m from which each is used.
 _LENGTHS = (
@@ -21,6 +23,12 @@ _LENGTHS = (
     (0.0, "nm", 1e9),
 )
 _TIMES = ((60.0, "min", 1 / 60), (1.0, "s", 1.0), (1e-3, "ms", 1e3), (0.0, "µs", 1e6))
+
+
+#: A number and its unit; and a space where a line is not broken.
+_UNITS = "|".join(re.escape(unit) for unit in sorted(KIND_OF, key=len, reverse=True) if unit)
+_AMOUNT = re.compile(rf"(?:± [\d.,]*)?\d (?:{_UNITS})(?!\w)")
+_FIXED_SPACE = "\u00a0"
 
 
 def width() -> int:
@@ -60,7 +68,14 @@ def _wrapped(text: str, room: int) -> list[str]:
     if _room(text) <= room:
         return [text]
     letters = room if _room(text) == len(text) else max(1, room // 2)  # some may take two columns
-    return textwrap.wrap(text, letters, break_on_hyphens=False)
+    return _lines(text, letters)
+
+
+def _lines(text: str, letters: int, indent: str = "", later: str = "") -> list[str]:
+    """The text in lines of so many letters; a number and its unit stay on one line."""
+    joined = _AMOUNT.sub(lambda found: found[0].replace(" ", _FIXED_SPACE), text)
+    lines = textwrap.wrap(joined, letters, initial_indent=indent, subsequent_indent=later, break_on_hyphens=False)
+    return [line.replace(_FIXED_SPACE, " ") for line in lines]
 
 
 def _padded(text: str, room: int, side: str) -> str:
@@ -69,15 +84,13 @@ def _padded(text: str, room: int, side: str) -> str:
 
 
 def _room(text: str) -> int:
-    """How many columns of a terminal a text takes."""
+    """The columns of a terminal that a text takes."""
     return len(text) + sum(east_asian_width(letter) in "WF" for letter in text)
 
 
 def paragraph(text: str, indent: str = "  ") -> list[str]:
     """A text wrapped to ``width``; lines after the first are indented by two more."""
-    return textwrap.wrap(
-        one_line(text), width(), initial_indent=indent, subsequent_indent=indent + "  ", break_on_hyphens=False
-    )
+    return _lines(one_line(text), width(), indent, indent + "  ")
 
 
 #: Lengths below this, in m, are rounding.
@@ -89,7 +102,7 @@ def length(metres: float | None) -> str:
     return _scaled(0.0 if metres is not None and abs(metres) < _ROUNDING else metres, _LENGTHS)
 
 
-def length_above(metres: float | None, least: float) -> str:
+def length_or_below(metres: float | None, least: float) -> str:
     """The same, but less than ``least`` (m), the resolution, as ``< 3.2 mm``."""
     if metres is None or metres >= least or least <= _ROUNDING:
         return length(metres)

@@ -9,13 +9,14 @@ from time import perf_counter
 from typing import Generic, TypeVar
 
 from sandbox.engine import simulate
-from sandbox.engine.accuracy import Accuracy
-from sandbox.engine.run import Run
-from sandbox.engine.setup import Setup
+from sandbox.engine.model.accuracy import Accuracy
+from sandbox.engine.model.setup import Setup
+from sandbox.engine.paths.run import Run
 from sandbox.errors import SandboxError
-from sandbox.lab.runs import Progress, silent
+from sandbox.lab.runs import Progress, no_progress
 
-#: Most runs of each. The shortest counts, since other load only adds time.
+#: Most runs of each that count, after a first one that only warms caches. The shortest counts, since other load only
+#: adds time.
 REPEATS = 15
 
 Seen = TypeVar("Seen")
@@ -29,7 +30,7 @@ class Timed(Generic[Seen]):
     accuracy: Accuracy
     look: Callable[[Run], Seen]
     seen: Seen | None = None
-    walls: list[float] = field(default_factory=list)  # s
+    walls: list[float] = field(default_factory=list)  # s, of all runs, the first among them
     problem: str = ""  # why it could not be completed
 
     def run(self) -> None:
@@ -45,21 +46,36 @@ class Timed(Generic[Seen]):
             self.seen = self.look(run)
 
     @property
+    def warm(self) -> list[float]:
+        """The times in s that count: all but the first, unless there is no other."""
+        return self.walls[1:] or self.walls
+
+    @property
+    def wall(self) -> float:
+        """The shortest time in s."""
+        return min(self.warm)
+
+    @property
     def noise(self) -> float:
-        """By what fraction the third shortest time is longer than the shortest."""
-        first, *others = sorted(self.walls)[:3]
+        """The fraction by which the third shortest time is longer than the shortest."""
+        first, *others = sorted(self.warm)[:3]
         return others[-1] / first - 1.0 if others else 0.0
 
 
-def repeat(trials: Sequence[Timed[Seen]], patience: float = float("inf"), progress: Progress = silent) -> None:
-    """Run each several times, for ``patience`` s at most, except those that fail."""
-    for turn in range(REPEATS):
-        progress(turn, REPEATS)
+def repeat(trials: Sequence[Timed[Seen]], patience: float = float("inf"), progress: Progress = no_progress) -> None:
+    """Run each several times, for ``patience`` s at most, except those that fail.
+
+    Each turn starts with another trial: the first run after the garbage is collected takes longer than the same run
+    later in the turn.
+    """
+    for turn in range(REPEATS + 1):
+        progress(turn, REPEATS + 1)
+        first = turn % len(trials)
         gc.collect()
         gc.disable()
         try:
-            for trial in trials:
-                if not trial.problem and len(trial.walls) < REPEATS and sum(trial.walls) < patience:
+            for trial in (*trials[first:], *trials[:first]):
+                if not trial.problem and len(trial.walls) <= REPEATS and sum(trial.walls) < patience:
                     trial.run()
         finally:
             gc.enable()

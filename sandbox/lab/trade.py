@@ -7,14 +7,14 @@ from dataclasses import asdict, dataclass, field, replace
 from math import isfinite
 from typing import Any
 
-from sandbox.engine.accuracy import LEVELS, Accuracy, settle_for
+from sandbox.engine.model.accuracy import LEVELS, Accuracy, settle_for
 from sandbox.lab.ablation import Ablated, ablation
 from sandbox.lab.ablation import as_text as ablation_text
 from sandbox.lab.reference import Reference, converge
-from sandbox.lab.runs import Progress, silent
-from sandbox.lab.tables import length, length_above, paragraph, table, time
+from sandbox.lab.runs import Progress, no_progress
+from sandbox.lab.tables import length, length_or_below, paragraph, table, time
 from sandbox.lab.timing import Timed, repeat
-from sandbox.lab.verdicts import ShotMap, shot_map
+from sandbox.lab.verdicts import VerdictChanges, shot_map
 from sandbox.physics.integrators import INTEGRATORS
 from sandbox.scene import Scene
 from sandbox.sport.amounts import significant
@@ -70,7 +70,7 @@ class Trade:
     points: list[Point]
     levels: dict[str, Point]
     ablation: list[Ablated] = field(default_factory=list)
-    verdicts: ShotMap | None = None
+    verdicts: VerdictChanges | None = None
 
     def best(self, target: float) -> Point | None:
         """The cheapest setting with an error of at most ``target`` m.
@@ -82,7 +82,7 @@ class Trade:
         alike = [point for point in good if point.wall_s <= (1.0 + _NOISE) * least]
         return min(alike, key=lambda point: point.force_evaluations, default=None)
 
-    def behind_front(self, level: str) -> float | None:
+    def slowdown_from_pareto(self, level: str) -> float | None:
         """Time of a level relative to the cheapest setting that is as accurate; 1 on the Pareto front."""
         own = self.levels[level]
         if own.error_m is None:
@@ -91,7 +91,7 @@ class Trade:
         return 1.0 if best is None else max(1.0, own.wall_s / best.wall_s)
 
 
-def trade(scene: Scene, progress: Progress = silent) -> Trade:
+def trade(scene: Scene, progress: Progress = no_progress) -> Trade:
     """Measure a scene. Raises RunError if it cannot be run."""
     reference = converge(scene)
     measured = list(_measured(reference, progress))
@@ -156,10 +156,10 @@ def _point(reference: Reference, method: str, setting: str, trial: Timed[tuple[f
         setting,
         trial.accuracy,
         error,
-        min(trial.walls),
-        len(trial.walls),
+        trial.wall,
+        len(trial.warm),
         evaluations,
-        reference.time / min(trial.walls),
+        reference.time / trial.wall,
         stable,
         trial.problem or ("" if stable else why),
     )
@@ -184,7 +184,8 @@ def as_dict(found: Trade) -> dict[str, Any]:
         "points": [point.as_dict() for point in found.points],
         "best": {f"{target:g}": best and best.as_dict() for target in TARGETS for best in [found.best(target)]},
         "levels": {
-            name: {**point.as_dict(), "times_front": found.behind_front(name)} for name, point in found.levels.items()
+            name: {**point.as_dict(), "times_front": found.slowdown_from_pareto(name)}
+            for name, point in found.levels.items()
         },
         "ablation": [{**asdict(row), "nothing": row.is_nothing} for row in found.ablation],
         "verdicts": found.verdicts,
@@ -196,13 +197,13 @@ def as_text(found: Trade) -> list[str]:
     least = found.reference.error
 
     def cells(point: Point) -> list[str]:
-        return [length_above(point.error_m, least), time(point.wall_s), significant(point.times_real_time)]
+        return [length_or_below(point.error_m, least), time(point.wall_s), significant(point.times_real_time)]
 
     settings = [[p.method, p.setting, *cells(p), str(p.force_evaluations)] for p in found.points]
     levels = [
         [name, length(point.accuracy.tolerance), *cells(point), "" if behind is None else significant(behind)]
         for name, point in found.levels.items()
-        for behind in [found.behind_front(name)]
+        for behind in [found.slowdown_from_pareto(name)]
     ]
     choices = [
         [length(target), f"{best.method} {best.setting}", *cells(best)[:2]]
@@ -216,7 +217,9 @@ def as_text(found: Trade) -> list[str]:
         *_problems(found.points),
         "",
         "levels",
-        *table(("level", "target", "error", "time", "x real time", "x cheapest as accurate"), levels, "lrrrrr"),
+        *table(
+            ("level", "target", "error", "time", "x real time", "x cheapest equally accurate setting"), levels, "lrrrrr"
+        ),
         "",
         "cheapest choice",
         *table(("for", "method", "error", "time"), choices, "llrr"),

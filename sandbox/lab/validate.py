@@ -16,12 +16,12 @@ from pathlib import Path
 from typing import Any
 
 from sandbox import units
-from sandbox.engine.run import Run
 from sandbox.errors import RequestError
-from sandbox.lab.runs import Progress, silent
+from sandbox.lab.runs import Progress, no_progress
 from sandbox.lab.tables import paragraph, table
 from sandbox.parameters import parse_assignment
 from sandbox.scene import load, parameters_of, simulate
+from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.amounts import significant
 
 PUBLISHED = Path(__file__).resolve().parent / "published"
@@ -86,11 +86,11 @@ def _by_form(rows: Sequence[Mapping[str, str]], form: Mapping[str, Any]) -> Iter
 
 
 def validate(
-    source: str | None = None, changes: Mapping[str, Any] | None = None, progress: Progress = silent
+    source: str | None = None, changes: Mapping[str, Any] | None = None, progress: Progress = no_progress
 ) -> list[Compared]:
     """Compute the cases of one scene or preset, or all. ``changes`` override what the cases set."""
     wanted = list(cases()) if source is None else _of(source)
-    found: dict[tuple[str, str], Run] = {}
+    found: dict[tuple[str, str], SceneRun] = {}
     compared = []
     for done, case in enumerate(wanted):
         progress(done, len(wanted))
@@ -111,17 +111,23 @@ def _of(source: str) -> list[Case]:
 
 
 def _inside(result: Any, key: str) -> Any:
+    """The value at a key with dots into lists and tables; None if these do not hold it."""
     for part in key.split("."):
-        result = result[int(part)] if isinstance(result, list) else result[part]
+        try:
+            result = result[int(part)] if isinstance(result, list) else result[part]
+        except LookupError:  # a pin that was not struck, a ball that was potted
+            return None
     return result
 
 
-def _compare(case: Case, run: Run) -> Compared:
+def _compare(case: Case, run: SceneRun) -> Compared:
     computed, difference, holds = _inside(run.result, case.result), None, False
-    if case.tolerance is None:
+    if computed is None:
+        pass
+    elif case.tolerance is None:
         computed = str(computed).lower() if isinstance(computed, bool) else str(computed)
         holds = computed == case.value
-    elif computed is not None:
+    else:
         own = run.scene.facts[case.result.partition(".")[0]].unit
         si = next(iter(units.KINDS[units.KIND_OF[case.unit]]))  # of what is in a table of several units
         computed = units.convert(float(computed), own or si, case.unit)
@@ -155,7 +161,7 @@ def cells(row: Compared) -> tuple[str, ...]:
     about = f"{row.scene.partition('/')[2]} {row.name}".strip(), row.result.replace("_", " ")
     verdict = "holds" if row.holds else "does not"
     if row.difference is None:
-        return *about, row.value, str(row.computed), "", "", verdict
+        return *about, row.value, "none" if row.computed is None else row.computed, "", "", verdict
     digits = _digits(row)
     published = f"{float(row.value):.{digits}f}" if len(row.value.partition(".")[2]) > digits else row.value
     return (

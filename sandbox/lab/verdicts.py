@@ -1,4 +1,4 @@
-"""How often the verdict depends on the accuracy: shots around the scene's own, run at every level."""
+"""The share of verdicts that depend on the accuracy: shots around the scene's own, run at every level."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from time import perf_counter
 from typing import Any
 
 from sandbox import parameters as declared
-from sandbox.engine.accuracy import LEVELS
+from sandbox.engine.model.accuracy import LEVELS
 from sandbox.lab.runs import runs
 from sandbox.lab.tables import paragraph, table
 from sandbox.scene import Scene
@@ -34,7 +34,7 @@ _WAYS: dict[str, dict[str, Any]] = {
 
 
 @dataclass(frozen=True)
-class ShotMap:
+class VerdictChanges:
     """Fraction of the shots whose verdict differs from the finest run's, by level."""
 
     over: tuple[str, str]  # the keys of speed and angle
@@ -65,7 +65,7 @@ def verdict(scene: Scene, result: Mapping[str, Any]) -> str:
     return ", ".join(words)
 
 
-def shot_map(scene: Scene) -> ShotMap | None:
+def shot_map(scene: Scene) -> VerdictChanges | None:
     """Run the map; None for a scene without speed and angle to vary, or without a verdict."""
     controls = scene.controls
     known = {parameter.key: parameter for parameter in declared.walk(scene.parameters)}
@@ -101,4 +101,4 @@ def shot_map(scene: Scene) -> ShotMap | None:
         verdicts(own, how)
         if len(points) * (perf_counter() - started) <= TOO_LONG:
             changed[name] = sum(a != b for a, b in zip(truth, verdicts(points, how), strict=True)) / len(points)
-    return ShotMap(keys, len(points), changed)
+    return VerdictChanges(keys, len(points), changed)

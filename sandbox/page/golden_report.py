@@ -11,15 +11,23 @@ from sandbox.page.parts import filled, html, picture
 
 
 def failure(
-    name: str, lines: Sequence[str], changes: Sequence[str], images: tuple[Image.Image, Image.Image, Image.Image] | None
+    name: str,
+    lines: Sequence[str],
+    changes: Sequence[str],
+    expected: Image.Image | None,
+    actual: Image.Image,
+    difference: Image.Image | None,
 ) -> dict[str, Any]:
-    """What the page needs of a failure, in JSON's types: what the test said, what differs in the run, and expected,
-    actual and difference as pictures."""
+    """A failure as the page needs it, in JSON's types: the lines of the test, the differences in the run, and the
+    pictures; ``expected`` is None if there is none, ``difference`` if the two are not of one size."""
+    images = {"expected": expected, "actual": actual, "difference": difference}
     return {
         "name": name,
         "lines": list(lines),
         "changes": list(changes),
-        "pictures": None if images is None else [picture(image.convert("RGB"), exact=True) for image in images],
+        "pictures": {
+            kind: picture(image.convert("RGB"), exact=True) for kind, image in images.items() if image is not None
+        },
     }
 
 
@@ -35,11 +43,20 @@ def _section(test: str, failed: Mapping[str, Any]) -> str:
     lines = "".join(f"<p>{html(line)}</p>" for line in failed["lines"])
     changes = "".join(f"<li>{html(change)}</li>" for change in failed["changes"])
     told = f"<h3>What differs in the run</h3><ul>{changes}</ul>" if changes else ""
-    shown = "" if failed["pictures"] is None else _pictures(failed["name"], *failed["pictures"])
+    pictures = failed["pictures"]
+    shown = _compared(failed["name"], **pictures) if "difference" in pictures else _alone(pictures)
     return f"<section><h2>{html(failed['name'])}</h2><p>{html(test)}</p>{lines}{told}{shown}</section>"
 
 
-def _pictures(name: str, expected: str, actual: str, difference: str) -> str:
+def _alone(pictures: Mapping[str, str]) -> str:
+    figures = (
+        f'<figure><img alt="{kind}" src="{shown}"><figcaption>{kind}</figcaption></figure>'
+        for kind, shown in pictures.items()
+    )
+    return f'<div class="pictures">{"".join(figures)}</div>'
+
+
+def _compared(name: str, expected: str, actual: str, difference: str) -> str:
     return (
         f'<div class="pictures"><figure><div class="between"><img alt="expected" src="{expected}">'
         f'<img class="above" alt="actual" src="{actual}"><i></i>'

@@ -1,4 +1,4 @@
-"""What notebooks show of a run, a scene, a sweep and a search, and pictures of a run as Pillow images."""
+"""Display of a run, a scene, a sweep and a search in notebooks, and pictures of a run as Pillow images."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from PIL import Image
 from sandbox.errors import RequestError
 from sandbox.files import check_size
 from sandbox.page.parts import html, picture, table
-from sandbox.page.replay import page_of
+from sandbox.page.replay import page_of, text_of
 from sandbox.parameters import walk
 from sandbox.picture import frames
 
 if TYPE_CHECKING:
-    from sandbox.engine.run import Run
     from sandbox.lab.aim import Aim
     from sandbox.lab.sweep import Sweep
     from sandbox.scene import Scene
+    from sandbox.scene.scene_run import SceneRun
 
 Size = tuple[int, int]
 
@@ -47,7 +47,7 @@ class Animation:
         return {"text/html": f'<img alt="the run in motion" src="{url}">', "text/plain": "<Animation of a run>"}
 
 
-def poster(run: Run, path: Path | str | None, size: Size | None) -> Image.Image | None:
+def poster(run: SceneRun, path: Path | str | None, size: Size | None) -> Image.Image | None:
     """The whole run as one picture: written to ``path``, or handed back."""
     drawn = _picture(run, size or POSTER).poster()
     if path is None:
@@ -57,12 +57,12 @@ def poster(run: Run, path: Path | str | None, size: Size | None) -> Image.Image 
     return None
 
 
-def frame(run: Run, t: float, size: Size | None) -> Image.Image:
+def frame(run: SceneRun, t: float, size: Size | None) -> Image.Image:
     """The run at time t in s."""
     return frames.to_image(_picture(run, size or POSTER).frame(t))
 
 
-def animate(run: Run, path: Path | str | None, size: Size | None, fps: float) -> Animation | None:
+def animate(run: SceneRun, path: Path | str | None, size: Size | None, fps: float) -> Animation | None:
     """The run in motion: written to ``path``, or handed back."""
     if not 1 <= fps <= 240:
         raise RequestError(f"fps = {fps:g}: must be from 1 to 240")
@@ -77,9 +77,7 @@ def animate(run: Run, path: Path | str | None, size: Size | None, fps: float) ->
         return Animation(file.read_bytes())
 
 
-def _picture(run: Run, size: Size) -> Any:
-    if run.scene is None:
-        raise RequestError("only a run of a scene has a picture: give what sandbox.simulate(scene) returns")
+def _picture(run: SceneRun, size: Size) -> Any:
     check_size(f"size = {size}", size)
     return run.scene.picture(run, size)
 
@@ -92,10 +90,8 @@ def _check(path: Path | str, *suffixes: str) -> None:
 # ------------------------------------------------------------------------------------------------------------ as HTML
 
 
-def run_html(run: Run) -> str | None:
-    """Card and poster, and the page that plays it where the notebook is trusted; None for a run of no scene."""
-    if run.scene is None:
-        return None
+def run_html(run: SceneRun) -> str:
+    """Card and poster, and the page that plays it where the notebook is trusted."""
     page = escape(page_of(run))
     shown = picture(frames.to_image(_picture(run, POSTER).poster()))
     return (
@@ -107,10 +103,10 @@ def run_html(run: Run) -> str | None:
 
 
 def scene_html(scene: Scene) -> str:
-    """Its parameters as a table: key, value, unit and meaning."""
+    """Its parameters as a table: key, value with unit, and meaning."""
     cells = [
-        (parameter.key, str(parameter.value), parameter.unit or "", parameter.meaning)
-        for parameter in walk(scene.parameters)
+        (each.key, "not set" if each.value is None else text_of(each.value, each.unit), each.meaning)
+        for each in walk(scene.parameters)
     ]
     return f"<h3>{html(scene.title)}</h3><p>{html(scene.about)}</p>{table(cells, scene.title, 'parameters')}"
 
@@ -124,11 +120,12 @@ def sweep_html(sweep: Sweep) -> str:
 
 
 def aim_html(aim: Aim) -> str:
-    """What was found, and all tries as a chart."""
+    """Return the solutions as a table, and all trials as a chart."""
     from sandbox.lab.aim import report
 
     text = escape("\n".join(report.as_text(aim)))
-    return f"<pre>{text}</pre>{_image(_drawn(lambda path: report.draw(aim, path)))}"
+    chart = _image(_drawn(lambda path: report.draw(aim, path)))
+    return f'<pre style="font-family: monospace; white-space: pre">{text}</pre>{chart}'
 
 
 def sweep_plot(sweep: Sweep, path: Path | str | None, of: str | None) -> Image.Image | None:

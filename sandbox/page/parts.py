@@ -1,4 +1,4 @@
-"""What all pages are made of: templates that are filled in, packed data, images."""
+"""The parts of all pages: templates that are filled in, packed data, images."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from PIL import Image
 
-from sandbox.files import json_text, written_whole
+from sandbox.files import atomic_write, json_text
 from sandbox.picture.palette import ASSETS, Colour
 from sandbox.text import one_line
 
@@ -41,7 +41,7 @@ def filled(name: str, title: str, data: str = "", **parts: str) -> str:
 
 def save(page: str, path: Path | str) -> None:
     """Write a page completely or not at all. Raises OSError where it cannot be written."""
-    with written_whole(Path(path)) as file:
+    with atomic_write(Path(path)) as file:
         file.write(page)
 
 

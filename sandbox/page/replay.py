@@ -3,31 +3,32 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from math import atan2, isinf, isnan
 from typing import Any
 
 import numpy as np
 from PIL import Image
 
-from sandbox.engine.arc import Arc
-from sandbox.engine.path import Path
-from sandbox.engine.run import Run
-from sandbox.engine.track import Heaped, Pressing
-from sandbox.errors import RequestError
+from sandbox.engine.paths.arc import Arc
+from sandbox.engine.paths.path import Path
+from sandbox.engine.paths.phase import Phase
 from sandbox.page.parts import css, filled, fonts, html, packed, picture, rows, table, what_changed
-from sandbox.parameters import walk
+from sandbox.parameters import Group, walk
 from sandbox.picture import ball as balls
 from sandbox.picture.above import AboveView
 from sandbox.picture.frames import to_image
+from sandbox.picture.moving import NOT_WORTH_NOTING
 from sandbox.picture.palette import palette
 from sandbox.picture.path import instants
 from sandbox.picture.sheet import CARD, DENSITY
 from sandbox.picture.side import SideView
 from sandbox.picture.vectors import FORCE_LENGTH, SHORTEST, VELOCITY_LENGTH, colour_of
-from sandbox.picture.view import UNSAID, View
+from sandbox.picture.view import View
 from sandbox.scene import Scene, load
-from sandbox.sport.amounts import LADDERS, ladder
+from sandbox.scene.finding import as_path, is_installed
+from sandbox.scene.scene_run import SceneRun
+from sandbox.sport.amounts import LADDERS, exact, ladder
 from sandbox.sport.readings import words_of
 from sandbox.text import command_line
 from sandbox.units import convert
@@ -48,10 +49,9 @@ HEAPED = 1e-12
 MOST_EVENTS = 400
 
 
-def page_of(run: Run, ghosts: Mapping[str, Run] | None = None) -> str:
-    """The page of a run, with other runs by name drawn pale behind it."""
-    if run.scene is None:
-        raise RequestError("only a run of a scene has a page: give what sandbox.simulate(scene) returns")
+def page_of(run: SceneRun, ghosts: Mapping[str, SceneRun] | None = None, options: Sequence[str] = ()) -> str:
+    """The page of a run, with other runs by name drawn pale behind it. ``options`` are the words that its command has
+    besides those of the scene's parameters."""
     scene, verdict = run.scene, run.scene.verdict(run)
     views = list(_views(run, ghosts))
     wide, narrow = (layout.pop("poster") for _, layout in views)
@@ -70,7 +70,7 @@ def page_of(run: Run, ghosts: Mapping[str, Run] | None = None) -> str:
         "views": [layout for _, layout in views],
         "events": [event.t for event in events],
         "duration": max([run.duration, *(ghost.run.duration for ghost in view.ghosts)]),
-        "told": view.told,
+        "told": view.story_end,
         "fonts": fonts(),
     }
     return filled(
@@ -85,33 +85,42 @@ def page_of(run: Run, ghosts: Mapping[str, Run] | None = None) -> str:
         card=table(card, scene.title, "card", {scene.title: css(CARD["accent"]), **others} if others else None),
         events="\n".join(listed),
         events_open="open" if len(events) <= 8 else "",
-        parameters=rows((key, _shown(value, unit)) for key, value, unit, *_ in walk(scene.parameters)),
+        parameters=rows(
+            (each.key, text_of(each.value, each.unit)) for each in walk(scene.parameters) if each.value is not None
+        ),
         about=html(scene.about),
-        command=html(command(scene, "run", *(word for other in ghosts or {} for word in ("--compare", other)))),
+        command=html(command(scene, "run", *options)),
         data=packed(data),
     )
 
 
 def command(scene: Scene, does: str = "run", *options: str) -> str:
     """The command line that runs a scene with these parameters, or ``does`` something else with it."""
-    try:
-        usual = {parameter.key: parameter.value for parameter in walk(load(scene.title).parameters)}
-    except RequestError:  # a scene of the user's own, somewhere else
-        return command_line(f"./{scene.folder.name}", {}, does, *options)
+    source = scene.title
+    if not is_installed(scene.folder):
+        source = f"{as_path(scene.folder)}/{scene.preset}" if scene.preset else as_path(scene.folder)
+    usual = {parameter.key: parameter.value for parameter in walk(load(source).parameters)}
     values = {parameter.key: parameter.value for parameter in walk(scene.parameters)}
     changed = {key: value for key, value in values.items() if value is not None and usual.get(key) != value}
-    return command_line(scene.title, changed, does, *options)
+    return command_line(source, changed, does, *options)
 
 
-def _shown(value: Any, unit: str | None) -> str:
-    text = value if isinstance(value, str) else json.dumps(value, default=lambda group: group.model_dump(mode="json"))
-    return f"{text} {unit}" if unit else str(text)
+def text_of(value: Any, unit: str | None) -> str:
+    """A parameter as people read it, with its unit: in the chosen units."""
+    if isinstance(value, float):
+        return exact(value, unit or "")
+    if isinstance(value, list | tuple):
+        return f"[{', '.join(text_of(each, unit) for each in value)}]"
+    if isinstance(value, Group):
+        inside = [f"{each.key}: {text_of(each.value, each.unit)}" for each in walk(value) if each.value is not None]
+        return f"{{{', '.join(inside)}}}"
+    return value if isinstance(value, str) else json.dumps(value)
 
 
 # ------------------------------------------------------------------------------------------------------------- layers
 
 
-def _views(run: Run, ghosts: Mapping[str, Run] | None) -> Iterator[tuple[View[Any], dict[str, Any]]]:
+def _views(run: SceneRun, ghosts: Mapping[str, SceneRun] | None) -> Iterator[tuple[View[Any], dict[str, Any]]]:
     """The picture in each layout, and what the page needs of it."""
     for size, density in LAYOUTS:
         token = DENSITY.set(density)
@@ -150,8 +159,8 @@ def _layout(view: View[Any]) -> dict[str, Any]:
 # --------------------------------------------------------------------------------------------------------------- data
 
 
-def _static(view: View[Any], run: Run) -> dict[str, Any]:
-    """What does not depend on the layout."""
+def _static(view: View[Any], run: SceneRun) -> dict[str, Any]:
+    """Return the data that do not depend on the layout."""
     names = view.balls
     looks = {id(view.looks[name]): view.looks[name] for name in names}
     numbers = {key: i for i, key in enumerate(looks)}
@@ -200,7 +209,7 @@ def _static(view: View[Any], run: Run) -> dict[str, Any]:
         "spins": view.SPINS,
         "ladders": {unit: _ladder(unit) for unit in UNITS},
         "heaped": HEAPED,
-        "unsaid": UNSAID,
+        "unsaid": NOT_WORTH_NOTING,
         "earlier": palette("trace")["earlier"],
         "rim": css(palette("trace")["rim"]),
         **{name: css(CARD[name]) for name in ("accent", "shadow")},
@@ -235,9 +244,7 @@ def _within(arc: Arc) -> Any:
     position correction adds to it, in m/s."""
     if arc.t1 <= arc.t0:
         return [[arc.start[2]], [arc.start[3]]]
-    if isinstance(arc.contact, Pressing):
-        return [0.0, 0.0]
-    return [round(speed, 9) for speed in arc.contact] if isinstance(arc.contact, Heaped) else 0
+    return [round(speed, 9) for speed in arc.drift] if arc.phase in (Phase.CLUSTER, Phase.HEAP) else 0
 
 
 def _turned(view: View[Any], name: str, until: float) -> dict[str, Any] | None:
@@ -250,7 +257,7 @@ def _turned(view: View[Any], name: str, until: float) -> dict[str, Any] | None:
 
 
 def _look(look: balls.Look, view: View[Any]) -> dict[str, Any]:
-    """What is flat as its shapes, and of a ball the two halves of its skin next to each other, as large as needed."""
+    """Return the shapes of a flat thing, or the two halves of a ball's skin next to each other, as large as needed."""
     if isinstance(look, balls.Silhouette):
         shapes = [[np.asarray(corners), css(colour)] for corners, colour in look.shapes]
         return {"shapes": shapes, "rimmed": look.rimmed}
@@ -273,7 +280,7 @@ def _ground(view: View[Any]) -> dict[str, Any] | None:
     return {"from": places[0], "step": places[1] - places[0], "heights": heights.tolist()}
 
 
-def _forces(view: View[Any], run: Run) -> dict[str, Any]:
+def _forces(view: View[Any], run: SceneRun) -> dict[str, Any]:
     """The components of each force in N at some times in s, None where it does not act."""
     until = min(run.duration, run.caught_at(view.ball) or run.duration)
     times = [float(t) for t in instants(run, SAMPLES, [view.ball]) if t <= until]
@@ -286,6 +293,6 @@ def _forces(view: View[Any], run: Run) -> dict[str, Any]:
 
 
 def _ladder(unit: str) -> list[list[Any]]:
-    """How numbers of a unit are written: from which size on, the factor, unit and digits."""
+    """Return the steps by which numbers of a unit are written: the least size, the factor, unit and digits."""
     steps = ladder(unit) or LADDERS["m"][-1:]
     return [[step.least, convert(1.0, unit, step.unit), step.unit, step.digits] for step in steps]

@@ -13,7 +13,7 @@ function ticks(low, high, count) {
 class Explorer {
   constructor(data) {
     this.data = data;
-    this.chosen = data.own ?? 0;
+    this.chosen = data.chosen;
     this.kept = false;
     for (const name of ["map", "path"]) new ResizeObserver(() => this.draw()).observe($(name));
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
@@ -94,14 +94,14 @@ class Explorer {
       context.fillText(label, 0, 0);
       context.restore();
     });
-    if (data.own !== null) this.ring(context, data.own, 6, ink("ink"), ink("paper"));
-    this.ring(context, this.chosen, 8, "#ffb703", "#0f1720");
+    if (data.own !== null) this.ring(context, data.own.map((value, axis) => this.place(axis, value)), 6, ink("ink"), ink("paper"));
+    this.ring(context, this.at(this.chosen), 8, "#ffb703", "#0f1720");
   }
 
-  ring(context, i, radius, colour, rim) {
+  ring(context, [x, y], radius, colour, rim) {
     for (const [width, ink] of [[5, rim], [2.5, colour]]) {
       context.beginPath();
-      context.arc(...this.at(i), radius, 0, 2 * Math.PI);
+      context.arc(x, y, radius, 0, 2 * Math.PI);
       context.lineWidth = width;
       context.strokeStyle = ink;
       context.stroke();

@@ -9,10 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from sandbox.engine.run import Run
-from sandbox.engine.setup import Circle, Segment
+from sandbox.engine.model.surface import Circle, Segment
 from sandbox.errors import RequestError
-from sandbox.lab.axes import Values, label, unit_of
+from sandbox.lab.axes import Axis, Values, label, spaced, unit_of
 from sandbox.lab.maps import Found, Row, coded, has_numbers, own_place, read
 from sandbox.lab.plan import Plan
 from sandbox.lab.row_file import cell
@@ -21,7 +20,9 @@ from sandbox.page.parts import css, filled, fonts, html, packed
 from sandbox.page.replay import command
 from sandbox.picture.palette import palette
 from sandbox.picture.path import points, simplify
+from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.amounts import amount, significant
+from sandbox.text import argument
 
 #: A page holds so many paths at most, drawn for a picture of so many px.
 MOST_POINTS, PIXELS = 6000, 420
@@ -50,23 +51,30 @@ def page_of(plan: Plan, rows: Iterable[Row], of: str | None = None) -> str:
     order = np.argsort(found.axes[0])
     order = order[np.isfinite(upright[order])]  # the points that have a number, along the axis
     axes = [_axis(plan, 0), _axis(plan, 1) if len(plan.axes) == 2 else _range(found.label if is_curve else "", upright)]
+    places = [np.nan_to_num(found.axes[0]), np.nan_to_num(upright)]
+    own = own_place(plan)
+    if own is not None and len(plan.axes) == 1:
+        own.append(float(np.interp(own[0], places[0][order], places[1][order])))  # on the drawn curve
     data = {
         "kind": "curves" if is_curve else "dots" if plan.samples else "cells",
         "axes": axes,
-        "places": [np.nan_to_num(found.axes[0]), np.nan_to_num(upright)],
+        "places": places,
         "colours": codes,
         "palette": palette_,
         "curves": [{"colour": palette("trace")["colours"][0], "points": order.tolist()}] if is_curve else [],
-        "own": _own(plan, found),
+        "own": own,
+        "chosen": 0 if own is None else _nearest(own, places),
         "said": _said(plan, done, swept),
         **_paths(done),
         "surfaces": _surfaces(done),
-        "radius": next((run.setup.balls[0].radius for run in done if isinstance(run, Run)), 0.0),
+        "radius": next((run.setup.balls[0].radius for run in done if isinstance(run, SceneRun)), 0.0),
         "fonts": fonts(),
     }
     options = [word for axis in plan.axes for word in ("--over", f"{axis.key}={_values(axis)}")]
-    options += ["--samples", str(plan.samples)] if plan.samples else []
-    options += ["--out", "sweep.csv"]
+    options += ["--samples", str(plan.samples), "--seed", str(plan.seed)] if plan.samples else []
+    options += ["--check"] if plan.check else []
+    options += ["--of", of] if of is not None else []
+    options += ["--out", "sweep.csv", "--html", "sweep.html"]
     return filled(
         "sweep.html",
         title=html(title),
@@ -97,13 +105,14 @@ def _range(name: str, values: np.ndarray) -> dict[str, Any]:
     return {"label": name, "low": low - edge, "high": high + edge, "step": 2 * edge, "words": None}
 
 
-def _values(axis: Any) -> str:
+def _values(axis: Axis) -> str:
+    """The values of an axis as ``--over`` takes them."""
     if not isinstance(axis, Values):
-        return f"{axis.low:g}:{axis.high:g}"
-    steps = np.diff(axis.values) if has_numbers(axis) else np.array([])
-    if len(steps) > 1 and np.allclose(steps, steps[0]):
-        return f"{axis.values[0]:g}:{axis.values[-1]:g}:{len(axis.values)}"
-    return ",".join(cell(value) for value in axis.values)
+        return f"{argument(axis.low)}:{argument(axis.high)}"
+    first, last, count = axis.values[0], axis.values[-1], len(axis.values)
+    if count > 2 and has_numbers(axis) and axis.values == spaced(first, last, count):
+        return f"{argument(first)}:{argument(last)}:{count}"
+    return ",".join(map(argument, axis.values))
 
 
 def _coloured(found: Found) -> tuple[list[str], list[int], str]:
@@ -131,17 +140,14 @@ def _coloured(found: Found) -> tuple[list[str], list[int], str]:
     return [*shades, "#888888"], codes.tolist(), f'<ul class="legend">{ends}</ul>'
 
 
-def _own(plan: Plan, found: Found) -> int | None:
-    """The point nearest to the scene file's own values, if these lie on the axes."""
-    own = own_place(plan)
-    if own is None:
-        return None
-    away = sum(((axis - value) / (np.ptp(axis) or 1.0)) ** 2 for axis, value in zip(found.axes, own, strict=True))
+def _nearest(own: Sequence[float], places: Sequence[np.ndarray]) -> int:
+    """The point nearest to the scene file's own shot."""
+    away = sum(((axis - value) / (np.ptp(axis) or 1.0)) ** 2 for axis, value in zip(places, own, strict=True))
     return int(np.argmin(away))
 
 
-def _said(plan: Plan, done: Sequence[Run | Exception], swept: Sequence[Sequence[Any]]) -> list[dict[str, Any]]:
-    """What is said of each point: its parameters, and the facts of its run, or why it failed."""
+def _said(plan: Plan, done: Sequence[SceneRun | Exception], swept: Sequence[Sequence[Any]]) -> list[dict[str, Any]]:
+    """Return the texts for each point: its parameters, and the facts of its run, or why it failed."""
     columns = []
     for key, values in zip(plan.keys, zip(*swept, strict=True), strict=True):
         unit = unit_of(plan.scene, key)
@@ -149,15 +155,15 @@ def _said(plan: Plan, done: Sequence[Run | Exception], swept: Sequence[Sequence[
         columns.append({"label": key, "texts": texts})
     for key, fact in plan.scene.facts.items():
         if fact.label or key == "verdict":
-            texts = [fact.text(run.result.get(key)) if isinstance(run, Run) else "" for run in done]
+            texts = [fact.text(run.result.get(key)) if isinstance(run, SceneRun) else "" for run in done]
             columns.append({"label": fact.label or key, "texts": texts})
-    errors = ["" if isinstance(run, Run) else str(run) for run in done]
+    errors = ["" if isinstance(run, SceneRun) else str(run) for run in done]
     return [*columns, {"label": "failed", "texts": errors}]
 
 
-def _paths(done: Sequence[Run | Exception]) -> dict[str, Any]:
+def _paths(done: Sequence[SceneRun | Exception]) -> dict[str, Any]:
     """Points of all paths one after another, in px from the lower left; where each begins; and what holds them in m."""
-    good = [(i, run) for i, run in enumerate(done) if isinstance(run, Run)]
+    good = [(i, run) for i, run in enumerate(done) if isinstance(run, SceneRun)]
     lines = points([(run, run.setup.balls[0].name) for _, run in good]) if good else []
     flat = np.concatenate([line[:, 1:] for line in lines]) if lines else np.zeros((1, 2))
     low, high = np.percentile(flat, 0.5, axis=0), np.percentile(flat, 99.5, axis=0)
@@ -175,9 +181,9 @@ def _paths(done: Sequence[Run | Exception]) -> dict[str, Any]:
     }
 
 
-def _surfaces(done: Sequence[Run | Exception]) -> list[list[float]]:
+def _surfaces(done: Sequence[SceneRun | Exception]) -> list[list[float]]:
     """Ends in m and half thickness of the straight surfaces, a circle being one without length; of the first run."""
-    setup = next((run.setup for run in done if isinstance(run, Run)), None)
+    setup = next((run.setup for run in done if isinstance(run, SceneRun)), None)
     shapes = [surface.shape for surface in setup.surfaces] if setup is not None else []
     lines = [[*shape.a, *shape.b, shape.radius] for shape in shapes if isinstance(shape, Segment)]
     return lines + [[*shape.center, *shape.center, shape.radius] for shape in shapes if isinstance(shape, Circle)]

@@ -1,4 +1,4 @@
-"""What the fields of a thing must be, so that a wrong number is refused where it is given, by name."""
+"""Validation rules for the fields of dataclasses: a wrong number is an error where it is given, by name."""
 
 from __future__ import annotations
 
@@ -8,12 +8,13 @@ from typing import Any
 
 from sandbox.physics.elementwise import everywhere, finite
 
-#: What each rule asks of a value, of floats or arrays, and says where it does not hold.
+#: Each rule: a condition on a value, floats or arrays, and what is said where it does not hold.
 _RULES = {
     "positive": (lambda x: everywhere((x > 0.0) & (x < inf)), "must be positive"),
     "not_negative": (lambda x: everywhere((x >= 0.0) & (x < inf)), "must not be negative"),
-    "shares": (lambda x: everywhere((x >= 0.0) & (x <= 1.0)), "must be from 0 to 1"),
+    "fractions": (lambda x: everywhere((x >= 0.0) & (x <= 1.0)), "must be from 0 to 1"),
     "finite": (finite, "must be finite"),
+    "lists": (lambda x: isinstance(x, list | tuple), "must be a list: write it in [ ]"),
     "points": (lambda point: len(point) == 2 and all(map(finite, point)), "must be two finite numbers, (x, y)"),
 }
 

@@ -30,7 +30,7 @@ from math import inf
 from typing import ClassVar
 
 from sandbox.physics.checks import check
-from sandbox.physics.plane import STILL, Phase, PlaneState
+from sandbox.physics.plane import STILL, PlanePhase, PlaneState
 
 
 @dataclass(frozen=True)
@@ -67,7 +67,7 @@ class Cloth:
         if not 0.0 < self.inertia <= 1.0:
             raise ValueError(f"{self.name}: inertia = {self.inertia} must be above 0, and at most 1")
 
-    def phase(self, state: PlaneState, radius: float) -> Phase:
+    def phase(self, state: PlaneState, radius: float) -> PlanePhase:
         """The phase that starts at ``state`` for a ball of ``radius`` m, until its mode changes or its spin ends.
 
         Slides for ``2 |u| / (7 mu_s g)``, rolls for ``|v| / (mu_r g)``, spins for ``2 r |wz| / (5 mu_sp g)``.
@@ -77,10 +77,10 @@ class Cloth:
         ux, uy = vx - radius * wy, vy + radius * wx
         mode, stop, alphas = "resting", (inf, 0.0, 0.0), (0.0, 0.0)
         if ux * ux + uy * uy > STILL * STILL:
-            mode, stop = "sliding", Phase.stopping(ux, uy, self.strongest, 1.0 + turn)  # as it also turns
+            mode, stop = "sliding", PlanePhase.stopping(ux, uy, self.strongest, 1.0 + turn)  # as it also turns
             # torque of the force at the lowest point, over the moment of inertia
             alphas = turn * stop[2] / radius, -turn * stop[1] / radius
         elif vx * vx + vy * vy > STILL * STILL:
-            mode, stop = "rolling", Phase.stopping(vx, vy, self.rolling * self.gravity)
+            mode, stop = "rolling", PlanePhase.stopping(vx, vy, self.rolling * self.gravity)
             alphas = -stop[2] / radius, stop[1] / radius
-        return Phase.slowed(mode, state, stop, turn * self.spinning * self.gravity / radius, alphas, radius)
+        return PlanePhase.slowed(mode, state, stop, turn * self.spinning * self.gravity / radius, alphas, radius)

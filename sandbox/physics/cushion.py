@@ -17,6 +17,6 @@ carom tables to 1.4 deg rms (*ours*: fitted to published tracks).
 from __future__ import annotations
 
 
-def raised(radius: float, height: float) -> float:
+def nose_sine(radius: float, height: float) -> float:
     """Sine of the angle above its centre at which a ball of ``radius`` m touches a nose at ``height`` m."""
     return (height - radius) / radius

@@ -7,9 +7,11 @@ from collections.abc import Callable, Sequence
 from functools import reduce
 from typing import Any
 
+from sandbox.renamed import name_old_names
+
 
 def _either(name: str) -> Callable[[Any], Any]:
-    """The function of this name in math for a float, in numpy for an array."""
+    """Return the function of this name: that in math for a float, in numpy for an array."""
     of_float = getattr(math, name)
 
     def function(x: Any) -> Any:
@@ -23,7 +25,7 @@ def _either(name: str) -> Callable[[Any], Any]:
 
 
 def _of_several(of_float: Callable[..., Any], of_arrays: str) -> Callable[..., Any]:
-    """The function of floats, or numpy's of two arrays at a time."""
+    """Return the function of floats, or numpy's of two arrays at a time."""
 
     def function(*values: Any) -> Any:
         if isinstance(values[0], float):
@@ -38,11 +40,11 @@ def _of_several(of_float: Callable[..., Any], of_arrays: str) -> Callable[..., A
 exp, log, sin, cos = map(_either, ("exp", "log", "sin", "cos"))
 
 #: Length of (x, y); elementwise minimum and maximum.
-hypot, least, most = (_of_several(*both) for both in ((math.hypot, "hypot"), (min, "minimum"), (max, "maximum")))
+hypot, minimum, maximum = (_of_several(*both) for both in ((math.hypot, "hypot"), (min, "minimum"), (max, "maximum")))
 
 
 def clip(x: Any, low: float, high: float) -> Any:
-    """x clamped to the range from ``low`` to ``high``."""
+    """Return x clamped to the range from ``low`` to ``high``."""
     if isinstance(x, float):
         return low if x < low else high if x > high else x
     import numpy as np
@@ -51,13 +53,13 @@ def clip(x: Any, low: float, high: float) -> Any:
 
 
 def smooth(x: Any) -> Any:
-    """0 below 0, 1 above 1, and between them a rise without kinks."""
+    """Return 0 below 0, 1 above 1, and between them a rise without kinks."""
     s = clip(x, 0.0, 1.0)
     return s * s * (3.0 - 2.0 * s)
 
 
 def finite(x: Any) -> bool:
-    """Whether x is finite, everywhere."""
+    """Return True if x is finite, everywhere."""
     if isinstance(x, float | int):
         return math.isfinite(x)
     import numpy as np
@@ -66,7 +68,7 @@ def finite(x: Any) -> bool:
 
 
 def anywhere(condition: Any) -> bool:
-    """Whether the condition holds anywhere."""
+    """Return True if the condition holds anywhere."""
     if isinstance(condition, bool):
         return condition
     import numpy as np
@@ -74,8 +76,8 @@ def anywhere(condition: Any) -> bool:
     return bool(np.count_nonzero(condition))  # in a third of the time of any()
 
 
-def at_once(values: Sequence[Any], like: Any) -> Sequence[Any]:
-    """These for a float; for an array of shape (n,) one array of shape (values, n), for what is asked of each."""
+def stacked(values: Sequence[Any], like: Any) -> Sequence[Any]:
+    """Return the values for a float; for an array of shape (n,) one array of shape (values, n)."""
     if isinstance(like, float):
         return values
     import numpy as np
@@ -87,19 +89,22 @@ def at_once(values: Sequence[Any], like: Any) -> Sequence[Any]:
 
 
 def smallest(x: Any) -> Any:
-    """A float; of an array of shape (values, n) the smallest of each column."""
+    """Return a float as it is; of an array of shape (values, n) the smallest of each column."""
     return x if isinstance(x, float) else x.min(axis=0)
 
 
 def everywhere(condition: Any) -> bool:
-    """Whether the condition holds everywhere."""
+    """Return True if the condition holds everywhere."""
     return condition if isinstance(condition, bool) else bool(condition.all())
 
 
-def choose(condition: Any, yes: Any, no: Any) -> Any:
-    """``yes`` where the condition holds, ``no`` elsewhere."""
+def where(condition: Any, yes: Any, no: Any) -> Any:
+    """Return ``yes`` where the condition holds, ``no`` elsewhere."""
     if isinstance(condition, bool):
         return yes if condition else no
     import numpy as np
 
     return np.where(condition, yes, no) if condition.ndim else (yes if condition else no)
+
+
+name_old_names(__name__)

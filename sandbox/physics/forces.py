@@ -25,7 +25,7 @@ _ALMOST_ZERO = 1e-30
 
 
 class MassLoss(Protocol):
-    """How much of its mass a ball has lost by a time t (s), in kg, and how fast it loses it, in kg/s. What it loses
+    """The mass in kg that a ball has lost by a time t (s), and the rate in kg/s at which it loses it. What it loses
     keeps its velocity and spin: the push that it gives is a force like any other."""
 
     def lost(self, t: Any) -> Any: ...
@@ -52,7 +52,7 @@ class Gravity:
 
 @dataclass(frozen=True)
 class _InAir:
-    """What drag and lift share: the ball, the air, and the velocity relative to it."""
+    """The part that drag and lift share: the ball, the air, and the velocity relative to it."""
 
     radius: float  # m
     density: float  # kg/m^3, of the air

@@ -1,4 +1,4 @@
-"""What slides on ice, seen from above: pucks, whose deceleration is constant, and curling stones.
+"""Bodies that slide on ice, seen from above: pucks, whose deceleration is constant, and curling stones.
 
 A **puck** (``Glide``) slides on a straight path with ``dv/dt = -mu g``, and its spin decays independently, by
 ``dw/dt = -+ 2 mu_sp g / r`` for a disc: in closed form. With mu = 0 it is a puck on an air table. Left out: that a
@@ -24,7 +24,7 @@ from math import copysign, inf, sqrt
 from typing import Any, ClassVar
 
 from sandbox.physics.checks import check
-from sandbox.physics.plane import STILL, Phase, PlaneState
+from sandbox.physics.plane import STILL, PlanePhase, PlaneState
 
 #: Speed in m/s below which a stone comes to rest on a straight line, and below which its spin decays as at this speed.
 _CREEPING, _SPINNING_IN_PLACE = 1e-4, 1e-3
@@ -33,11 +33,11 @@ _CREEPING, _SPINNING_IN_PLACE = 1e-4, 1e-3
 _TURNING = -0.8
 
 
-def _straight(state: PlaneState, deceleration: float, spin_slows: float) -> Phase:
+def _straight(state: PlaneState, deceleration: float, spin_deceleration: float) -> PlanePhase:
     """The phase of a body with these constant decelerations (m/s^2, rad/s^2), until its motion or its spin ends."""
     _, _, vx, vy, _ = state
     mode = "sliding" if vx * vx + vy * vy > STILL * STILL else "resting"
-    return Phase.slowed(mode, state, Phase.stopping(vx, vy, deceleration), spin_slows)
+    return PlanePhase.slowed(mode, state, PlanePhase.stopping(vx, vy, deceleration), spin_deceleration)
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ class Glide:
         """The deceleration in m/s^2."""
         return self.sliding * self.gravity
 
-    def phase(self, state: PlaneState, radius: float) -> Phase:
+    def phase(self, state: PlaneState, radius: float) -> PlanePhase:
         """Slides until it stops or its spin ends."""
         return _straight(state, self.strongest, 2.0 * self.spinning * self.gravity / radius)
 
@@ -99,7 +99,7 @@ class CurlingIce:
         """In m/s^2, at a speed in m/s."""
         return self.friction * self.gravity * (self.a / (speed + self.b) + self.c)
 
-    def phase(self, state: PlaneState, radius: float) -> Phase:
+    def phase(self, state: PlaneState, radius: float) -> PlanePhase:
         """Slides and turns towards the spin until one of them ends; spins in place."""
         _, _, vx, vy, wz = state
         speed = sqrt(vx * vx + vy * vy)
@@ -108,11 +108,11 @@ class CurlingIce:
             return _straight(state, slowing, self.s / _SPINNING_IN_PLACE)
         side = copysign(1.0, wz) if abs(wz) > STILL else 0.0
 
-        def law(t: float, state: PlaneState) -> tuple[Any, Any, Any]:
+        def acceleration_at(t: float, state: PlaneState) -> tuple[Any, Any, Any]:
             _, _, vx, vy, _ = state
             speed = sqrt(vx * vx + vy * vy)
             slowing = self.deceleration(speed) / speed
             turning = side * self.curl * self.k * speed**_TURNING
             return -slowing * vx - turning * vy, -slowing * vy + turning * vx, -side * self.s / speed
 
-        return Phase("sliding", state, inf, *law(0.0, state), law=law)
+        return PlanePhase("sliding", state, inf, *acceleration_at(0.0, state), acceleration_at=acceleration_at)

@@ -8,15 +8,17 @@ in, since interpolation between steps needs it anyway.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import cache
+from collections.abc import Callable, Sequence
+from operator import mul
 from typing import Any, NamedTuple
 
-from sandbox.physics.straight import straight
+from sandbox.physics import dormand_prince as pair
 
 State = tuple[Any, ...]
 Acceleration = tuple[Any, Any, Any]
-Law = Callable[[Any, State], Acceleration]
+
+#: The acceleration at a time in s in a state.
+AccelerationFunction = Callable[[Any, State], Acceleration]
 
 
 #: The state after one step, the acceleration there, and an embedded pair's estimate of the local error.
@@ -24,24 +26,6 @@ Step = tuple[State, Acceleration, State | None]
 
 #: ``method(t, state, acceleration, dt)`` makes one step.
 Method = Callable[[Any, State, Acceleration, Any], Step]
-
-
-class Written(NamedTuple):
-    """A law as lines of Python, which a step repeats in each of its stages: no stage calls a function to call others.
-
-    The lines make ``ax{n}, ay{n}, alpha{n}`` at the time ``at`` from ``{state}``, that is ``x{n}, y{n}, vx{n}, ...``
-    """
-
-    given: str  # names of what the law needs, as the parameters of what makes its step
-    before: tuple[str, ...]  # what is known of all stages
-    lines: tuple[str, ...]
-    otherwise: tuple[str, ...] = ()  # what follows if they, below a ``try:``, do not succeed
-    turning: bool = True  # whether it changes the spin
-    placed: bool = True  # whether it may differ from place to place
-
-
-#: Any law.
-CALLED = Written("law", (), ("ax{n}, ay{n}, alpha{n} = law(at, ({state}))",))
 
 
 class Stage(NamedTuple):
@@ -58,30 +42,49 @@ class Stage(NamedTuple):
 
 
 class Integrator(NamedTuple):
-    """An explicit method of Runge and Kutta: its stages after the start, the last of which is the end of the step."""
+    """An explicit Runge-Kutta method: its stages after the start, the last of which is the end of the step."""
 
     stages: tuple[Stage, ...]
     order: int  # global error is O(dt**order) for smooth forces
     source: str
     error: tuple[float, ...] = ()  # its weights, from the start to the last stage or the end, for an embedded pair
+    #: The same as ``step_of``, written out for speed.
+    by_hand: Callable[[AccelerationFunction, bool], Method] | None = None
 
     @property
     def evaluations(self) -> int:
-        """Of the acceleration per step, including the one passed in: the unit of work."""
+        """Evaluations of the acceleration per step, including the one passed in: the unit of work."""
         return len(self.stages)
 
     @property
     def controls_error(self) -> bool:
-        """Whether it chooses its step from its error estimate."""
+        """True if it chooses its step from its error estimate."""
         return len(self.error) > 0
 
-    def step_of(self, law: Law, turns: bool = False) -> Method:
-        """One step of a ball under a law; or of a body, which ``turns``."""
-        method: Method = self.written(CALLED, turns)(law)
-        return method
+    def step_of(self, acceleration_at: AccelerationFunction, rotates: bool = False) -> Method:
+        """Return the step of a ball; of a body if it ``rotates``: its state has the angle, too."""
+        if self.by_hand is not None:
+            return self.by_hand(acceleration_at, rotates)
+        coordinates = (0, 1, 5) if rotates else (0, 1)
 
-    def step_of_many(self, law: Law) -> Method:
-        """One step of many balls at once, whose states are an array. A ball's step does not depend on the others."""
+        def step(t: Any, state: State, acceleration: Acceleration, dt: Any) -> Step:
+            rates = [[*state[2:4], *acceleration, state[4]]]  # of x, y, vx, vy, spin and angle, in each stage
+            for time, weights, of_velocities in self.stages:
+                end = [now + change for now, change in zip(state, _changes(dt, weights, rates), strict=False)]
+                rates.append([*end[2:4], 0.0, 0.0, 0.0, end[4]])
+                if of_velocities:
+                    changes = _changes(dt, of_velocities, rates)
+                    for place in coordinates:
+                        end[place] = state[place] + changes[place]
+                acceleration = acceleration_at(t + time * dt, tuple(end))
+                rates[-1][2:5] = acceleration
+            error = tuple(_changes(dt, self.error, rates)[: len(state)]) if self.error else None
+            return tuple(end), acceleration, error
+
+        return step
+
+    def step_of_many(self, acceleration_at: AccelerationFunction) -> Method:
+        """Return the step of many balls at once, whose states are an array, each independent of the others."""
         import numpy as np  # here, not above: single runs do not need it
 
         stages = [(each.time, np.array(each.weights), np.array(each.of_velocities)) for each in self.stages]
@@ -91,99 +94,51 @@ class Integrator(NamedTuple):
             rates = np.empty((len(stages) + 1, *state.shape))  # vx, vy, ax, ay and alpha in each stage
             rates[0, :2], rates[0, 2:] = state[2:4], acceleration
 
-            def grown(weights: Any, components: int) -> Any:
+            def changes(weights: Any, components: int) -> Any:
                 return dt * np.einsum("s,scn->cn", weights, rates[: len(weights), :components])
 
             for number, (time, weights, of_velocities) in enumerate(stages, 1):
-                end = state + grown(weights, 5)
+                end = state + changes(weights, 5)
                 rates[number, :2] = end[2:4]
                 if len(of_velocities):
-                    end[:2] = state[:2] + grown(of_velocities, 2)
-                rates[number, 2:] = law(t + time * dt, end)
-            return end, rates[-1, 2:], grown(off, 5) if len(off) else None
+                    end[:2] = state[:2] + changes(of_velocities, 2)
+                rates[number, 2:] = acceleration_at(t + time * dt, end)
+            return end, rates[-1, 2:], changes(off, 5) if len(off) else None
 
         return step
 
-    def written(self, law: Written, turns: bool = False) -> Callable[..., Method]:
-        """What makes one step under a law that is written out, from what the law needs."""
-        return _written_out(self.stages, self.error, COMPONENTS[turns], law)
 
-
-#: The components of a state, and the rate of each.
-_RATES = {"x": "vx", "y": "vy", "vx": "ax", "vy": "ay", "spin": "alpha", "angle": "spin"}
-#: The components of the state by whether something turns: of a ball, and of a body.
-COMPONENTS = {False: tuple(_RATES)[:-1], True: tuple(_RATES)}
-
-
-@cache
-def _written_out(
-    stages: Sequence[Stage], error: Sequence[float], names: Sequence[str], law: Written
-) -> Callable[..., Method]:
-    """What makes the step of a state with these components as straight Python; loops over the weights take seven times
-    as long.
-
-    A stage of Heun's method becomes ``vx2 = vx1 + dt * (ax1)``, ``x2 = x1 + dt * (vx1)``, the same for the others, and
-    the lines of the law; other numbers than 1 are multiplied by dt once.
-    """
-    used = {*error, *(w for time, *of_both in stages for w in (time, *sum(of_both, ())))} - {0.0, 1.0}
-    h = {number: f"h{place}" for place, number in enumerate(sorted(used))}
-    rates = "ax", "ay", "alpha"
-    coordinates = [name for name in names if _RATES[name] not in rates]
-    lines = [f"{_at(1, names)} = state", f"{_at(1, rates)} = acceleration"]
-    lines += [f"{name} = dt * {number!r}" for number, name in h.items()]
-    h[1.0] = "dt"
-    staged: list[str] = []
-    for number, stage in enumerate(stages, 2):
-        made = dict.fromkeys(sorted(names, key=coordinates.__contains__), stage.weights)  # which may need the rest
-        if stage.of_velocities:
-            made |= dict.fromkeys(coordinates, stage.of_velocities)
-        for name, weights in made.items():
-            if name in coordinates and number <= len(stages) and not law.placed:
-                continue  # only the end has a place
-            grows = f" + {_sum(h, weights, name)}" if name != "spin" or law.turning else ""
-            staged.append(f"{name}{number} = {name}1{grows}")
-        staged.append(f"at = t + {h[stage.time]}")
-        staged += [line.format(n=number, state=_at(number, names)) for line in law.lines]
-    off = [_sum(h, error, name) if name != "spin" or law.turning else "0.0" for name in names]
-    errors = f"({', '.join(off)})" if error else "None"
-    ends = [f"return ({_at(number, names)}), ({_at(number, rates)}), {errors}"]
-    if law.otherwise:
-        staged = ["try:", *(f"  {line}" for line in staged), *law.otherwise]
-    body = [f"  {line}" for line in (*lines, *staged, *ends)]
-    step = [*law.before, "def step(t, state, acceleration, dt):", *body, "return step"]
-    makes: Callable[..., Method] = straight(f"step_of({law.given})", step, __file__)
-    return makes
-
-
-def _at(number: int, names: Iterable[str]) -> str:
-    """These at the start, in a stage or at the end, by number."""
-    return ", ".join(f"{name}{number}" for name in names)
-
-
-def _sum(h: Mapping[float, str], weights: Sequence[float], name: str) -> str:
-    """The weighted sum of the rates of a component."""
-    rates = {weight: "" for weight in weights if weight}
-    for number, weight in enumerate(weights, 1):
-        if weight:
-            rates[weight] += f" + {_RATES[name]}{number}"
-    return " + ".join(f"{h[weight]} * ({rate[3:]})" for weight, rate in rates.items())
+def _changes(dt: float, weights: Sequence[float], rates: Sequence[Sequence[float]]) -> list[float]:
+    """Return the change of each component in dt at the weighted sum of its rates in the stages."""
+    return [dt * sum(map(mul, weights, rates_of_one)) for rates_of_one in zip(*rates, strict=True)]
 
 
 _HALF = Stage(1 / 2, (1 / 2,))
 
-#: The pair RK5(4)7M; its end has the fifth order.
 DORMAND_PRINCE = Integrator(
     (
-        Stage(1 / 5, (1 / 5,)),
-        Stage(3 / 10, (3 / 40, 9 / 40)),
-        Stage(4 / 5, (44 / 45, -56 / 15, 32 / 9)),
-        Stage(8 / 9, (19372 / 6561, -25360 / 2187, 64448 / 6561, -212 / 729)),
-        Stage(1.0, (9017 / 3168, -355 / 33, 46732 / 5247, 49 / 176, -5103 / 18656)),
-        Stage(1.0, (35 / 384, 0.0, 500 / 1113, 125 / 192, -2187 / 6784, 11 / 84)),
+        Stage(pair.C2, (pair.A21,)),
+        Stage(pair.C3, (pair.A31, pair.A32)),
+        Stage(pair.C4, (pair.A41, pair.A42, pair.A43)),
+        Stage(pair.C5, (pair.A51, pair.A52, pair.A53, pair.A54)),
+        Stage(1.0, (pair.A61, pair.A62, pair.A63, pair.A64, pair.A65)),
+        Stage(
+            1.0,
+            (pair.A71, 0.0, pair.A73, pair.A74, pair.A75, pair.A76),
+        ),
     ),
     5,
     "Dormand & Prince 1980, J. Comput. Appl. Math. 6:19, RK5(4)7M",
-    (71 / 57600, 0.0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40),
+    (
+        pair.E1,
+        0.0,
+        pair.E3,
+        pair.E4,
+        pair.E5,
+        pair.E6,
+        pair.E7,
+    ),
+    pair.step_of,
 )
 
 INTEGRATORS = {

@@ -1,4 +1,4 @@
-"""What bodies slide and roll on, seen from above: a law of motion as data, the same everywhere or by strips.
+"""Planes that bodies slide and roll on, seen from above: a law of motion as data, the same everywhere or by strips.
 
 A law divides a motion into phases. In one phase the accelerations are constant (a sliding ball on cloth, a puck on
 ice), which gives the path in closed form, or they depend on the motion (a curling stone), which is integrated.
@@ -23,11 +23,11 @@ STILL = 1e-12
 _AT_EDGE = 1e-9
 
 
-class Phase(NamedTuple):
+class PlanePhase(NamedTuple):
     """A phase of motion from a state on, lasting ``duration`` s (infinite if nothing ends it).
 
-    The accelerations are constant, or those at its start if there is a ``law``: then ``law(t, state)`` gives
-    (ax, ay, alpha_z).
+    The accelerations are constant, or those at its start if there is ``acceleration_at``: then
+    ``acceleration_at(t, state)`` gives (ax, ay, alpha_z).
     """
 
     mode: str  # "sliding", "rolling", "spinning" or "resting"
@@ -41,7 +41,7 @@ class Phase(NamedTuple):
     radius: float = 0.0  # m
     ends_motion: bool = False  # at its end, sliding becomes rolling if it rolls, or motion becomes rest
     ends_spin: bool = False  # at its end, the spin about the vertical is zero
-    law: Callable[[float, PlaneState], tuple[Any, Any, Any]] | None = None
+    acceleration_at: Callable[[float, PlaneState], tuple[Any, Any, Any]] | None = None
     moves_for: float = 0.0  # s, for which it moves so whether it spins or not, if that is longer
 
     @classmethod
@@ -50,17 +50,17 @@ class Phase(NamedTuple):
         mode: str,
         state: PlaneState,
         stop: tuple[float, float, float],
-        spin_slows: float,
+        spin_deceleration: float,
         alphas: tuple[float, float] = (0.0, 0.0),
         radius: float = 0.0,
-    ) -> Phase:
+    ) -> PlanePhase:
         """The phase of a body that stops so (``stopping``), while its spin about the vertical is slowed by
-        ``spin_slows`` (rad/s^2): until one of them ends."""
+        ``spin_deceleration`` (rad/s^2): until one of them ends."""
         time, wz, alpha_z, spin_time = stop[0], state[4], 0.0, inf
         if abs(wz) > STILL:
             mode = "spinning" if mode == "resting" else mode
-            alpha_z = -copysign(spin_slows, wz)
-            spin_time = abs(wz) / spin_slows if spin_slows > 0.0 else inf
+            alpha_z = -copysign(spin_deceleration, wz)
+            spin_time = abs(wz) / spin_deceleration if spin_deceleration > 0.0 else inf
         duration = min(time, spin_time)
         ends = duration == time < inf, duration == spin_time < inf
         return cls(mode, state, duration, *stop[1:], alpha_z, *alphas, radius, *ends, moves_for=time)
@@ -79,7 +79,7 @@ class Phase(NamedTuple):
         """The state ``t`` s into the phase with its accelerations constant; t is limited to its duration.
 
         At the end itself (t = duration) the constraints hold to the last bit: no slip where a ball begins to roll, no
-        speed where it stops, no wz where the spin ends. Under a ``law`` nothing is reversed.
+        speed where it stops, no wz where the spin ends. With ``acceleration_at`` nothing is reversed.
         """
         x, y, vx, vy, wz, *rolling = self.state
         t = min(t, self.duration)
@@ -88,12 +88,12 @@ class Phase(NamedTuple):
         ux, uy, spin = vx + t * self.ax, vy + t * self.ay, wz + t * self.alpha_z
         wx, wy = rolling or (0.0, 0.0)
         roll = wx + t * self.alpha_x, wy + t * self.alpha_y
-        ended, reversed_by_law = t == self.duration, self.law is not None and ux * vx + uy * vy <= 0.0
-        if (ended and self.ends_spin) or (self.law is not None and spin * wz <= 0.0):
+        ended, would_reverse = t == self.duration, self.acceleration_at is not None and ux * vx + uy * vy <= 0.0
+        if (ended and self.ends_spin) or (self.acceleration_at is not None and spin * wz <= 0.0):
             spin = 0.0
         if ended and self.ends_motion and rolling and self.mode == "sliding":
             roll = -uy / self.radius, ux / self.radius
-        elif (ended and self.ends_motion) or reversed_by_law:
+        elif (ended and self.ends_motion) or would_reverse:
             ux = uy = 0.0
             roll = 0.0, 0.0
         return (x, y, ux, uy, spin, *roll) if rolling else (x, y, ux, uy, spin)
@@ -104,15 +104,15 @@ class Plane(Protocol):
 
     @property
     def name(self) -> str:
-        """What it is called in reports of energy and forces."""
+        """Its name in reports of energy and forces."""
 
     @property
     def rolls(self) -> bool:
-        """Whether bodies on it roll as spheres, and their state has spins about x and y."""
+        """True if bodies on it roll as spheres, and their state has spins about x and y."""
 
     @property
     def in_closed_form(self) -> bool:
-        """Whether every phase has constant accelerations."""
+        """True if every phase has constant accelerations."""
 
     @property
     def strongest(self) -> float:
@@ -122,7 +122,7 @@ class Plane(Protocol):
     def TERMS(self) -> Mapping[str, str]:  # noqa: N802  (a constant of each law)
         """The fields that can be left out, and what they are called."""
 
-    def phase(self, state: PlaneState, radius: float) -> Phase:
+    def phase(self, state: PlaneState, radius: float) -> PlanePhase:
         """The phase that starts at ``state`` for a body of ``radius`` m."""
 
 
@@ -164,7 +164,7 @@ class Strips:
     def strongest(self) -> float:
         return max(law.strongest for law in self.laws)
 
-    def phase(self, state: PlaneState, radius: float) -> Phase:
+    def phase(self, state: PlaneState, radius: float) -> PlanePhase:
         return strip(self, state)[0].phase(state, radius)
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import Any
 
-from sandbox.physics.elementwise import choose, clip, smooth
+from sandbox.physics.elementwise import clip, smooth, where
 from sandbox.physics.forces import Wind, in_wind
 
 
@@ -59,7 +59,7 @@ class Motor:
             return before + slope * (t - start) if start <= t < end else 0.0
         force = 0.0
         for start, end, before, slope, _ in self._pieces:
-            force = choose((start <= t) & (t < end), before + slope * (t - start), force)
+            force = where((start <= t) & (t < end), before + slope * (t - start), force)
         return force
 
     def lost(self, t: Any) -> Any:

@@ -1,4 +1,4 @@
-"""What acts on an elongated body: drag by the direction of its long axis, and what keeps its nose in its path."""
+"""Forces on an elongated body: drag by the direction of its long axis, and a torque that keeps its nose in its path."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class DragByAngle:
 
 @dataclass(frozen=True)
 class Follows:
-    """What turns a spiral's nose with its path until it touches something: a stiff, damped torque towards it."""
+    """A stiff, damped torque that turns a spiral's nose with its path until it touches something."""
 
     inertia: float  # kg m^2
     rate: float = 12.0  # rad/s, of the turning towards the path; assumed

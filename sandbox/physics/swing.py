@@ -8,7 +8,7 @@ from math import cos, sin
 
 @dataclass(frozen=True)
 class Rebound:
-    """How a ball leaves a face that somebody holds, linear in its motion relative to the face before.
+    """The rebound of a ball from a face that somebody holds, linear in its motion relative to the face before.
 
     Across the face ``v_n' = (normal - softer v_n) v_n``; along it ``v_t' = slide v_t + lift r w`` and
     ``r w' = kick v_t + turn r w``; the face is to the left of the ball, v_t is upwards, and w counter-clockwise.

@@ -41,7 +41,7 @@ class AboveView(View[P]):
 
     @cached_property
     def plan(self) -> Plan:
-        """What stands still."""
+        """The place: everything that stands still."""
         return ()
 
     @cached_property
@@ -51,7 +51,7 @@ class AboveView(View[P]):
 
     @property
     def area(self) -> Area:
-        """Where in the picture all that must be seen is, in px: over the scale bar."""
+        """The part of the picture for all that must be seen, in px: over the scale bar."""
         aside, foot = 0.085 * self.size[0], self.sheet.lettering.height("small") + 3.4 * self.sheet.gap
         return Area(aside, self.sheet.top_row + 16 * self.unit, self.size[0] - aside, self.card_row - foot)
 
@@ -110,7 +110,7 @@ class AboveView(View[P]):
         """No label goes over the row ``top`` or on the card, nor on a ball or within so many px of these spots."""
         sheet.labels.take(pygame.Rect(0, 0, self.size[0], top))
         sheet.labels.take(pygame.Rect(0, round(self.card_row), *self.size))
-        for (x, y), half in [*self._placed(camera, self.told).values(), *spots]:
+        for (x, y), half in [*self._placed(camera, self.story_end).values(), *spots]:
             sheet.labels.take(pygame.Rect(round(x - half), round(y - half), round(2 * half), round(2 * half)))
 
     def scale(self, sheet: Sheet, camera: Camera) -> None:

@@ -59,7 +59,7 @@ class Mark(NamedTuple):
 
 
 class Look:
-    """How a ball looks: its colour, the marks on it, later ones on top, and how bright the light's image on it is."""
+    """The look of a ball: its colour, the marks on it, later ones on top, and how bright the light's image on it is."""
 
     #: Up to this share of its radius it hides what lies behind it, however it is turned.
     solid: float = 1.0
@@ -177,7 +177,7 @@ def turned(axis_angle: Sequence[float]) -> np.ndarray:
 
 
 class Turning:
-    """How a ball is turned at any time, from its spin (rad/s, about x, y and z) as a function of time.
+    """The orientation of a ball at any time, from its spin (rad/s, about x, y and z) as a function of time.
 
     ``times`` (s) are where the spin or its rate may jump; between two of them it changes evenly, and is followed in
     steps of STEP s where that turns its axis. The columns of the matrices are the ball's own axes.
@@ -236,8 +236,8 @@ def _sums(values: np.ndarray) -> np.ndarray:
 
 @lru_cache(maxsize=64)
 def _grid(radius: float, phase: Point) -> tuple[np.ndarray, ...]:
-    """What all balls of one size have in common: which places are on the ball, and their directions; how many of them
-    each px has, how bright it is, how much of the light's image (0 to 255) it shows, and how much of it is
+    """Everything that balls of one size have in common: which places are on the ball, and their directions; how many
+    of them each px has, how bright it is, how much of the light's image (0 to 255) it shows, and how much of it is
     covered (0 to 255)."""
     reach = ceil(radius + 1)
     side = 2 * reach + 1

@@ -104,19 +104,19 @@ class Eye:
         return self.camera.anchor[1]
 
     def along(self, px: float, z: float) -> float:
-        """Where along the plane of play, in m, what is seen in a column (px) and z m behind the plane stands."""
+        """The place along the plane of play, in m, of a thing z m behind the plane that is seen in a column (px)."""
         return self.camera.world(self.centre + (px - self.centre) / self.share(z), 0.0)[0]
 
     def share(self, z: float) -> float:
-        """How large things are z m behind the plane of play, against those in it."""
+        """The size of things z m behind the plane of play, as a share of that in it."""
         return self.distance / (self.distance + z)
 
     def depth(self, share: float) -> float:
-        """How far behind the plane of play, in m, things look so much smaller."""
+        """The distance behind the plane of play, in m, at which things look so much smaller."""
         return self.distance * (1 / share - 1)
 
     def scale_at(self, points: np.ndarray) -> float:
-        """How large things at these points (m, shape (n, 3)) are, in px/m."""
+        """The scale at these points (m, shape (n, 3)), in px/m."""
         return self.camera.scale * float(np.mean([self.share(z) for *_, z in points.tolist()]))
 
     def points(self, points: np.ndarray) -> np.ndarray:

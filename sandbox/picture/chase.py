@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from sandbox.engine.run import Run
+from sandbox.engine.paths.run import Run
 from sandbox.picture.camera import Area, Camera
 from sandbox.picture.path import MOST_SAMPLES
 
@@ -47,7 +47,7 @@ class Chase:
         self.paths = [_smooth(path, spread) for path in (*at, np.log(scales))]
 
     def _bounds(self, axis: int, place: Any, scale: Any, slack: float = 0.0) -> tuple[Any, Any]:
-        """Where the camera has to look at least and at most, in m, for a ball there to be inside the area."""
+        """The least and greatest place in m at which the camera can look for a ball there to be inside the area."""
         low, high = self.reach[axis]
         spare = slack * (high - low)
         return place - (high + spare) / scale, place - (low - spare) / scale

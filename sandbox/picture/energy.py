@@ -10,16 +10,23 @@ from math import inf
 
 import numpy as np
 
-from sandbox.engine.arc import Arc
-from sandbox.engine.bernstein import piece
 from sandbox.engine.ledger import Ledger, ledger
-from sandbox.engine.path import Path
-from sandbox.engine.run import Run
-from sandbox.engine.setup import kinetic
+from sandbox.engine.model.ball import Ball, Force, kinetic
+from sandbox.engine.motion.forces_on_ball import cause
+from sandbox.engine.paths.arc import Arc
+from sandbox.engine.paths.bernstein import piece
+from sandbox.engine.paths.path import Path
+from sandbox.engine.paths.run import Run
 from sandbox.picture.path import instants
 
 #: The run is cut into so many pieces.
 PIECES = 160
+
+#: What a conservative force may still give is named so, with the force's name.
+STORED = "stored by "
+
+#: States of a run at which a force is examined.
+_STATES = 40
 
 
 @dataclass(frozen=True)
@@ -27,7 +34,7 @@ class Course:
     """Energy in J over time: arrays of the shape of ``times``."""
 
     times: np.ndarray  # s
-    has: dict[str, np.ndarray]  # "height", "speed" and "spin" of all balls
+    has: dict[str, np.ndarray]  # "height", "speed" and "spin" of all balls; "stored by" each conservative force
     work: dict[str, np.ndarray]  # of each cause until then: positive what it put in, negative what it took
 
     @property
@@ -37,12 +44,12 @@ class Course:
 
     @property
     def taken(self) -> dict[str, np.ndarray]:
-        """What each cause has taken."""
+        """The energy that each cause has taken."""
         return {name: np.maximum(-work, 0.0) for name, work in self.work.items()}
 
     @property
     def put_in(self) -> dict[str, np.ndarray]:
-        """What each cause has put in, as wind does: with the start it makes up what there is and what was taken."""
+        """The energy that each cause put in, as wind does; with the start it makes up what is there and was taken."""
         return {name: np.maximum(work, 0.0) for name, work in self.work.items()}
 
 
@@ -55,6 +62,7 @@ def course(run: Run) -> Course:
         for kind in (part.work, part.impacts, part.contacts):
             for name, energy in kind.items():
                 gained[called(name)][i + 1] += energy
+    catches = {event.ball: event.partner for event in run.events if event.kind == "caught"}
     has = {name: np.zeros(len(times)) for name in ("height", "speed", "spin")}
     for ball in run.setup.balls:
         caught = run.caught_at(ball.name)
@@ -63,20 +71,57 @@ def course(run: Run) -> Course:
             if run.setup.plane is not None:
                 spins += run.rolling_spin(ball.name, float(t))
             if caught is not None and t >= caught:
-                gained["pockets"][i] -= kinetic(ball, (x, y, vx, vy, *spins))
+                gained[called(catches[ball.name])][i] -= kinetic(ball, (x, y, vx, vy, *spins))
                 break
             has["speed"][i] += kinetic(ball, (x, y, vx, vy, 0.0), t)
             has["spin"][i] += kinetic(ball, (x, y, 0.0, 0.0, *spins), t)
     sums = {name: np.cumsum(energy) for name, energy in gained.items()}
     fallen = sums.pop("gravity", np.zeros(len(times)))
     has["height"] = fallen.max() - fallen
+    for name in sorted(name for name in sums if _gives_back(run, name)):
+        given = sums.pop(name)
+        has[f"{STORED}{name}"] = given.max() - given
     return Course(times, has, sums)
 
 
+def _gives_back(run: Run, name: str) -> bool:
+    """True if all forces of this name are conservative, as springs are: they depend on the position alone, and have no
+    curl. Judged at some states of the run."""
+    balls = run.setup.balls
+    forces = [(ball, force) for ball in balls for force in ball.forces if cause(force) == name]
+    torques = any(cause(torque) == name for ball in balls for torque in ball.torques)
+    if not forces or torques:
+        return False
+    try:
+        return all(_is_conservative(force, run, ball) for ball, force in forces)
+    except Exception:  # a force that cannot be computed for other states than those of its run
+        return False
+
+
+def _is_conservative(force: Force, run: Run, ball: Ball) -> bool:
+    acts = False
+    for t in instants(run, _STATES).tolist():
+        x, y, vx, vy, spin = run.state(ball.name, t)
+        here = force(t, (x, y), (vx, vy), spin)
+        if force(0.5 * t + 0.1, (x, y), (1.0 - vy, vx - 2.0), spin + 10.0) != here:
+            return False
+        d = 1e-4 * ball.radius
+        along_x, along_y = (
+            [b - a for a, b in zip(force(t, low, (vx, vy), spin), force(t, high, (vx, vy), spin), strict=True)]
+            for low, high in (((x - d, y), (x + d, y)), ((x, y - d), (x, y + d)))
+        )
+        rounding = 1e-12 * max(map(abs, here))
+        if abs(along_x[1] - along_y[0]) > 1e-4 * max(map(abs, (*along_x, *along_y))) + rounding:
+            return False
+        acts = acts or any(here)
+    return acts
+
+
 def _names(run: Run) -> Callable[[str], str]:
-    """What causes are called here: two balls "balls", and surfaces by their kind where there are several of it."""
+    """The name of each cause: two balls are "balls", and surfaces and catches, as pockets, go by their kind where
+    there are several of it."""
     balls = {ball.name for ball in run.setup.balls}
-    surfaces = {surface.name for surface in run.setup.surfaces}
+    surfaces = {surface.name for surface in run.setup.surfaces} | {catch.name for catch in run.setup.traps}
     kinds = Counter(name.split()[-1] for name in surfaces)
 
     def called(name: str) -> str:

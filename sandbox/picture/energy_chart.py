@@ -7,34 +7,40 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 import pygame
 
-from sandbox.engine.run import Run
-from sandbox.picture.energy import Course, course
-from sandbox.picture.graph import CHART, Curve, Plot, plotted
+from sandbox.files import SMALLEST
+from sandbox.picture.chart import CHART, Curve, Plot, plotted
+from sandbox.picture.energy import STORED, Course, course
 from sandbox.picture.palette import Colour, mix
 from sandbox.picture.path import hardest
 from sandbox.picture.sheet import CARD, Entry, Sheet
 from sandbox.picture.vectors import colour_of
+from sandbox.scene.scene_run import SceneRun
 
 #: Causes that took less than this share of all energy are summed up as "other"; and at most so many are shown.
 LEAST_SHARE, MOST_CAUSES = 0.004, 6
 #: J; a run with less at the start has nothing to show.
 LEAST_ENERGY = 1e-3
+#: For this share of a run the chart goes on after an impact that ends it: what that changed would have no width.
+AFTER_LAST = 0.04
 #: How dark what is lost is drawn, and how light words are in a band's colour.
 LOST, LIGHT = 0.42, 0.4
 
 
 def bands_of(energy: Course) -> tuple[list[Curve], list[Curve]]:
-    """What the balls have and what the largest causes took, the largest first, one on another; and, on what there was
-    at the start, what was put in."""
+    """Bands of the energy that the balls have and that the largest causes took, the largest first, one on another;
+    and, on what there was at the start, what was put in."""
     least, times = LEAST_SHARE * max(energy.start, 1e-12), energy.times
     colours: dict[str, Colour] = {}  # of each cause, as in every other chart; another one where two would look alike
-    for name in sorted(energy.work):
+    for name in sorted([*energy.work, *(name.removeprefix(STORED) for name in energy.has if STORED in name)]):
         wanted = [CHART["cause"].get(name) or colour_of(name), *CHART["spare"]]
         colours[name] = next((colour for colour in wanted if colour not in colours.values()), wanted[0])
     lost = sorted(energy.taken.items(), key=lambda cause: -cause[1].max())
     shown = [(name, values) for name, values in lost[:MOST_CAUSES] if values.max() > least]
     rest = sum((values for _, values in lost[len(shown) :]), np.zeros(len(times)))
-    there = [Curve(name, times, values, CHART[name]) for name, values in energy.has.items()]
+    there = [
+        Curve(name, times, values, CHART.get(name) or colours[name.removeprefix(STORED)])
+        for name, values in energy.has.items()
+    ]
     there += [Curve(name, times, values, mix(colours[name], CHART["ground"], LOST)) for name, values in shown]
     there += [Curve("other", times, rest, CHART["other"])]
     put_in = [Curve(f"put in by {name}", times, values, colours[name]) for name, values in energy.put_in.items()]
@@ -51,9 +57,20 @@ def _stacked(bands: Sequence[Curve], lowest: float, least: float) -> Iterator[Cu
             foot = top
 
 
-def energy_chart(run: Run, size: tuple[int, int] = (1280, 720)) -> pygame.Surface:
+def energy_charts(runs: Sequence[SceneRun], size: tuple[int, int]) -> pygame.Surface:
+    """The charts of runs that are compared, one below the other, each with its share of the height."""
+    if len(runs) == 1:
+        return energy_chart(runs[0], size)
+    width, height = size[0], max(SMALLEST[1], size[1] // len(runs))
+    surface = pygame.Surface((width, height * len(runs)))
+    for place, run in enumerate(runs):
+        surface.blit(energy_chart(run, (width, height)), (0, place * height))
+    return surface
+
+
+def energy_chart(run: SceneRun, size: tuple[int, int] = (1280, 720)) -> pygame.Surface:
     """The course of a run's energy. Where something put energy in, bands reach above the start, up to a line."""
-    sheet, energy = Sheet(size, on_dark=True), course(run)
+    sheet, energy = Sheet(size, on_dark=True), held_at_the_end(run)
     sheet.surface.fill(CHART["ground"])
     bands, put_in = bands_of(energy)
     whole = [("at the start", energy.start), *((line.name, _last(line)) for line in put_in)]
@@ -71,7 +88,7 @@ def energy_chart(run: Run, size: tuple[int, int] = (1280, 720)) -> pygame.Surfac
     top = sheet.top_row + 2 * sheet.gap
     rect = pygame.Rect(sheet.frame.left, top, right - sheet.frame.left, sheet.card_row() - sheet.gap - top)
     high = max([LEAST_ENERGY, *(float(band.values.max()) for band in bands)])
-    plot = plotted(sheet, rect, max(run.duration, 1e-9), 0.0, high, joules)
+    plot = plotted(sheet, rect, max(float(energy.times[-1]), 1e-9), 0.0, high, joules)
     for curve in [*bands, *(line._replace(foot=None) for line in put_in)]:
         plot.draw(sheet, curve)
     plot.mark(sheet, [event.t for event in hardest(run)])
@@ -83,6 +100,20 @@ def energy_chart(run: Run, size: tuple[int, int] = (1280, 720)) -> pygame.Surfac
         places = (plot.rect.right - share * plot.rect.width for share in (0.01, 0.2, 0.4, 0.6))
         sheet.chip(f"{joules(energy.start)} at the start", [(x, row + 4 * unit, -1.0, 1.0) for x in places])
     return sheet.surface
+
+
+def held_at_the_end(run: SceneRun) -> Course:
+    """The course of a run's energy, held for a while at its last values if an impact ends the run."""
+    energy = course(run)
+    if not any(event.kind == "impact" and event.t >= run.duration for event in run.events):
+        return energy
+
+    def held(values: np.ndarray) -> np.ndarray:
+        return np.append(values, values[-1])
+
+    times = np.append(energy.times, (1.0 + AFTER_LAST) * run.duration)
+    has, work = ({name: held(values) for name, values in each.items()} for each in (energy.has, energy.work))
+    return Course(times, has, work)
 
 
 def _name(sheet: Sheet, plot: Plot, bands: Sequence[Curve], lines: Sequence[Curve]) -> None:
@@ -100,17 +131,18 @@ def _name(sheet: Sheet, plot: Plot, bands: Sequence[Curve], lines: Sequence[Curv
         sheet.painter.line([(near, end), (far, row)], max(1.0, sheet.unit), curve.colour)
         sheet.write(_said(curve), "small", (far + gap / 2, row), _light(curve), "midleft", bold=True)
     for (band, low, high), seen in zip(edges[: len(bands)], thick, strict=False):
-        columns, half = plot.column(band.times), sheet.lettering.width(band.name, "small", bold=True) / 2 + gap
-        middles = np.clip(columns, rect.left + half, rect.right - half)
-        under = [np.abs(columns - x) <= half for x in middles]  # of a name there
-        rooms = [(low[part].min(), high[part].max(), x) for part, x in zip(under, middles, strict=True)]
+        half = sheet.lettering.width(band.name, "small", bold=True) / 2 + gap
+        columns = np.arange(rect.left, rect.right + 1.0)
+        low, high = (np.interp(columns, plot.column(band.times), rows) for rows in (low, high))
+        under = [(x, np.abs(columns - x) <= half) for x in columns if rect.left + half <= x <= rect.right - half]
+        rooms = [(low[part].min(), high[part].max(), x) for x, part in under]
         bottom, top, x = max(rooms, key=lambda room: room[0] - room[1])
         if not seen and bottom - top > tall + gap:
             sheet.label(band.name, "small", [(x, (bottom + top) / 2, "center")], CHART["ground"], bold=True)
 
 
 def _last(band: Curve) -> float:
-    """What a band comes to, in J."""
+    """The last height of a band, in J."""
     assert band.foot is not None
     return float(band.values[-1] - band.foot[-1])
 

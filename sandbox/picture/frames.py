@@ -18,9 +18,9 @@ import numpy as np
 import pygame
 from PIL import GifImagePlugin, Image
 
-from sandbox.engine.run import Run
+from sandbox.engine.paths.run import Run
 from sandbox.errors import RequestError
-from sandbox.files import folder_of_parts, written_whole
+from sandbox.files import atomic_write, folder_of_parts
 
 if TYPE_CHECKING:
     from sandbox.picture.view import View
@@ -135,7 +135,7 @@ def check_frames_folder(option: str, folder: Path) -> None:
 
 
 def _is_ours(file: Path) -> bool:
-    """Whether a file is a frame of an earlier run."""
+    """True if a file is a frame of an earlier run."""
     try:
         with file.open("rb") as opened:
             return opened.read(8 + 25 + 8 + len(OURS)).endswith(b"tEXt" + OURS)
@@ -150,11 +150,11 @@ def save_gif(picture: View[Any], run: Run, path: Path | str, fps: float, progres
     frame only what differs from the frame before is kept; Pillow alone would hold all frames in memory.
     Raises OSError where it cannot be written.
     """
-    times, before = frame_times(run.duration, min(fps, FASTEST_GIF)), None
+    times, before = _moments(picture, run, min(fps, FASTEST_GIF)), None
     colours = shared_palette(picture, times)
     palette = bytes(colours.getpalette("RGB") or []).ljust(3 * 256, b"\0")
     parts = []
-    for image, stay in zip(film(picture, times, progress), _durations(times, 10), strict=True):
+    for image, stay in zip(film(picture, times, progress), _durations(times, 10, picture.slower), strict=True):
         shown = np.asarray(image.quantize(palette=colours, dither=Image.Dither.NONE))
         changed = shown if before is None else np.where(shown == before, SEE_THROUGH, shown).astype(np.uint8)
         part, before = Image.frombytes("P", image.size, changed.tobytes()), shown
@@ -189,9 +189,9 @@ def save_webp(picture: View[Any], run: Run, path: Path | str, fps: float, progre
     """Write the run as an animated WebP that repeats, in all colours; returns the number of frames, of which equal ones
     are written as one. Raises OSError where it cannot be written.
     """
-    times, data = frame_times(run.duration, fps), io.BytesIO()
+    times, data = _moments(picture, run, fps), io.BytesIO()
     film = _Film(picture, times, progress)
-    film.save(data, "WEBP", save_all=True, duration=_durations(times, 1), loop=0, **WEBP)
+    film.save(data, "WEBP", save_all=True, duration=_durations(times, 1, picture.slower), loop=0, **WEBP)
     _write(Path(path), data.getvalue())
     return len(times)
 
@@ -203,9 +203,11 @@ def save_video(picture: View[Any], run: Run, path: Path | str, fps: float, progr
     """
     import imageio_ffmpeg
 
-    times = frame_times(run.duration, fps)
+    times = _moments(picture, run, fps)
     times += [times[-1]] * round(PAUSE * fps)
     path = Path(os.path.realpath(path))
+    if path.exists() and not path.is_file():
+        raise RequestError(f"--video {path}: is no file, and a video cannot be written in one piece; name a file")
     with folder_of_parts(path.parent, "video") as folder:
         part = folder / "run.mp4"
         images = film(picture, times, progress)
@@ -226,9 +228,16 @@ def save_video(picture: View[Any], run: Run, path: Path | str, fps: float, progr
     return len(times)
 
 
-def _durations(times: list[float], tick: int) -> list[int]:
-    """How long each frame stays, in ms, where a format knows ticks of so many ms."""
-    return [tick * (b - a) for a, b in pairwise(round(1000 / tick * t) for t in times)] + [round(1000 * PAUSE)]
+def _moments(picture: View[Any], run: Run, fps: float) -> list[float]:
+    """The times in s of the frames of an animation; what is over too soon is in slow motion, which the frames say."""
+    picture.slower = picture.slow_motion
+    return frame_times(run.duration, fps * picture.slower)
+
+
+def _durations(times: list[float], tick: int, slower: int) -> list[int]:
+    """The time that each frame stays, in ms, where a format knows ticks of so many ms."""
+    ends = [round(1000 / tick * slower * t) for t in times]
+    return [tick * (b - a) for a, b in pairwise(ends)] + [round(1000 * PAUSE)]
 
 
 def frame_times(duration: float, fps: float) -> list[float]:
@@ -259,5 +268,5 @@ def shared_palette(picture: View[Any], times: list[float]) -> Image.Image:
 
 
 def _write(path: Path, data: bytes) -> None:
-    with written_whole(path) as file:
+    with atomic_write(path) as file:
         file.buffer.write(data)

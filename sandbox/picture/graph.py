@@ -1,19 +1,19 @@
 """Graphs over time: where a ball is, how fast, what acts on it, and its energy; several runs laid over each other.
 
-``draw_panel`` draws one of them anywhere: a panel is data. ``plotted`` draws the axes of any chart over time.
+``draw_panel`` draws one of them anywhere: a panel is data.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from math import ceil, floor, hypot, pi
+from collections.abc import Iterator, Mapping, Sequence
+from math import ceil, hypot, pi
 from typing import Any, NamedTuple
 
 import numpy as np
 import pygame
 
-from sandbox.engine.run import Run
-from sandbox.engine.track import Pressing
+from sandbox.engine.paths.phase import Phase
+from sandbox.picture.chart import CHART, Curve, plotted
 from sandbox.picture.energy import course
 from sandbox.picture.palette import Colour, mix, palette
 from sandbox.picture.path import hardest, instants
@@ -21,100 +21,17 @@ from sandbox.picture.sheet import CARD, Sheet
 from sandbox.picture.side import SideView
 from sandbox.picture.vectors import colour_of
 from sandbox.picture.view import View
-from sandbox.sport.amounts import ladder, nice, signed
+from sandbox.scene.scene_run import SceneRun
+from sandbox.sport.amounts import ladder
 from sandbox.units import convert
 
-CHART, TRACES = palette("energy"), palette("trace")["colours"]
+TRACES = palette("trace")["colours"]
 #: A run is sampled at so many even times.
 PIECES = 300
 #: Panels next to each other; on a picture narrower than so many px per row, fewer.
 COLUMNS, NARROW = 4, 1.3
 #: How much of its colour another run's curve has, and how much lighter than a trace a curve on dark ground is.
 PALE, LIGHTER = 0.75, 0.25
-
-
-class Curve(NamedTuple):
-    """A line over times in s: values, NaN where there is none; with a ``foot`` the upper edge of a band that stands on
-    those values."""
-
-    name: str
-    times: np.ndarray
-    values: np.ndarray
-    colour: Colour
-    opacity: float = 1.0
-    foot: np.ndarray | None = None
-
-
-class Plot(NamedTuple):
-    """A rectangle in px that shows the time from 0 to ``until`` in s and values from ``low`` to ``high``."""
-
-    rect: pygame.Rect
-    until: float
-    low: float
-    high: float
-
-    def column(self, t: Any) -> Any:
-        """Of a time in s, in px."""
-        return self.rect.left + self.rect.width * t / self.until
-
-    def row(self, value: Any) -> Any:
-        """Of a value, in px."""
-        return self.rect.bottom - self.rect.height * (value - self.low) / (self.high - self.low)
-
-    def draw(self, sheet: Sheet, curve: Curve) -> None:
-        """A curve or a band."""
-        painter, unit = sheet.painter, sheet.unit
-        line = np.column_stack([self.column(curve.times), self.row(curve.values)])
-        if curve.foot is None:
-            for piece in np.split(line, np.flatnonzero(~np.isfinite(curve.values))):
-                if len(known := piece[np.isfinite(piece[:, 1])]) > 1:
-                    painter.line(known, max(1.2, 2.0 * unit), curve.colour, curve.opacity)
-            return
-        foot = np.column_stack([line[:, 0], self.row(curve.foot)])
-        painter.polygon(np.concatenate([line, foot[::-1]]), curve.colour)
-        painter.line(line, max(1.0, 1.2 * unit), CHART["ground"], 0.8)
-
-    def mark(self, sheet: Sheet, hits: Sequence[float]) -> None:
-        """Dashed lines at these times in s."""
-        for hit in hits:
-            ends = [(self.column(hit), row) for row in (self.rect.top, self.rect.bottom)]
-            thin, dash = max(1, round(sheet.unit)), 4 * sheet.unit
-            sheet.painter.dashes(ends, thin, CARD["text"], dash, dash, 0.3)
-
-
-def _number(value: float) -> str:
-    return signed(f"{value:.10g}")
-
-
-def plotted(
-    sheet: Sheet, rect: pygame.Rect, until: float, low: float, high: float, write: Callable[[float], str] = _number
-) -> Plot:
-    """Draw axes with round values and times inside a rectangle."""
-    letters, gap, thin = sheet.lettering, sheet.gap, max(1, round(sheet.unit))
-    small = letters.height("small")
-    step = nice(max(1.9 * small / max(1, rect.height - small - gap), 0.15) * (high - low))
-    levels = [i * step for i in range(ceil(low / step - 1e-9), floor(high / step + 1e-9) + 1)]
-    if len(levels) == 1:  # a low chart: round numbers near its ends
-        levels = [_rounded(end) for end in (low, high)]
-    texts = [write(level) for level in levels]
-    left = max(letters.width(text, "small") for text in ["0000", *texts]) + gap  # mostly the same: charts in line
-    plot = Plot(pygame.Rect(rect.left + left, rect.top, rect.width - left - gap, rect.height), until, low, high)
-    plot.rect.height -= small + 2 * gap
-    for level, text in zip(levels, texts, strict=True):
-        sheet.surface.fill(CHART["rule"], (plot.rect.left, round(plot.row(level)), plot.rect.width, thin))
-        letters.write(sheet.surface, text, "small", (plot.rect.left - gap, plot.row(level)), CARD["quiet"], "midright")
-    every = nice(letters.width("00.0 s  ", "small") / plot.rect.width * until)
-    for i in range(floor(until / every + 1e-9) + 1):
-        at = plot.column(i * every), plot.rect.bottom + gap / 2
-        text, anchor = (f"{i * every:g}", "midtop") if i else ("0 s", "topleft")
-        letters.write(sheet.surface, text, "small", at, CARD["quiet"], anchor)
-    return plot
-
-
-def _rounded(value: float) -> float:
-    """The last number of a nice step before a value, at least half of it."""
-    step = nice(abs(value) / 2.5) if value else 1.0
-    return int(value / step) * step
 
 
 class Panel(NamedTuple):
@@ -135,7 +52,7 @@ class Panel(NamedTuple):
         return self._replace(unit=unit, curves=[curve._replace(values=curve.values * factor) for curve in self.curves])
 
 
-def panels_of(runs: Mapping[str, Run]) -> list[Panel]:
+def panels_of(runs: Mapping[str, SceneRun]) -> list[Panel]:
     """The panels of runs of one scene by name, the first on top."""
     found: dict[str, Panel] = {}
     for i, (name, run) in reversed(list(enumerate(runs.items()))):
@@ -146,11 +63,11 @@ def panels_of(runs: Mapping[str, Run]) -> list[Panel]:
 
 
 def _colour(number: int) -> Colour:
-    """Of the curves of a run."""
+    """The colour of a run's curves."""
     return mix(TRACES[number % len(TRACES)], CARD["text"], LIGHTER)
 
 
-def motion(run: Run, view: View[Any]) -> tuple[np.ndarray, dict[str, tuple[str, np.ndarray]]]:
+def motion(run: SceneRun, view: View[Any]) -> tuple[np.ndarray, dict[str, tuple[str, np.ndarray]]]:
     """Times in s until the ball is caught, and over them by name what it does: unit and values."""
     ball = view.ball
     times = instants(run, PIECES, [ball])
@@ -160,12 +77,12 @@ def motion(run: Run, view: View[Any]) -> tuple[np.ndarray, dict[str, tuple[str, 
         places = {"height": ("m", np.maximum(0.0, y - view.radius - view.ground(x)))}
     else:
         way = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))])
-        places = {"y": ("m", y), "way": ("m", way)}
+        places = {"y": ("m", y), "distance": ("m", way)}
     return times, {"x": ("m", x), **places, "speed": ("m/s", np.hypot(vx, vy)), "spin": ("rpm", spin * 30 / pi)}
 
 
-def _panels(run: Run, curve: Curve) -> Iterator[Panel]:
-    """Of one run, each of its curves as that one is: those of forces have their own names and colours."""
+def _panels(run: SceneRun, curve: Curve) -> Iterator[Panel]:
+    """The panels of one run, each of its curves as that one is: those of forces have their own names and colours."""
     view = run.scene.picture(run, (1280, 720))
     times, moves = motion(run, view)
     for name, (unit, values) in moves.items():
@@ -179,10 +96,10 @@ def _panels(run: Run, curve: Curve) -> Iterator[Panel]:
     yield Panel(whose, "J", [curve._replace(times=energy.times, values=np.sum(list(energy.has.values()), axis=0))])
 
 
-def _accelerations(run: Run, ball: str, times: np.ndarray) -> np.ndarray:
-    """Of a ball in m/s^2; an impact itself has none."""
+def _accelerations(run: SceneRun, ball: str, times: np.ndarray) -> np.ndarray:
+    """The acceleration of a ball in m/s^2; an impact itself has none."""
     arcs = [run.arcs[ball].at(t) for t in times.tolist()]
-    lasting = [arc.t1 > arc.t0 and not isinstance(arc.contact, Pressing) for arc in arcs]
+    lasting = [arc.t1 > arc.t0 and arc.phase is not Phase.CLUSTER for arc in arcs]
     sizes = (hypot(*arc.acceleration(t)) for arc, t in zip(arcs, times.tolist(), strict=True))
     return np.where(lasting, list(sizes), np.nan)
 
@@ -225,7 +142,9 @@ def draw_panel(
             end = letters.write(sheet.surface, name, "small", (end + 2 * gap, rect.top), colour).right
 
 
-def graph(run: Run, size: tuple[int, int] = (1280, 720), others: Mapping[str, Run] | None = None) -> pygame.Surface:
+def graph(
+    run: SceneRun, size: tuple[int, int] = (1280, 720), others: Mapping[str, SceneRun] | None = None
+) -> pygame.Surface:
     """All graphs of a run, with other runs by name laid over them."""
     sheet = Sheet(size, on_dark=True)
     sheet.surface.fill(CHART["ground"])

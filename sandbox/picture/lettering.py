@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from functools import cache, lru_cache
-from math import ceil, cos, sin
+from math import ceil, cos, inf, sin
 from typing import ClassVar
 
 import numpy as np
@@ -40,7 +40,7 @@ def _rendered(text: str, pixels: int, bold: bool, colour: Colour) -> pygame.Surf
     return pygame.transform.smoothscale(whole, (width, height))
 
 
-def stamp(text: str) -> np.ndarray:
+def text_mask(text: str) -> np.ndarray:
     """A text in bold as coverage (0 to 1, shape (width, height)), cut to its edges: to be put on what is no picture."""
     alpha = pygame.surfarray.array_alpha(_font(16, True).render(text, True, (255, 255, 255))) / 255.0
     columns, rows = (np.flatnonzero(alpha.max(axis=axis) > 0) for axis in (1, 0))
@@ -69,7 +69,7 @@ class Lettering:
     def rect(
         self, text: str, size: str, at: tuple[float, float], anchor: str = "topleft", bold: bool = False
     ) -> pygame.Rect:
-        """Where ``write`` would put the text."""
+        """The rectangle in which ``write`` would put the text."""
         rect = pygame.Rect(0, 0, self.width(text, size, bold), self.height(size))
         setattr(rect, anchor, (round(at[0]), round(at[1])))
         return rect
@@ -131,11 +131,16 @@ class Labels:
     def __init__(self, frame: pygame.Rect, gap: int):
         self.frame, self.gap = frame, gap
         self.taken: list[pygame.Rect] = []
+        self.avoided: list[pygame.Rect] = []
 
     def take(self, rect: pygame.Rect) -> pygame.Rect:
         """Nothing will be put here."""
         self.taken.append(rect.copy())
         return rect
+
+    def avoid(self, rect: pygame.Rect) -> None:
+        """Nothing will be put here that has room elsewhere."""
+        self.avoided.append(rect.copy())
 
     def take_path(self, points: Iterable[tuple[float, float]], radius: float) -> None:
         """Nothing will be put within ``radius`` px of these points."""
@@ -143,9 +148,15 @@ class Labels:
         self.taken += [pygame.Rect(round(x - radius), round(y - radius), size, size) for x, y in points]
 
     def place(self, candidates: Iterable[pygame.Rect]) -> pygame.Rect | None:
-        """The first of the candidates with room, now taken; None where there is no room for any."""
+        """The first of the candidates with room that hides least of what is to be avoided, now taken; None where there
+        is no room for any."""
+        best, least = None, inf
         for rect in candidates:
             room = rect.inflate(2 * self.gap, 2 * self.gap)
             if self.frame.contains(rect) and room.collidelist(self.taken) < 0:
-                return self.take(rect)
-        return None
+                hidden = sum(part.width * part.height for part in map(rect.clip, self.avoided))
+                if hidden < least:
+                    best, least = rect.copy(), hidden
+                if hidden == 0:
+                    break
+        return best and self.take(best)

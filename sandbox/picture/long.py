@@ -47,12 +47,12 @@ class LongView(AboveView[P]):
 
     @property
     def whole(self) -> Box:
-        """What the strip shows."""
+        """The part of the world that the strip shows."""
         raise NotImplementedError
 
     @property
     def near(self) -> Box:
-        """What must be seen from near by."""
+        """The part of the world that must be seen from near by."""
         raise NotImplementedError
 
     @property
@@ -62,11 +62,16 @@ class LongView(AboveView[P]):
 
     @property
     def moment(self) -> float:
-        return self.told
+        return self.story_end
 
     @cached_property
     def camera(self) -> Camera:
-        """Of the strip."""
+        """The strip's camera."""
+        return self._whole
+
+    @cached_property
+    def _whole(self) -> Camera:
+        """Shows all of the strip, which keeps its room where the window's camera shows a part of it from near by."""
         left, right = self.sheet.frame.left, self.sheet.frame.right
         box, top, most = self.whole, self.area.top, STRIP * (self.area.bottom - self.area.top)
         scale = min((right - left) / (box.right - box.left), most / (box.top - box.bottom) / self.WIDER)
@@ -83,7 +88,7 @@ class LongView(AboveView[P]):
         painter.surface.set_clip(None)
 
     def landmarks(self, sheet: Sheet, camera: Camera) -> None:
-        """What the lines across the strip are called, under it, where there is room."""
+        """Write the names of the lines across the strip under it, where there is room."""
         taken = 0
         for name, x in sorted(self.lines.items(), key=lambda line: line[1]):
             at = camera.pixel(x, 0.0)[0], self._row.centery
@@ -93,20 +98,20 @@ class LongView(AboveView[P]):
     @cached_property
     def _row(self) -> pygame.Rect:
         """Under the strip, where it is labelled."""
-        low = self.camera.pixel(0.0, self.whole.bottom)[1]
+        low = self._whole.pixel(0.0, self.whole.bottom)[1]
         tall = self.sheet.lettering.height("small") + AROUND * self.unit
         return pygame.Rect(0, round(low), self.size[0], round(tall))
 
     @cached_property
     def lens(self) -> pygame.Rect:
-        """Where in the picture the near part is."""
+        """The part of the picture with the near part, in px."""
         low = self._row.bottom + GAP * self.unit
         frame = self.sheet.frame
         return pygame.Rect(frame.left, round(low), frame.width, round(self.card_row - GAP * self.unit - low))
 
     @cached_property
     def near_camera(self) -> Camera:
-        """Of the near part; it shows more along the place where there is room, on the side that the balls come from."""
+        """The camera of the near part; where there is room it shows more on the side that the balls come from."""
         box, lens = self.near, self.lens
         scale = min(lens.width / (box.right - box.left), lens.height / (box.top - box.bottom))
         across = (box.bottom + box.top) / 2
@@ -129,7 +134,9 @@ class LongView(AboveView[P]):
         inside = Painter(surface)
         self.behind(inside, local, t)
         for ball in self.run.setup.balls:
-            if ball.name != self.ball:  # where it lay
+            if (
+                ball.name != self.ball and np.ptp(self.paths[ball.name].points, axis=0).max() > LEAST_WAY
+            ):  # where it lay
                 at = local.pixel(*ball.position)
                 inside.ring(at, ball.radius * local.scale, 1.5 * self.unit, self.colour_of(ball.name), 0.8)
         for name, path in self.paths.items():
@@ -146,6 +153,11 @@ class LongView(AboveView[P]):
             inside.line(self.traced(local, ghost.points), 2.4 * self.unit, ghost.colour, 0.8)
         self.place_balls(inside, local, t)
         pygame.draw.rect(painter.surface, CARD["quiet"], around, max(1, round(self.unit)))
+
+    def kept_clear(self, camera: Camera, t: float) -> list[pygame.Rect]:
+        """In the strip and in the near part."""
+        near = [rect.clip(self.lens) for rect in super().kept_clear(self.near_camera, t)]
+        return [*super().kept_clear(camera, t), *(rect for rect in near if rect.width and rect.height)]
 
     def dimensions(self, sheet: Sheet, camera: Camera) -> None:
         """None; but no label goes on the strip or on a ball in the near part."""
@@ -171,6 +183,6 @@ class LongView(AboveView[P]):
         sheet.scale_bar(camera, sheet.frame.left + 2 * sheet.gap, self._row.bottom, 0.12 * sheet.frame.width)
 
     def notes(self, camera: Camera) -> list[str]:
-        """Of the near part; in the strip balls are only marks."""
+        """Notes on the near part; in the strip balls are only marks."""
         factor = self.near_camera.scale / camera.scale
         return [*self._stretched(camera), *self.remarks(camera), f"below, {times(factor)} as large", *self._caveat]

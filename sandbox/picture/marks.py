@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from sandbox.engine.run import Run
 from sandbox.picture.camera import Camera
 from sandbox.picture.lettering import around
 from sandbox.picture.painter import Point
 from sandbox.picture.palette import Colour, mix, palette
 from sandbox.picture.path import FINEST, Mark, apart
 from sandbox.picture.sheet import Sheet
+from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.amounts import amount
 
 if TYPE_CHECKING:
@@ -26,6 +26,8 @@ CARD, TRACE = palette("card"), palette("trace")
 
 #: A label this far from its mark, in px on 720 rows, has a line that leads to it.
 FARTHER = (25, 36, 50)
+#: And one that is alone may be so far away.
+ALONE = 66
 #: How much lighter than its trace a ghost's text on the card is.
 LIGHTER = 0.45
 #: The label of a ghost may stand at about so many points of its path.
@@ -40,7 +42,7 @@ def draw_trace(sheet: Sheet, points: np.ndarray, colour: Colour, share: float = 
 
 
 def draw_mark(sheet: Sheet, at: tuple[float, float]) -> None:
-    """Where a ball struck something."""
+    """Mark the place where a ball struck something."""
     radius = max(2.5, 4.2 * sheet.unit)
     sheet.painter.disc(at, radius + max(0.8, 1.2 * sheet.unit), TRACE["rim"], 0.8)
     sheet.painter.disc(at, radius, CARD["accent"])
@@ -48,7 +50,7 @@ def draw_mark(sheet: Sheet, at: tuple[float, float]) -> None:
 
 
 def is_under(at: Point, ball: tuple[Point, float], edge: float) -> bool:
-    """Whether a ball, at a place with a radius, hides a mark or bead: its middle, by more than an ``edge``; in px.
+    """True if a ball, at a place with a radius, hides a mark or bead: its middle, by more than an ``edge``; in px.
 
     Where a ball touches something is on its rim, or by rounding a little inside.
     """
@@ -65,17 +67,19 @@ def mark_impacts(
             draw_mark(sheet, at)
         sheet.labels.take_path([at], 4 * sheet.unit)
     for at, mark in places:
-        label_mark(sheet, at, mark.towards, amount(mark.speed, "m/s", 1))
+        label_mark(sheet, at, mark.towards, amount(mark.speed, "m/s", 1), alone=len(places) == 1)
 
 
-def label_mark(sheet: Sheet, at: tuple[float, float], towards: tuple[float, float], text: str) -> None:
+def label_mark(
+    sheet: Sheet, at: tuple[float, float], towards: tuple[float, float], text: str, alone: bool = False
+) -> None:
     """A text on a dark chip beside a mark, rather on the side of what was struck (``towards``), if there is room.
 
     Where the chip is far from the mark, a thin line leads to it.
     """
     unit, first = sheet.unit, atan2(towards[1], towards[0])
-    turns = [first + turn for turn in (0.0, 0.6, -0.6, 1.2, -1.2, 1.9, -1.9, pi)]
-    placed = sheet.chip(text, around(at, [far * unit for far in (9, 16, *FARTHER)], turns))
+    turns = [first + turn for turn in (0.0, 0.6, -0.6, 1.2, -1.2, 1.9, -1.9, *((2.5, -2.5) if alone else ()), pi)]
+    placed = sheet.chip(text, around(at, [far * unit for far in (9, 16, *FARTHER, *([ALONE] if alone else []))], turns))
     if placed is None:
         return
     near = min(max(at[0], placed.left), placed.right), min(max(at[1], placed.top), placed.bottom)
@@ -95,7 +99,7 @@ class Ghost:
     shift: tuple[float, float]
 
     @property
-    def run(self) -> Run:
+    def run(self) -> SceneRun:
         return self.view.run
 
     @cached_property

@@ -28,6 +28,9 @@ ARROW = 0.62
 PHASE = 1 / 8
 #: So many shapes are kept, none of more than so many px.
 MOST_KEPT, LARGEST_KEPT = 512, 40_000
+#: Discs, shadows and panels longer than this, in px, are computed only where they are seen: a camera that zooms in may
+#: make them far larger than the picture.
+LARGEST_WHOLE = 2000
 
 
 def blank(size: tuple[int, int], transparent: bool = False) -> pygame.Surface:
@@ -88,27 +91,40 @@ def _disc(radius: float, width: float, phase: Point, colour: Colour) -> pygame.S
     reach = ceil(radius + width / 2 + 1)
     grid = np.arange(-reach, reach + 1)
     distance = np.hypot(grid[:, None] - phase[0], grid[None, :] - phase[1])
-    inside = radius - distance if width == 0 else width / 2 - abs(distance - radius)
-    return from_coverage(inside + 0.5, colour)
+    return from_coverage(_round(distance, radius, width), colour)
+
+
+def _round(distance: np.ndarray, radius: float, width: float) -> np.ndarray:
+    """The coverage of a disc, or of a ring of that width, at distances from its centre in px."""
+    return (radius - distance if width == 0 else width / 2 - abs(distance - radius)) + 0.5
 
 
 @lru_cache(maxsize=256)
 def _shadow(half_width: float, half_height: float, colour: Colour) -> pygame.Surface:
     reach = ceil(half_width * 1.5), ceil(half_height * 1.5) + 1
     across, down = (np.arange(-r, r + 1) / size for r, size in zip(reach, (half_width, half_height), strict=True))
-    return from_coverage(np.clip(1.5 - np.hypot(across[:, None], down[None, :]), 0, 1) ** 1.5, colour)
+    return from_coverage(_soft(across[:, None], down[None, :]), colour)
+
+
+def _soft(across: np.ndarray, down: np.ndarray) -> np.ndarray:
+    """The coverage of a shadow at places in half widths and half heights from its centre."""
+    return np.clip(1.5 - np.hypot(across, down), 0, 1) ** 1.5
 
 
 @lru_cache(maxsize=64)
 def _panel(size: tuple[int, int], colour: Colour, corner: float) -> pygame.Surface:
     across, down = (np.arange(pixels) + 0.5 - pixels / 2 for pixels in size)
+    return from_coverage(_cornered(across[:, None], down[None, :], size, corner), colour)
+
+
+def _cornered(across: np.ndarray, down: np.ndarray, size: tuple[int, int], corner: float) -> np.ndarray:
+    """The coverage of a rectangle with round corners at places in px from its centre."""
     beyond = [abs(line) - (pixels / 2 - corner) for line, pixels in zip((across, down), size, strict=True)]
-    outside = np.hypot(np.maximum(beyond[0], 0)[:, None], np.maximum(beyond[1], 0)[None, :])
-    return from_coverage(corner - outside + 0.5, colour)
+    return corner - np.hypot(np.maximum(beyond[0], 0), np.maximum(beyond[1], 0)) + 0.5
 
 
 def around_corners(surface: pygame.Surface, rect: pygame.Rect, corner: float) -> pygame.Surface:
-    """What of a surface's rectangle lies outside its round corners: to be put back when the rectangle is filled."""
+    """The part of a surface's rectangle outside its round corners: to be put back when the rectangle is filled."""
     kept = blank(rect.size, transparent=True)
     kept.blit(surface, (0, 0), rect)
     alpha = pygame.surfarray.pixels_alpha(kept)
@@ -125,6 +141,11 @@ class Painter:
 
     def disc(self, centre: Point, radius: float, colour: Colour, opacity: float = 1.0, width: float = 0.0) -> None:
         """A disc, or with ``width`` > 0 the ring of that width along its edge."""
+        if 2 * radius > LARGEST_WHOLE:
+            self._large(
+                centre, (radius + width + 1,) * 2, lambda x, y: _round(np.hypot(x, y), radius, width), colour, opacity
+            )
+            return
         x, y = (round(value / PHASE) * PHASE for value in centre)
         column, row = floor(x), floor(y)  # pixel i covers i to i + 1, so its centre is at i + 1/2
         phase = x - column - 0.5, y - row - 0.5
@@ -136,6 +157,10 @@ class Painter:
 
     def shadow(self, centre: Point, half_width: float, half_height: float, colour: Colour, opacity: float) -> None:
         """A soft ellipse, fading over its outer half."""
+        if 2 * max(half_width, half_height) > LARGEST_WHOLE:
+            reach = 1.5 * half_width, 1.5 * half_height
+            self._large(centre, reach, lambda x, y: _soft(x / half_width, y / half_height), colour, opacity)
+            return
         sprite = _shadow(max(0.5, round(half_width * 2) / 2), max(0.5, round(half_height * 2) / 2), colour)
         left, top = centre[0] - sprite.get_width() / 2, centre[1] - sprite.get_height() / 2
         self._blit(sprite, (round(left), round(top)), opacity)
@@ -220,7 +245,28 @@ class Painter:
 
     def panel(self, rect: pygame.Rect, colour: Colour, opacity: float, corner: float) -> None:
         """A rectangle with round corners."""
+        if max(rect.size) > LARGEST_WHOLE:
+            centre, reach = (rect.left + rect.width / 2, rect.top + rect.height / 2), (rect.width / 2, rect.height / 2)
+            self._large(centre, reach, lambda x, y: _cornered(x, y, rect.size, corner), colour, opacity)
+            return
         self._blit(_panel(rect.size, colour, corner), rect.topleft, opacity)
+
+    def _large(
+        self,
+        centre: Point,
+        reach: tuple[float, float],
+        coverage: Callable[[np.ndarray, np.ndarray], np.ndarray],
+        colour: Colour,
+        opacity: float,
+    ) -> None:
+        """Put on our surface what of a shape is seen that reaches so far (px) from its centre; ``coverage`` gives its
+        opacity at places in px from there."""
+        low = [floor(max(0.0, at - far)) for at, far in zip(centre, reach, strict=True)]
+        high = [ceil(min(px, at + far)) for px, at, far in zip(self.surface.get_size(), centre, reach, strict=True)]
+        if high[0] > low[0] and high[1] > low[1]:
+            across, down = (np.arange(a, b) + 0.5 - at for a, b, at in zip(low, high, centre, strict=True))
+            shape = np.broadcast_to(coverage(across[:, None], down[None, :]), (len(across), len(down)))
+            self._blit(from_coverage(shape, colour), (low[0], low[1]), opacity)
 
     def _shape(
         self,

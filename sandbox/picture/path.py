@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain
-from math import ceil, floor, inf
+from math import ceil, floor, inf, log2
 
 import numpy as np
 
-from sandbox.engine.bernstein_many import evaluate
-from sandbox.engine.event import Event
-from sandbox.engine.meeting import standing
-from sandbox.engine.nearest import Pose, meeting_points, nearest
-from sandbox.engine.run import Run
-from sandbox.engine.setup import outline_of
-from sandbox.engine.shapes import Shape
+from sandbox.engine.contact.manifold import fixed_outline
+from sandbox.engine.many.bernstein_many import evaluate
+from sandbox.engine.model.ball import outline_of
+from sandbox.engine.model.event import Event
+from sandbox.engine.model.nearest import Pose, meeting_points, nearest
+from sandbox.engine.model.shapes import Shape
+from sandbox.engine.paths.run import Run
 
 #: The path is sampled this often in s; of a long run, in so many pieces.
 SAMPLING, MOST_SAMPLES = 1 / 120, 5000
@@ -26,6 +26,9 @@ POINTS = 9
 #: A drawn line has no points nearer to each other than this, none farther, in px, and bends by no more at one, in rad.
 CLOSEST, LONGEST, BEND = 3.0, 60.0, 0.12
 
+#: A run is in slow motion if what matters of it, until the first impact but at least this share of the whole, is over
+#: sooner than this in s; it then lasts at least so long, but is no more than so many times slower.
+STORIES, BRIEF, SEEN, SLOWEST = 0.4, 0.55, 1.0, 16
 #: What jumps at an impact is taken so many s before it; at most at so many impacts.
 BEFORE, JUMPS = 1e-9, 200
 
@@ -46,6 +49,17 @@ def instants(run: Run, pieces: int, names: Collection[str] = ()) -> np.ndarray:
     just before and at the hardest impacts, of the balls with these ``names`` or of all."""
     hits = (event.t for event in hardest(run, names, JUMPS, 0.0))
     return np.union1d(np.linspace(0.0, run.duration, pieces + 1), [t for hit in hits for t in (hit - BEFORE, hit)])
+
+
+def slow_motion(run: Run, ball: str) -> int:
+    """How many times slower a run is shown at first: 1, or a power of two for one that is over too soon to be seen,
+    such as a pitch, a spike, or a serve up to its bounce."""
+    strikes = (event.t for event in run.events if event.kind == "impact" and ball in (event.ball, event.partner))
+    first = next((t for t in strikes if t > BEFORE), run.duration)
+    lasts = max(first, STORIES * run.duration)
+    if not 0.0 < lasts < BRIEF:
+        return 1
+    return min(SLOWEST, 2 ** ceil(log2(SEEN / lasts)))
 
 
 @dataclass(frozen=True)
@@ -86,7 +100,9 @@ class Path:
 
     def _mark(self, event: Event, other: str) -> Mark:
         surfaces = [s.shape for s in self.run.setup.surfaces if s.name == other]
-        others = [(standing(shape).shape, Pose(0.0, 0.0, 0.0)) for shape in surfaces] or [self._outline(other, event.t)]
+        others = [(fixed_outline(shape).shape, Pose(0.0, 0.0, 0.0)) for shape in surfaces] or [
+            self._outline(other, event.t)
+        ]
         own, here = self._outline(self.name, event.t)
         found, it, there = min(((nearest(own, here, *it), *it) for it in others), key=lambda near: near[0].gap)
         at = meeting_points(own, here, it, there, (found.nx, found.ny), 0.0)[0]
@@ -95,7 +111,7 @@ class Path:
     def _outline(self, name: str, t: float) -> tuple[Shape, Pose]:
         """The outline of a ball or body, and where it is at time t in s."""
         ball = next(ball for ball in self.run.setup.balls if ball.name == name)
-        angle = self.run.angle(name, t) if ball.turns else 0.0
+        angle = self.run.angle(name, t) if ball.rotates else 0.0
         return outline_of(ball), Pose(*self.run.state(name, t)[:2], angle)
 
 
@@ -141,5 +157,5 @@ def points(paths: Sequence[tuple[Run, str]]) -> list[np.ndarray]:
 
 
 def moves(run: Run, ball: str) -> bool:
-    """Whether a ball moves at all."""
+    """True if a ball moves at all."""
     return any(len(arc.x) > 1 or len(arc.y) > 1 for arc in run.arcs[ball])

@@ -1,11 +1,11 @@
-"""The picture of a scene that has none of its own: surfaces, catches, balls and paths, as the setup has them."""
+"""The picture of a scene that has none of its own: surfaces, traps, balls and paths, as the setup has them."""
 
 from __future__ import annotations
 
 import numpy as np
 import pygame
 
-from sandbox.engine.setup import Circle
+from sandbox.engine.model.surface import Circle
 from sandbox.parameters import Group
 from sandbox.picture.above import AboveView
 from sandbox.picture.ball import Look, seams
@@ -35,7 +35,7 @@ class Picture(AboveView[Group]):
         near = pygame.FRect((0, 0), self.size).inflate(100, 100)
         setup = self.run.setup
         for shape, colour in (
-            *((catch.shape, COLOURS["catch"]) for catch in setup.catches),
+            *((trap.shape, COLOURS["catch"]) for trap in setup.traps),
             *((surface.shape, COLOURS["surface"]) for surface in setup.surfaces),
         ):
             thick = max(shape.radius * camera.scale, 1.5 * self.unit)

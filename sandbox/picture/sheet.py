@@ -43,7 +43,7 @@ def rows_of(size: tuple[int, int]) -> int:
 
 
 class SideRows(NamedTuple):
-    """Where things are in a picture from the side, in px from the top."""
+    """The rows of a picture from the side, in px from the top."""
 
     top: float  # under the headline and its notes
     base: int  # the ground
@@ -121,7 +121,7 @@ class Sheet:
         return self.frame.top + self.lettering.height(self.head) + self.lettering.height("small") + 2 * self.gap
 
     def card_row(self, others: int = 0) -> int:
-        """Where the card along the bottom begins, in px, with so many rows of other values."""
+        """The row at which the card along the bottom begins, in px, with so many rows of other values."""
         tall = self.lettering.height("small") + (1 + others) * self.lettering.height("medium") + 4 * self.gap
         return self.frame.bottom - tall
 
@@ -136,7 +136,7 @@ class Sheet:
         return SideRows(self.top_row, round(ground - 2.4 * self.gap), rows, ruler)
 
     def headline(self, text: str, notes: Sequence[str], room: float) -> None:
-        """What happened, large, at the top left, and a line of notes below it; ``room`` px wide at most.
+        """Write what happened, large, at the top left, and a line of notes below it; ``room`` px wide at most.
 
         What is too long in any size goes on in the line below. Notes for which there is no room are left out, the last
         first.
@@ -201,7 +201,7 @@ class Sheet:
                 self.write(row.get(label, "–"), "medium", (x, middle + down * tall), colour, "topleft", bold=True)
 
     def ruler_heights(self) -> tuple[int, int]:
-        """What the ruler takes above and below its line, in px."""
+        """The heights of the ruler above and below its line, in px."""
         figures = self.lettering.height("small") + round(8 * self.unit)
         return figures, figures if self.rows >= ROWS_FOR_YARDS else 0
 

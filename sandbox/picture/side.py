@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from math import floor, isinf, log10
+from math import ceil, floor, isinf, log10
 from typing import ClassVar, NamedTuple
 
 import numpy as np
@@ -14,11 +14,13 @@ import pygame
 from sandbox.picture.ball import mark_radius
 from sandbox.picture.camera import Area, Box, Camera, Eye
 from sandbox.picture.chase import Chase
-from sandbox.picture.marks import draw_mark, label_mark
-from sandbox.picture.painter import Painter, Point
+from sandbox.picture.closeup import CloseUp, arranged
+from sandbox.picture.lettering import Labels, Spot
+from sandbox.picture.marks import draw_mark, draw_trace, label_mark, mark_impacts
+from sandbox.picture.painter import Painter, Point, around_corners
 from sandbox.picture.palette import Colour
-from sandbox.picture.path import FINEST, apart
-from sandbox.picture.places import Ground, Scenery, Thing
+from sandbox.picture.path import FINEST, Mark, apart
+from sandbox.picture.places import Ground, Person, Scenery, Thing
 from sandbox.picture.sheet import CARD, Entry, Sheet, SideRows
 from sandbox.picture.view import P, View
 from sandbox.sport.amounts import metres, roughly
@@ -32,6 +34,8 @@ LEAST_RISE, LOW_FLIGHT, LARGE_BALL = 24, 0.45, 3
 AT_HOME, ON_ITS_WAY = (0.1, 0.9), (0.25, 0.45)
 #: Width and height of the map of frames, as shares of the picture's width and rows.
 MAP = 0.24, 0.15
+#: Labels keep off so many points along the sides of a thing, and from there to its middle.
+ALONG, ACROSS = 9, 4
 #: A shadow is half as dark where the ball is so high over the ground, in px on 720 rows.
 SHADOW_FADES = 80
 
@@ -47,7 +51,7 @@ class Length(NamedTuple):
 
 @dataclass(frozen=True)
 class Place:
-    """Of what a place is made: what lies behind, the ground, and the things on it, the farthest first."""
+    """A place: what lies behind, the ground, and the things on it, the farthest first."""
 
     scenery: Scenery
     ground: Ground
@@ -78,13 +82,13 @@ class SideView(View[P]):
     ASIDE: ClassVar[float] = 0.25
 
     @property
-    def company(self) -> Box | None:
-        """What must be seen besides the path, in m, such as who strikes the ball."""
+    def must_be_visible(self) -> Box | None:
+        """The part of the world that must be seen besides the path, in m, such as who strikes the ball."""
         return None
 
     @property
     def target(self) -> Box | None:
-        """What is seen, in m, unless the path would be too small then."""
+        """The part of the world that is seen, in m, unless the path would be too small then."""
         return None
 
     @property
@@ -102,8 +106,13 @@ class SideView(View[P]):
 
     @cached_property
     def place(self) -> Place:
-        """What the ball flies through; without one a view draws its own backdrop."""
+        """The place that the ball flies through; without one a view draws its own backdrop."""
         raise NotImplementedError
+
+    @property
+    def standing(self) -> Sequence[Thing]:
+        """The things that stand on the ground."""
+        return self.place.things
 
     @property
     def turf(self) -> Colour:
@@ -118,11 +127,21 @@ class SideView(View[P]):
         """Distances to be drawn along the ground; the first is drawn lowest."""
         return ()
 
+    def closeups_of(self) -> Sequence[Box]:
+        """The parts of the world, in m, that decide the run: enlarged on the poster where there is free sky."""
+        return ()
+
+    @property
+    def sky(self) -> float:
+        """The row down to which nothing is drawn, in px."""
+        tops = [self.points[:, 1].max() + self.radius, self.subject.top]
+        return self.camera.pixel(0.0, float(max(tops)))[1] - 20 * self.unit
+
     # The same for all
 
     @cached_property
     def rows_at(self) -> SideRows:
-        """Where things are, in px from the top."""
+        """The rows of ground, lengths and ruler, in px from the top."""
         return self.sheet.side_rows(len(self.ghosts), self.LENGTHS)
 
     def base(self, rows: SideRows, scale: float) -> int:
@@ -131,16 +150,16 @@ class SideView(View[P]):
 
     @property
     def area(self) -> Area:
-        """Where on the poster the path is, in px."""
+        """The part of the poster for the path, in px."""
         side, rows, subject = 0.085 * self.size[0], self.rows_at, self.subject
         base = self.base(rows, (self.size[0] - 2 * side) / (subject.right - subject.left))
         return Area(side, rows.top + self.HEADROOM * self.unit, self.size[0] - side, base)
 
     @cached_property
     def subject(self) -> Box:
-        """What the poster shows, in m."""
+        """The part of the world that the poster shows, in m."""
         (left, bottom), (right, top) = self.points.min(axis=0), self.points.max(axis=0)
-        seen = _joined(Box(left, bottom, right, top + self.radius), self.company)
+        seen = _joined(Box(left, bottom, right, top + self.radius), self.must_be_visible)
         wide = _joined(seen, self.target)
         if max(seen.right - seen.left, seen.top) >= self.LEAST_PATH * (wide.right - wide.left):
             seen = wide
@@ -158,7 +177,9 @@ class SideView(View[P]):
         camera = Camera.fit(self.subject, area)
         rise, room = (self.subject.top - self.subject.bottom) * camera.scale, area.bottom - area.top
         low = LEAST_RISE * self.unit < rise < LOW_FLIGHT * room
-        stretch = self.STRETCHES if low and self.least > LARGE_BALL * self.radius * camera.scale else 1.0
+        stretch = 1.0
+        if low and self.least > LARGE_BALL * self.radius * camera.scale:
+            stretch = min(self.STRETCHES, max(1.0, floor(room / rise)))
         if isinf(self.STRETCHES):  # in steps of half a power of ten
             most = max(1.0, room / rise)
             step = 0.5 * 10.0 ** floor(log10(most))
@@ -170,25 +191,34 @@ class SideView(View[P]):
         level = camera.anchor[1] - self.LEVEL * self.unit
         return Eye(camera, self.ASIDE * self.size[0], level, self.size[0] / camera.scale, self.unit)
 
+    def seen_from(self, camera: Camera) -> Eye:
+        """Sees what the camera shows; a close-up from where the whole is seen."""
+        if not any(camera == near.camera for near in self.closeups):
+            return self.eye(camera)
+        eye = self.eye(self.camera)
+        centre, level = camera.pixel(*self.camera.world(eye.centre, eye.level))
+        return replace(eye, camera=camera, centre=centre, level=level)
+
     def backdrop(self, painter: Painter, camera: Camera) -> None:
-        eye, place = self.eye(camera), self.place
+        eye, place = self.seen_from(camera), self.place
         foot = min(place.ground.foot(eye), self.size[1])
-        place.scenery.draw(painter.surface, foot, self.moved(camera))
+        if foot > 0:
+            place.scenery.draw(painter.surface, foot, self.moved(camera))
         place.ground.draw(painter, eye)
         self.draw_things(painter, eye, near=False)
 
     def before(self, painter: Painter, camera: Camera, t: float) -> None:
-        self.draw_things(painter, self.eye(camera), near=True)
+        self.draw_things(painter, self.seen_from(camera), near=True)
 
     def draw_things(self, painter: Painter, eye: Eye, near: bool) -> None:
         """Those of the place that are before the ball, or those that are not."""
-        for thing in self.place.things:
+        for thing in self.standing:
             if thing.near == near:
                 thing.draw(painter, eye)
 
     @cached_property
     def home(self) -> Camera:
-        """Where the camera of the frames is at first: the poster's, or nearer."""
+        """The first camera of the frames: the poster's, or nearer."""
         width, scale = self.size[0], self.size[0] / self.near_view
         if self.camera.scale >= scale:
             return self.camera
@@ -204,7 +234,7 @@ class SideView(View[P]):
 
     @cached_property
     def columns(self) -> tuple[float, float]:
-        """Where frames keep the ball, in px."""
+        """The columns between which frames keep the ball, in px."""
         low, high = sorted(AT_HOME if self.home == self.camera else self._way)
         return low * self.size[0], high * self.size[0]
 
@@ -228,7 +258,7 @@ class SideView(View[P]):
 
     @cached_property
     def _map(self) -> tuple[pygame.Rect, Camera, np.ndarray, np.ndarray]:
-        """Where it is in px, its camera, the points of the path that can be told apart on it, and the ground in px."""
+        """Its rectangle in px, its camera, which points of the path can be told apart on it, and the ground in px."""
         gap, (goal, _), rect = self.sheet.gap, self.datum[0], pygame.Rect(self.sheet.frame)
         rect.size = round(MAP[0] * self.size[0]), round(MAP[1] * self.rows)
         rect.right = self.sheet.frame.right
@@ -242,7 +272,7 @@ class SideView(View[P]):
         return rect, camera, kept, camera.pixels(self.profile(low, high))
 
     def remarks(self, camera: Camera) -> list[str]:
-        """How far away what is aimed at is, where that is not in sight; nothing of a start, which is at 0."""
+        """The distance of what is aimed at, where that is not in sight; nothing of a start, which is at 0."""
         (x, _), what = self.datum
         seen = x == 0.0 or 0 <= camera.pixel(x, 0.0)[0] <= self.size[0]
         return [] if seen else [f"{what} is {roughly(abs(x))} away"]
@@ -257,7 +287,7 @@ class SideView(View[P]):
         return self.camera if isinf(self.STRETCHES) else self.chase.camera(t)
 
     def moved(self, camera: Camera) -> float:
-        """How far to the right the eye has gone from where it was at first, in px of that distance."""
+        """The way that the eye has gone to the right from where it was at first, in px of that distance."""
         return 0.0 if camera == self.camera else (camera.at[0] - self.home.at[0]) * self.home.scale
 
     def position(self, t: float) -> list[Entry]:
@@ -312,6 +342,78 @@ class SideView(View[P]):
                     pygame.Rect(round(min(start, end)), round(row) - tall // 2, round(abs(end - start)), tall)
                 )
         sheet.labels.take(pygame.Rect(0, round(self.rows_at.ruler - sheet.ruler_heights()[0]), *self.size))
+        self.keep_off(sheet, camera)
+
+    def keep_off(self, sheet: Sheet, camera: Camera) -> None:
+        """No label goes over what stands on the ground if there is room elsewhere."""
+        eye = self.seen_from(camera)
+        for thing in (thing for thing in self.standing if thing.corners):
+            points = eye.points(np.array([(*point, 0.0)[:3] for point in thing.corners]))
+            if isinstance(thing, Person):
+                (left, top), (right, bottom) = points.min(axis=0).tolist(), points.max(axis=0).tolist()
+                sheet.labels.avoid(pygame.Rect(round(left), round(top), ceil(right - left) + 1, ceil(bottom - top) + 1))
+                continue
+            along = np.linspace(points[:-1], points[1:], ALONG).reshape(-1, 2)
+            inside = np.linspace(along, points.mean(axis=0), ACROSS) if len(points) > 2 else along
+            for x, y in inside.reshape(-1, 2).tolist():
+                sheet.labels.avoid(pygame.Rect(round(x), round(y), 1, 1))
+
+    @cached_property
+    def closeups(self) -> list[CloseUp]:
+        """The close-ups of the poster."""
+        if self.camera.stretch != 1.0:
+            return []
+        frame, top = self.sheet.frame, round(self.sheet.top_row + 12 * self.unit)
+        free = pygame.Rect(frame.left, top, frame.width, round(self.sky) - top)
+        return arranged(self.closeups_of(), free, self.camera, self.unit)
+
+    def belongs(self, camera: Camera, place: tuple[float, float]) -> bool:
+        """True if a place in m is labelled in what this camera shows: in a close-up if there is one of it."""
+        near = next((near for near in self.closeups if near.shows(place)), None)
+        return camera == near.camera if near else not any(camera == other.camera for other in self.closeups)
+
+    def impacts(self, camera: Camera) -> list[Mark]:
+        return [mark for mark in super().impacts(camera) if self.belongs(camera, mark.at)]
+
+    def enlarge(self, sheet: Sheet) -> None:
+        """The close-ups, each with a beam from what it shows."""
+        for near in self.closeups:
+            self._enlarge(sheet, near)
+
+    def _enlarge(self, sheet: Sheet, near: CloseUp) -> None:
+        painter, camera, rect, unit = sheet.painter, near.camera, near.rect, self.unit
+        (x, y), (end, low) = self.camera.pixel(near.box.left, near.box.top), self.camera.pixel(*near.box[2:0:-1])
+        part = pygame.Rect(round(x), round(y), round(end - x), round(low - y))
+        painter.polygon([part.topleft, part.topright, rect.bottomright, rect.bottomleft], sheet.ink, 0.10)
+        pygame.draw.rect(sheet.surface, sheet.quiet_ink, part, max(1, round(unit)), round(3 * unit))
+        corners = around_corners(sheet.surface, rect, 10 * unit)
+        sheet.surface.set_clip(rect)
+        outside, sheet.labels = sheet.labels, Labels(rect.inflate(-2 * sheet.gap, -2 * sheet.gap), sheet.gap)
+        self.backdrop(painter, camera)
+        self.behind(painter, camera, self.moment)
+        placed = self._placed(camera, self.story_end)
+        for name, spot in placed.items():
+            self.shadow(painter, camera, name, self.story_end, *spot)
+        for ghost in self.ghosts:
+            ghost.draw(sheet, self.traced(camera, ghost.points))
+        draw_trace(sheet, self.traced(camera, self.path.points), self.TRACE)
+        self.strobe(sheet, camera)
+        for name, spot in placed.items():
+            self.draw_ball(painter, camera, name, self.story_end, *spot)
+        self.before(painter, camera, self.moment)
+        inner, larger = sheet.labels.frame, f"{camera.scale / self.camera.scale:.1f}×"
+        left, right = ((inner.left, 1.0), (inner.right, -1.0))
+        ends = [
+            (x, y, across, down) for y, down in ((inner.top, 1.0), (inner.bottom, -1.0)) for x, across in (left, right)
+        ]
+        sheet.chip(larger, ends)
+        self.keep_off(sheet, camera)
+        self.annotate(sheet, camera)
+        mark_impacts(sheet, camera, self.impacts(camera), self.last(camera))
+        sheet.labels = outside
+        sheet.surface.set_clip(None)
+        sheet.surface.blit(corners, rect)
+        sheet.labels.take(rect)
 
     def point_out(self, sheet: Sheet, camera: Camera, place: tuple[float, float], text: str) -> None:
         """Mark a place on the path, in m, and what it is."""
@@ -321,7 +423,10 @@ class SideView(View[P]):
         label_mark(sheet, at, (0.0, 1.0), text)
 
     def gap(self, sheet: Sheet, camera: Camera, x: float, low: float, high: float, text: str) -> None:
-        """A stroke from one height to another at x, all in m, and how long it is, off the path."""
+        """A stroke from one height to another at x, all in m, and how long it is, off the path; in a close-up if there
+        is one of it."""
+        if not self.belongs(camera, (x, high)):
+            return
         unit, ink = self.unit, CARD["accent"]
         sheet.labels.take(pygame.Rect(0, 0, self.size[0], sheet.top_row))  # the headline's
         (px, top), (_, bottom) = camera.pixel(x, high), camera.pixel(x, low)
@@ -329,21 +434,42 @@ class SideView(View[P]):
             sheet.painter.line([(px, top), (px, bottom)], 1.6 * unit, ink)
             for y in (top, bottom):
                 sheet.painter.line([(px - 4 * unit, y), (px + 4 * unit, y)], 1.6 * unit, ink)
-        path = self.trace[np.argmin(np.abs(self.trace[:, 0] - px))]
-        spots = [
+        trace = self.traced(camera, self.path.points)
+        path = trace[np.argmin(np.abs(trace[:, 0] - px))]
+        spots: list[Spot] = [
             (px + side * aside * unit, edge + way * far * unit, side * 0.7 if aside else 0.0, way)
             for far in (12, 20, 32, 46)
             for edge, way in ((min(top, path[1]), -1), (max(bottom, path[1]), 1))
             for aside, side in ((0, 0), (10, -1), (10, 1))
         ]
+        spots += [
+            (px + side * 12 * unit, row, side, 0.0) for row in ((top + bottom) / 2, top, bottom) for side in (1, -1)
+        ]
+        spots += [
+            (px + side * far * unit, top - far * unit, side, -0.7) for far in (30, 45, 60, 80) for side in (1, -1)
+        ]
         sheet.chip(f"{metres(high - low)} {text}", spots, ink)
 
 
 class NetView(SideView[P]):
-    """Of a ball that is played over a net: a game whose facts are ``sandbox.sport.net_game.FACTS``."""
+    """The view of a ball that is played over a net: a game whose facts are ``sandbox.sport.net_game.FACTS``."""
+
+    def closeups_of(self) -> list[Box]:
+        """The net as the ball passes it, and the bounce."""
+        place, radius = self.parameters, self.radius
+        middle, high = 0.5 * place.court.length, place.net.height  # type: ignore[attr-defined]
+        gap, landing = self.run.result["net_clearance"], self.run.result["landing"]
+        boxes = []
+        if gap is not None and abs(gap) < 1.5 * high:
+            half = 0.5 * max(abs(gap) + 5 * radius, 0.7 * high)
+            boxes.append(Box(middle - 2 * half, high - half, middle + 2 * half, high + max(gap + 3 * radius, half)))
+        if landing is not None and boxes:
+            tall = boxes[0].top - boxes[0].bottom
+            boxes.append(Box(landing - tall, -0.15 * tall, landing + tall, 0.85 * tall))
+        return boxes
 
     def annotate(self, sheet: Sheet, camera: Camera) -> None:
-        """How far over the net the ball is as it passes."""
+        """Mark how far over the net the ball is as it passes."""
         gap, place = self.run.result["net_clearance"], self.parameters
         if gap is not None and gap > 0.0:
             middle, high = 0.5 * place.court.length, place.net.height  # type: ignore[attr-defined]
@@ -351,7 +477,7 @@ class NetView(SideView[P]):
 
 
 def _joined(box: Box, other: Box | None) -> Box:
-    """What holds both."""
+    """The smallest box around both."""
     if other is None:
         return box
     low = min(box.left, other.left), min(box.bottom, other.bottom)

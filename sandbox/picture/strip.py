@@ -1,13 +1,14 @@
-"""A film strip: a few frames of a run side by side, until its story is told."""
+"""A film strip: a few frames of a run until its story is told, in rows that fit a page."""
 
 from __future__ import annotations
 
+from math import ceil
 from typing import Any
 
 import numpy as np
 import pygame
 
-from sandbox.engine.run import Run
+from sandbox.engine.paths.run import Run
 from sandbox.picture.painter import Painter, blank
 from sandbox.picture.palette import palette
 from sandbox.picture.path import hardest
@@ -23,8 +24,8 @@ TOUCHES, APART = 8, 0.005
 NEAR = 0.4
 #: Heights over a frame's: of the margin with the holes, of a hole; and the gap between frames.
 MARGIN, HOLE, GAP = 0.11, 0.05, 0.022
-#: Holes along each frame.
-HOLES = 8
+#: Holes along each frame, and frames in a row at most.
+HOLES, ACROSS = 8, 4
 
 
 def strip_times(run: Run, until: float) -> list[float]:
@@ -46,19 +47,29 @@ def strip_times(run: Run, until: float) -> list[float]:
 
 
 def film_strip(picture: View[Any], run: Run) -> pygame.Surface:
-    """The strip; each of its frames is as large as the picture's."""
-    frames = [picture.frame(t) for t in strip_times(run, picture.told)]
+    """The frames in rows, in the order in which one reads; each is as large as the picture."""
+    frames = [picture.frame(t) for t in strip_times(run, picture.story_end)]
     width, height = frames[0].get_size()
+    rows = ceil(len(frames) / ACROSS)
+    columns = ceil(len(frames) / rows)
     margin, gap = round(MARGIN * height), round(GAP * height)
-    strip = blank((len(frames) * (width + gap) + gap, height + 2 * margin))
-    strip.fill(FILM["base"])
-    for i, frame in enumerate(frames):
-        strip.blit(frame, (gap + i * (width + gap), margin))
-    painter, tall = Painter(strip), round(HOLE * height)
-    pitch = (width + gap) / HOLES
-    for row in (margin // 2, strip.get_height() - margin // 2):
-        for i in range(round(strip.get_width() / pitch) + 1):
-            hole = pygame.Rect(0, 0, round(1.25 * tall), tall)
-            hole.center = round((i + 0.5) * pitch), row
-            painter.panel(hole, FILM["hole"], 1.0, 0.25 * tall)
+    wide, tall = columns * (width + gap) + gap, height + 2 * margin
+    strip = blank((wide, rows * tall + (rows - 1) * gap))
+    strip.fill(FILM["hole"])
+    for row in range(rows):
+        film = strip.subsurface((0, row * (tall + gap), wide, tall))
+        _draw_film(film, (width + gap) / HOLES, round(HOLE * height), margin)
+        for column, frame in enumerate(frames[row * columns : (row + 1) * columns]):
+            film.blit(frame, (gap + column * (width + gap), margin))
     return strip
+
+
+def _draw_film(film: pygame.Surface, pitch: float, hole: int, margin: int) -> None:
+    """A row of film without frames: holes every ``pitch`` px, ``hole`` px high, in the middle of both margins."""
+    film.fill(FILM["base"])
+    painter = Painter(film)
+    for row in (margin // 2, film.get_height() - margin // 2):
+        for i in range(round(film.get_width() / pitch) + 1):
+            rect = pygame.Rect(0, 0, round(1.25 * hole), hole)
+            rect.center = round((i + 0.5) * pitch), row
+            painter.panel(rect, FILM["hole"], 1.0, 0.25 * hole)

@@ -8,8 +8,9 @@ from math import hypot
 
 import numpy as np
 
-from sandbox.engine.acting import by_cause
-from sandbox.engine.run import Run
+from sandbox.engine.motion.forces_on_ball import by_cause
+from sandbox.engine.paths.phase import Phase
+from sandbox.engine.paths.run import Run
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.sheet import CARD, Entry, Sheet
 from sandbox.sport.amounts import amount
@@ -27,7 +28,7 @@ AT_REST = 1e-9
 
 
 def colour_of(name: str) -> Colour:
-    """Of the arrows for a cause; causes of a user's own share out what is left."""
+    """The colour of the arrows for a cause; causes of a user's own share out what is left."""
     own = FORCE["own"]
     return FORCE[name] if name in FORCE and name != "own" else own[sum(name.encode()) % len(own)]
 
@@ -41,20 +42,20 @@ class Vectors:
         self.arcs = run.arcs[name]
 
     def forces(self, t: float) -> dict[str, tuple[float, float]]:
-        """What acts on the ball at time t (s) by cause, in N; "contact" or the plane's name is what it lies on."""
+        """The forces on the ball at time t (s) by cause, in N; "contact" or the plane's name is what it lies on."""
         found: dict[str, tuple[float, float]] = {}
-        angle = (self.run.angle(self.name, t),) if self.ball.turns else ()
+        angle = (self.run.angle(self.name, t),) if self.ball.rotates else ()
         for name, (fx, fy) in by_cause(self.ball.forces, t, (*self.run.state(self.name, t), *angle)):
             before = found.get(name, (0.0, 0.0))
             found[name] = before[0] + float(fx), before[1] + float(fy)
         arc = self.arcs.at(t)
         plane = self.run.setup.plane and self.run.setup.plane_of(self.name)
-        surface = plane.name if plane is not None else "contact" if arc.contact is not None else None
+        surface = plane.name if plane is not None else "contact" if arc.phase is not Phase.FREE else None
         if surface is not None:
             others = [sum(axis) for axis in zip((0.0, 0.0), *found.values(), strict=True)]
             moves = hypot(*self.run.state(self.name, t)[2:4]) >= AT_REST
             ax, ay = arc.acceleration(t) if moves else (0.0, 0.0)
-            mass = self.ball.mass * float(self.ball.left(t))
+            mass = self.ball.mass * float(self.ball.mass_fraction(t))
             found[surface] = mass * ax - others[0], mass * ay - others[1]
         return found
 

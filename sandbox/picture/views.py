@@ -1,17 +1,101 @@
-"""What the picture of a scene is made of, besides the parts of its place: the views, and what they draw with."""
+"""Parts of a scene's picture: the views, the parts of a place, and what they draw with.
+
+``plan`` and ``table`` have the parts of a place seen from above, ``courts`` the lines of courts and pitches.
+"""
 
 from sandbox.picture.above import AboveView
 from sandbox.picture.ball import Look, Mark, Silhouette, dimples, near, patches, seams, turned
 from sandbox.picture.camera import Area, Box, Camera, Eye
+from sandbox.picture.lettering import Labels, text_mask
 from sandbox.picture.long import LongView
-from sandbox.picture.painter import Painter
+from sandbox.picture.marks import draw_trace, mark_impacts
+from sandbox.picture.painter import Painter, around_corners
+from sandbox.picture.palette import Colour, mix, palette, scene_colours
+from sandbox.picture.places import (
+    COURT_WIDTH,
+    Ground,
+    Hall,
+    Landscape,
+    Line,
+    Net,
+    Person,
+    Planks,
+    Post,
+    Scenery,
+    Shape,
+    Stands,
+    Stripes,
+    Thing,
+    boards,
+    courts,
+    goal,
+    net_across,
+    plan,
+    standing_table,
+    table,
+    tennis_court,
+    turf,
+)
 from sandbox.picture.sheet import Entry, Sheet, SideRows
 from sandbox.picture.side import Length, NetView, Place, SideView
 from sandbox.picture.view import View
 from sandbox.sport.amounts import nice
 
 __all__ = [
-    "AboveView", "Area", "Box", "Camera", "Entry", "Eye", "Length", "LongView", "Look", "Mark",
-    "NetView", "Painter", "Place", "Sheet", "SideRows", "SideView", "Silhouette", "View", "dimples", "near", "nice",
-    "patches", "seams", "turned"
-]  # fmt: skip
+    "COURT_WIDTH",
+    "AboveView",
+    "Area",
+    "Box",
+    "Camera",
+    "Colour",
+    "Entry",
+    "Eye",
+    "Ground",
+    "Hall",
+    "Labels",
+    "Landscape",
+    "Length",
+    "Line",
+    "LongView",
+    "Look",
+    "Mark",
+    "Net",
+    "NetView",
+    "Painter",
+    "Person",
+    "Place",
+    "Planks",
+    "Post",
+    "Scenery",
+    "Shape",
+    "Sheet",
+    "SideRows",
+    "SideView",
+    "Silhouette",
+    "Stands",
+    "Stripes",
+    "Thing",
+    "View",
+    "around_corners",
+    "boards",
+    "courts",
+    "dimples",
+    "draw_trace",
+    "goal",
+    "mark_impacts",
+    "mix",
+    "near",
+    "net_across",
+    "nice",
+    "palette",
+    "patches",
+    "plan",
+    "scene_colours",
+    "seams",
+    "standing_table",
+    "table",
+    "tennis_court",
+    "text_mask",
+    "turf",
+    "turned",
+]

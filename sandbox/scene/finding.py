@@ -26,8 +26,8 @@ from sandbox.toml import read_toml, shown
 
 ENTRY_POINTS = "sandbox.scenes"
 
-#: A TOML file larger than this, in bytes, is not a scene file.
-LARGEST_FILE = 1_000_000
+#: Most scene files that begin one from the other.
+MOST_FILES = 30
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ def folder_of(source: str | Path) -> Path | None:
 
 
 def is_installed(folder: Path) -> bool:
-    """Whether a scene came with the sandbox or with an installed package."""
+    """True if a scene came with the sandbox or with an installed package."""
     return installed_folder(folder.name) == folder or folder in _named_folders().values()
 
 
@@ -92,7 +92,7 @@ def listings_in(place: Path) -> Iterator[Listing]:
             yield from _listed(f"./{folder.name}", folder)
     for file in sorted(place.glob("*.toml")):
         try:
-            if file.is_file() and file.stat().st_size <= LARGEST_FILE and "scene" in read_toml(file):
+            if file.is_file() and "scene" in read_toml(file):
                 yield Listing(file.name, first_comment(file))
         except (OSError, RequestError):
             continue  # it could not be run
@@ -102,7 +102,7 @@ def listings_of(source: str) -> list[Listing]:
     """The scene that ``source`` names, followed by its presets."""
     found = find(source)
     is_known = installed_folder(found.name) == found.folder
-    return list(_listed(found.name if is_known else _as_path(found.folder), found.folder))
+    return list(_listed(found.name if is_known else as_path(found.folder), found.folder))
 
 
 def _listed(name: str, folder: Path) -> Iterator[Listing]:
@@ -141,7 +141,7 @@ def _named(source: str) -> Found:
 
 
 def _is_path(text: str) -> bool:
-    """Whether a text is a path and not a name: ``.``, ``..``, ``./volleyball``, ``../volleyball``, ``/scenes/golf``."""
+    """True if a text is a path and not a name: ``.``, ``..``, ``./volleyball``, ``../volleyball``, ``/scenes/golf``."""
     return text in (".", "..") or text.startswith(("./", "../")) or Path(text).is_absolute()
 
 
@@ -238,7 +238,9 @@ def _files(file: Path, name: str, folder: Path, after: Sequence[Path] = ()) -> l
         return [(file, values)]
     base = _preset(name, folder, preset, f"{file}: ")
     if base in (*after, file.resolve()):
-        raise RequestError(f"{from_here(file)}: scene = {shown(written)}: begins from itself")
+        raise RequestError(f"{from_here(file)}: scene = {shown(written)}: is based on itself")
+    if len(after) == MOST_FILES:
+        raise RequestError(f"{from_here(after[0])}: is based on more than {MOST_FILES} files, one on the other")
     return [*_files(base, name, folder, (*after, file.resolve())), (file, values)]
 
 
@@ -269,8 +271,8 @@ def _meant(file: Path, written: Any, own: tuple[str, Path] = ("", Path())) -> tu
     return name, installed, preset
 
 
-def _as_path(folder: Path) -> str:
-    """How a user may write the path of a folder, so that it is not taken for a name."""
+def as_path(folder: Path) -> str:
+    """The path of a folder as a user may write it, so that it is not taken for a name."""
     path = from_here(folder)
     return path if Path(path).is_absolute() or path == "." else f"./{path}"
 
@@ -281,7 +283,7 @@ def _own_folder(path: Path) -> str:
     folder = parent.parent if parent.name == "presets" else parent
     if not (folder / "scene.py").is_file():
         return ""
-    name = f"{_as_path(folder)}/{path.stem}" if parent.name == "presets" else _as_path(folder)
+    name = f"{as_path(folder)}/{path.stem}" if parent.name == "presets" else as_path(folder)
     return f"; a file alone does not run the scene.py of its folder: ask for {name}"
 
 

@@ -15,7 +15,7 @@ from pathlib import Path
 from types import ModuleType
 
 from sandbox import resources
-from sandbox.errors import RequestError, no_exit
+from sandbox.errors import RequestError, sys_exit_as_error
 
 #: Scene folders are imported as packages below this name, which nothing else uses.
 NAMESPACE = "sandbox_scenes"
@@ -27,7 +27,7 @@ def module_in(folder: Path, name: str) -> ModuleType:
     if f"{package}.{name}" in sys.modules:
         return importlib.import_module(f"{package}.{name}")
     try:
-        with no_exit():
+        with sys_exit_as_error():
             _package(NAMESPACE, resources.folder("scenes"))
             _package(package, folder)
             return importlib.import_module(f"{package}.{name}")

@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Any
 
 from sandbox.errors import RunError
 from sandbox.scene.scene import Scene, as_scene
+from sandbox.scene.scene_run import SceneRun
 
 if TYPE_CHECKING:
-    from sandbox.engine.accuracy import Accuracy
-    from sandbox.engine.run import Run
-    from sandbox.engine.setup import Setup
+    from sandbox.engine.model.accuracy import Accuracy
+    from sandbox.engine.model.setup import Setup
 
 Progress = Callable[[float, float], None]
 
@@ -26,6 +26,17 @@ NUDGE, NUDGES = 1e-9, 8
 #: known in closed form is checked as well.
 _ROUNDING = 1e-11
 
+#: Finer runs of a check, each with half the step of the one before: one alone may agree by chance. The plain method has
+#: one, which takes twice as long as the run.
+FINER, FINER_PLAIN = 3, 1
+
+#: The error of a number over its difference to a finer run. Errors of contacts, the slowest to vanish, halve with the
+#: step: the finer run still has half of them. Those of flight leave 1/32, and for them this is pessimistic.
+SAFETY = 2.0
+
+#: Rounding of a number as a share of its size, after some thousand operations.
+_LAST_DIGITS = 1e-12
+
 #: A number is chaotic where a nudge grows by this factor or more: a nanometre to a millimetre.
 _CHAOTIC = 1e6
 
@@ -33,32 +44,32 @@ _CHAOTIC = 1e6
 _TURN = math.pi * (3.0 - math.sqrt(5.0))
 
 
-def simulate(scene: Scene | str | Path, progress: Progress | None = None) -> Run:
+def simulate(scene: Scene | str | Path, progress: Progress | None = None) -> SceneRun:
     """Run the scene to its end at the accuracy that its parameters ask for; ``run.result`` holds its numbers.
 
     The plain method, which may take minutes, calls ``progress`` with the time simulated and its most, in s.
     """
-    from sandbox.engine.accuracy import resolve
+    from sandbox.engine.model.accuracy import resolve
 
     chosen = as_scene(scene)
     return simulate_at(chosen, resolve(**chosen.parameters.accuracy.model_dump()), progress=progress)
 
 
-def simulate_at(scene: Scene, accuracy: Accuracy, setup: Setup | None = None, progress: Progress | None = None) -> Run:
+def simulate_at(
+    scene: Scene, accuracy: Accuracy, setup: Setup | None = None, progress: Progress | None = None
+) -> SceneRun:
     """Run the scene at an accuracy; ``setup`` is a variation of the scene's own, to run in its place."""
     from sandbox.engine import simulate as run_setup
 
     run = run_setup(setup or scene.build(), accuracy, progress)
-    run.scene = scene
-    run.result = scene.result(run)
-    return run
+    return SceneRun.of(run, scene, scene.result(run))
 
 
 @dataclass(frozen=True)
 class Check:
     """How accurate a result is, according to runs that should agree with it."""
 
-    finer: Run
+    finer: SceneRun
     errors: dict[str, float] = field(default_factory=dict)  # estimated, of each number in the result, in its unit
     changed: dict[str, tuple[Any, Any]] = field(
         default_factory=dict
@@ -75,16 +86,15 @@ class Check:
         return {name: spread for name, spread in self.spread.items() if spread >= _CHAOTIC * NUDGE}
 
 
-def check(scene: Scene | str | Path, run: Run | None = None, progress: Progress | None = None) -> Check:
-    """Estimate the errors of the scene's result: run it again, finer and from nudged starts, and compare.
+def check(scene: Scene | str | Path, run: SceneRun | None = None, progress: Progress | None = None) -> Check:
+    """Estimate the errors of the scene's result: run it again, ever finer and from nudged starts, and compare.
 
-    The error of a number is the largest difference to any of those runs. ``progress`` is called as by ``simulate``, in
-    each of them.
+    The error of a number is twice its largest difference to a finer run, plus the largest to a nudged one.
+    ``progress`` is called as by ``simulate``, in each of them.
     """
     chosen = as_scene(scene)
     run = run or simulate(chosen)
-    setup = nudged(chosen.build(), _ROUNDING, 0)
-    outcome = compare(run, simulate_at(chosen, run.accuracy.finer(), setup, progress))
+    outcomes = [compare(run, finer) for finer in _finer(chosen, run, progress)]
     spread: dict[str, float] = {}
     unsettled: dict[str, list[Any]] = {}
     for result in _nudged_results(chosen, run, progress):
@@ -93,16 +103,38 @@ def check(scene: Scene | str | Path, run: Run | None = None, progress: Progress 
             spread[name] = max(difference, spread.get(name, 0.0))
         for name, (_, other) in changed.items():
             unsettled.setdefault(name, []).append(other)
-    both = (outcome.errors, spread)
     errors = {
-        name: max(part.get(name, 0.0) for part in both) for name in run.result if any(name in part for part in both)
+        name: max((each.errors[name] for each in outcomes if name in each.errors), default=0.0) + spread.get(name, 0.0)
+        for name in run.result
+        if name in spread or any(name in each.errors for each in outcomes)
     }
-    return replace(outcome, errors=errors, spread=spread, unsettled=unsettled, nudges=NUDGES)
+    changed_by_finer = {name: pair for each in reversed(outcomes) for name, pair in each.changed.items()}
+    return Check(outcomes[0].finer, errors, changed_by_finer, spread, unsettled, NUDGES)
 
 
-def compare(run: Run, finer: Run) -> Check:
-    """The estimated errors of a run's result, compared with a finer run of the same scene."""
-    return Check(finer, *_differences(run.result, finer.result))
+def _finer(scene: Scene, run: SceneRun, progress: Progress | None) -> Iterator[SceneRun]:
+    """Runs with half, a quarter and an eighth of the step, from starts within rounding. Only the first must succeed."""
+    accuracy = run.accuracy
+    for turn in range(FINER if accuracy.method == "exact" else FINER_PLAIN):
+        accuracy = accuracy.finer()
+        try:
+            yield simulate_at(scene, accuracy, nudged(scene.build(), _ROUNDING, turn), progress)
+        except RunError:  # its steps are too many
+            if turn == 0:
+                raise
+            return
+
+
+def compare(run: SceneRun, finer: SceneRun) -> Check:
+    """The estimated errors of a run's result, compared with a finer run of the same scene: twice each difference, and
+    what rounding makes of such a number. A count is off by what it differs."""
+    apart, changed = _differences(run.result, finer.result)
+    errors = {}
+    for name, difference in apart.items():
+        value = run.result[name]
+        size = max(map(abs, _taken_apart(value)[1]), default=0.0)
+        errors[name] = difference if isinstance(value, int) else SAFETY * difference + _LAST_DIGITS * size
+    return Check(finer, errors, changed)
 
 
 def nudged(setup: Setup, distance: float, turn: int) -> Setup:
@@ -116,7 +148,7 @@ def nudged(setup: Setup, distance: float, turn: int) -> Setup:
     return replace(setup, balls=balls)
 
 
-def _nudged_results(scene: Scene, run: Run, progress: Progress | None) -> Iterator[Mapping[str, Any]]:
+def _nudged_results(scene: Scene, run: SceneRun, progress: Progress | None) -> Iterator[Mapping[str, Any]]:
     """The results from nudged starts; for a run that fails, its error in place of each result."""
     for turn in range(NUDGES):
         try:

@@ -6,7 +6,6 @@ and ``CONTROLS``; a scene file ``<name>.toml``; presets in ``presets/*.toml``; a
 
 from __future__ import annotations
 
-import importlib
 import inspect
 import os
 from collections.abc import Callable, Collection, Mapping, Sequence
@@ -17,8 +16,9 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from sandbox import parameters as declared
-from sandbox.errors import RequestError, RunError, no_exit
+from sandbox.errors import RequestError, RunError, sys_exit_as_error
 from sandbox.files import from_here
+from sandbox.scene import display
 from sandbox.scene.finding import Found, default_file, docstring, find, first_comment
 from sandbox.scene.modules import module_in
 from sandbox.sport.controls import Controls
@@ -27,14 +27,16 @@ from sandbox.text import shortened
 from sandbox.toml import read_toml
 
 if TYPE_CHECKING:
-    from sandbox.engine.run import Run
-    from sandbox.engine.setup import Setup
+    from sandbox.engine.model.setup import Setup
+    from sandbox.engine.paths.run import Run
+    from sandbox.scene.scene_run import SceneRun
 
-#: Draws any scene that has no picture.py; and what others are made of.
-FALLBACK_PICTURE, VIEWS = "sandbox.picture.plain", "sandbox.picture.views"
 OFFERS = ("Parameters", "build")
 #: Types of facts that cards, JSON and tables can always show.
-_PLAIN = {bool, float, str, type(None)}
+_PLAIN = {bool, float, type(None)}
+#: Most characters of a fact or a verdict, for which cards and pictures have room.
+LONGEST_TEXT = 400
+_REPORTABLE = f"a number, a text of at most {LONGEST_TEXT} characters, true or false, or a list of those"
 #: How the functions of a scene, and its picture, are called.
 CALLS = {
     "build": (("parameters",),),
@@ -71,22 +73,24 @@ class Scene:
         """The scene with some of its parameters changed, by dotted key. Raises RequestError for an invalid value."""
         return replace(self, parameters=declared.changed(self.parameters, changes, by))
 
-    def picture_module(self) -> ModuleType:
+    def picture_module(self) -> Any:
         """The scene's ``picture.py``, or a simple one for a scene without; imported on first use, as it imports
         pygame."""
         os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")  # no greeting on stdout, which is for --json
         if not (self.folder / "picture.py").is_file():
-            return importlib.import_module(FALLBACK_PICTURE)
+            return display.pictures()
         module = module_in(self.folder, "picture")
         file, picture = self.folder / "picture.py", getattr(module, "Picture", None)
-        if isinstance(picture, type) and not issubclass(picture, importlib.import_module(VIEWS).View):
-            raise RequestError(f"{file}: Picture must be a SideView or an AboveView of {VIEWS}")
+        if isinstance(picture, type) and not issubclass(picture, display.pictures().View):
+            raise RequestError(f"{file}: Picture must be a SideView or an AboveView of sandbox.kit")
         _check_calls(file, "Picture", picture)
         for name in ("poster", "frame"):
             _check_calls(file, f"Picture.{name}", getattr(picture, name, None))
         return module
 
-    def picture(self, run: Run, size: tuple[int, int] | None = None, ghosts: Mapping[str, Run] | None = None) -> Any:
+    def picture(
+        self, run: SceneRun, size: tuple[int, int] | None = None, ghosts: Mapping[str, SceneRun] | None = None
+    ) -> Any:
         """The scene's picture of a run, a View; ``size`` in px, or the scene's own choice.
 
         ``ghosts`` are other runs of the scene by name, drawn pale behind this one.
@@ -96,9 +100,9 @@ class Scene:
 
     def build(self) -> Setup:
         """The setup that the engine simulates."""
-        from sandbox.engine.setup import Setup
+        from sandbox.engine.model.setup import Setup
 
-        with no_exit():
+        with sys_exit_as_error():
             setup = self.module.build(self.parameters)
         if not isinstance(setup, Setup):
             raise self._wrong("build", "a Setup", setup)
@@ -134,13 +138,15 @@ class Scene:
         hows = [(key, fact.how) for key, fact in self.facts.items() if not asked or key in asked]
 
         def read(run: Run, parameters: Any) -> dict[str, Any]:
-            with no_exit():
+            with sys_exit_as_error():
                 result = {key: how(run, parameters) for key, how in hows}
             for key, value in result.items():
+                if hasattr(value, "tolist"):  # numpy's numbers and arrays
+                    value = result[key] = value.tolist()
                 if isinstance(value, float) and not isfinite(value):
                     result[key] = None
                 elif type(value) not in _PLAIN and not _is_reportable(value):
-                    raise self._wrong(f"the fact {key}", "a number, a text, true or false, or a list of those", value)
+                    raise self._wrong(f"the fact {key}", _REPORTABLE, value)
             return result
 
         return read
@@ -150,7 +156,9 @@ class Scene:
         settled = frozenset(self.facts[key].settled for key in asked if key in self.facts) - {"start"}
         return None if "end" in settled or not set(asked) <= self.facts.keys() else settled
 
-    def rows(self, run: Run, errors: Mapping[str, float] | None = None, also: bool = False) -> list[tuple[str, str]]:
+    def rows(
+        self, run: SceneRun, errors: Mapping[str, float] | None = None, also: bool = False
+    ) -> list[tuple[str, str]]:
         """Label and text of each fact that happened, for a card.
 
         With estimated errors if there are any and, if ``also``, in a second unit where the sport has one.
@@ -161,28 +169,29 @@ class Scene:
                 rows.append((fact.label, fact.text(run.result[key], (errors or {}).get(key), also)))
         return [(label, text) for label, text in rows if text]
 
-    def verdict(self, run: Run) -> str:
-        """What happened, in a sentence."""
-        with no_exit():
+    def verdict(self, run: SceneRun) -> str:
+        """The verdict: one sentence on what happened."""
+        with sys_exit_as_error():
             said = getattr(self.module, "verdict", fallback_verdict)(run, self.parameters)
         if not isinstance(said, str):
             raise self._wrong("verdict", "text", said)
+        if len(said) > LONGEST_TEXT:
+            raise self._wrong("verdict", f"text of at most {LONGEST_TEXT} characters", said)
         return said
 
     @property
     def controls(self) -> Controls:
-        """How a player controls it."""
+        """The controls of a player."""
         controls: Controls = getattr(self.module, "CONTROLS", Controls())
         return controls
 
     def _wrong(self, function: str, expected: str, value: Any) -> RunError:
         """A scene's function returned something else, often because of a missing return."""
         file = from_here(self.folder / "scene.py")
-        return RunError(f"{file}: {function} must return {expected}, but returned {shortened(repr(value))}")
+        return RunError(f"{file}: {function} must return {expected}, but returned {_as_text(value)}")
 
     def _repr_html_(self) -> str:
-        html: str = importlib.import_module("sandbox.page.notebook").scene_html(self)
-        return html
+        return display.notebook().scene_html(self)
 
     @property
     def title(self) -> str:
@@ -194,14 +203,24 @@ class Scene:
         return _revived, (self.name, self.preset, self.folder, self.parameters.model_dump())
 
 
+def _as_text(value: Any) -> str:
+    """A value for a message; of an integer with more digits than Python writes out only its type."""
+    try:
+        return shortened(repr(value))
+    except ValueError:
+        return f"a value of type {type(value).__name__} that is too long to write"
+
+
 def _is_reportable(value: Any, deepest: int = 9) -> bool:
-    """Whether cards, JSON and tables can show a value; one that contains itself has no end."""
+    """True if cards, JSON and tables can show a value; one that contains itself has no end."""
     if isinstance(value, Mapping | list | tuple):
-        inside = value.values() if isinstance(value, Mapping) else value
+        inside = [*value, *value.values()] if isinstance(value, Mapping) else value
         return deepest > 0 and all(_is_reportable(item, deepest - 1) for item in inside)
     if isinstance(value, int) and not isinstance(value, bool):
         return value.bit_length() < 1000  # a float holds it
-    return value is None or isinstance(value, bool | float | str) or hasattr(value, "tolist")  # numpy's
+    if isinstance(value, str):
+        return len(value) <= LONGEST_TEXT
+    return value is None or isinstance(value, bool | float) or hasattr(value, "tolist")  # numpy's
 
 
 def _revived(name: str, preset: str | None, folder: Path, values: dict[str, Any]) -> Scene:
@@ -269,7 +288,7 @@ def _parameters(
     def first(count: int) -> dict[str, Any]:
         values: dict[str, Any] = {}
         for _, layer in files[:count]:
-            values = declared.over(schema, values, {key: value for key, value in layer.items() if key != "scene"})
+            values = schema.layered(values, {key: value for key, value in layer.items() if key != "scene"})
         return values
 
     where = from_here(files[-1][0] if files else found.folder)

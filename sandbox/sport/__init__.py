@@ -1,1 +1,1 @@
-"""What the sports share: facts, controls, and the parameters and forces of a ball. It depends on no single sport."""
+"""Shared by the sports: facts, controls, and the parameters and forces of a ball. It depends on no single sport."""

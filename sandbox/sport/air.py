@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from types import new_class
-from typing import Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from sandbox.parameters import Group, choice, quantity, vector
 from sandbox.physics.air import LogWind, UniformWind, moist_density
 from sandbox.physics.coefficients import Coefficient, Constant, spin_ratio_lift
 from sandbox.physics.forces import Wind
+
+if TYPE_CHECKING:
+    from sandbox.sport.flight import Sphere
 
 
 class Air(Group):
@@ -74,8 +77,9 @@ class Model(Group):
             words: Any = Literal[tuple(cls.LAWS)]
             cls.model_fields["model"].annotation = words
 
-    def coefficient_in(self, air: Air, radius: float) -> Coefficient | None:
-        """The coefficient by Reynolds number and spin ratio, of a ball of that radius (m); None for no force."""
+    def coefficient_in(self, air: Air, ball: Sphere) -> Coefficient | None:
+        """The coefficient by Reynolds number and spin ratio, of a ball by its mass, radius and other parameters; None
+        for no force."""
         return self.LAWS[self.model]
 
 
@@ -91,7 +95,7 @@ class ConstantDrag(Model):
     model: Literal["constant"] = choice("constant", "coefficient by its source")
     coefficient: float = quantity(0.47, "", 0, 10, "drag coefficient")
 
-    def coefficient_in(self, air: Air, radius: float) -> Coefficient:
+    def coefficient_in(self, air: Air, ball: Sphere) -> Coefficient:
         return Constant(self.coefficient)
 
 
@@ -101,7 +105,7 @@ class ConstantLift(Lift):
     model: Literal["constant"] = choice("constant", "coefficient by its source")
     coefficient: float = quantity(0.2, "", 0, 10, "lift coefficient")
 
-    def coefficient_in(self, air: Air, radius: float) -> Coefficient:
+    def coefficient_in(self, air: Air, ball: Sphere) -> Coefficient:
         return Constant(self.coefficient)
 
 
@@ -117,7 +121,7 @@ class NoForce(Model):
 
     model: Literal["none"] = choice("none", "coefficient by its source")
 
-    def coefficient_in(self, air: Air, radius: float) -> None:
+    def coefficient_in(self, air: Air, ball: Sphere) -> None:
         return None
 
 

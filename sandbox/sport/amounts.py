@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
+from functools import cache
 from math import floor, log10
 from typing import NamedTuple
 
@@ -30,7 +31,8 @@ LADDERS: dict[str, Ladder] = {
     "yd": (Step(20, "yd", 0), Step(0, "yd", 1)),
     **{unit: (Step(0, unit, 0),) for unit in ("mph", "km/h", "rpm")},
     "ft": (Step(100, "ft", 0), Step(0, "ft", 1)),
-    **{unit: (Step(0, unit, 1),) for unit in ("deg", "moa", "J", "in", "cm")},
+    **{unit: (Step(0, unit, 1),) for unit in ("deg", "arcmin", "J", "in", "cm")},
+    "moa": (Step(0, "arcmin", 1),),
     "s": (Step(0, "s", 2),),
     "N": (Step(9995, "kN", 1), Step(9.995, "N", 1), Step(0.0995, "N", 2), Step(0, "mN", 0)),
 }
@@ -48,9 +50,10 @@ SYSTEMS: dict[str, Mapping[str, Ladder]] = {
         "force": (Step(0, "lbf", 2),),
     },
 }
-_chosen: ContextVar[Mapping[str, Ladder]] = ContextVar("units", default=SYSTEMS["si"])
+_chosen: ContextVar[str] = ContextVar("units", default="si")
 
 
+@cache
 def system_of(text: str) -> Mapping[str, Ladder]:
     """The ladders by kind that ``us``, ``si``, or a list of units such as ``ft,mph`` asks for. Raises RequestError."""
     if text in SYSTEMS:
@@ -70,17 +73,30 @@ def system_of(text: str) -> Mapping[str, Ladder]:
 @contextmanager
 def shown_in(text: str | None) -> Iterator[None]:
     """Inside, numbers for people are in these units; None changes nothing. What is stored is not affected."""
-    token = None if text is None else _chosen.set(system_of(text))
+    if text is None:
+        yield
+        return
+    system_of(text)
+    token = _chosen.set(text)
     try:
         yield
     finally:
-        if token is not None:
-            _chosen.reset(token)
+        _chosen.reset(token)
+
+
+def chosen_units() -> str:
+    """The units that numbers are written in, as ``--units`` takes them."""
+    return _chosen.get()
+
+
+def _ladders() -> Mapping[str, Ladder]:
+    """The ladders by kind that were chosen."""
+    return system_of(_chosen.get())
 
 
 def ladder(unit: str) -> Ladder:
-    """How numbers of a unit are written now, with ``least`` in that unit; empty for one with three figures."""
-    own = _chosen.get().get(units.KIND_OF.get(unit, ""))
+    """Return the steps by which numbers of a unit are written now; empty for one with three figures."""
+    own = _ladders().get(units.KIND_OF.get(unit, ""))
     if own is None:
         return LADDERS.get(unit, ())
     first = next(iter(units.KINDS[units.KIND_OF[unit]])) if len(own) > 1 else unit
@@ -97,7 +113,7 @@ def written(value: float, unit: str, steps: Ladder, digits: int | None = None) -
 
 def amount(value: float, unit: str = "", digits: int | None = None) -> str:
     """A number with its unit, in the units that were chosen; ``digits`` after the point where it is given."""
-    if isinstance(value, int) and units.KIND_OF.get(unit) not in _chosen.get():
+    if isinstance(value, int) and units.KIND_OF.get(unit) not in _ladders():
         return f"{value} {unit}".rstrip()
     steps = ladder(unit)
     return written(value, unit, steps, digits) if steps else f"{signed(f'{value:.3g}')} {unit}".rstrip()
@@ -108,11 +124,20 @@ def converted(value: float, unit: str, other: str) -> str:
     return written(units.convert(value, unit, other), other, LADDERS.get(other, (Step(0, other, 2),)))
 
 
+def exact(value: float, unit: str) -> str:
+    """A number with its unit and all its digits; six of them where it is converted to chosen units."""
+    steps = ladder(unit) if units.KIND_OF.get(unit) in _ladders() else ()
+    if not steps:
+        return f"{signed(repr(value).removesuffix('.0'))} {unit}".rstrip()
+    step = next((step for step in steps if abs(value) >= step.least), steps[-1])
+    return f"{signed(f'{units.convert(value, unit, step.unit):.6g}')} {step.unit}"
+
+
 def in_both(value: float, unit: str, other: str, digits: int | None = None) -> tuple[str, str]:
     """A number of ``unit`` as it is written, with ``digits`` after the point where they are given, and for those who
     count in ``other``: which comes first where another system of units was chosen."""
     second = converted(value, unit, other)
-    own = _chosen.get().get(units.KIND_OF[unit])
+    own = _ladders().get(units.KIND_OF[unit])
     if own is None:
         return amount(value, unit, digits), second
     first = second if any(step.unit == other for step in own) else amount(value, unit)
@@ -123,7 +148,7 @@ def margin(error: float, unit: str, count: bool = False) -> str:
     """An estimated error: ``± 0.4 mm``; "" for a count that stays the same."""
     if count and error == int(error):
         return f"± {error:.0f}" if error else ""
-    if units.KIND_OF.get(unit) in _chosen.get():
+    if units.KIND_OF.get(unit) in _ladders():
         steps = ladder(unit)
         smallest = min((step.unit for step in steps), key=lambda name: units.convert(1.0, name, unit))
         named = next((step.unit for step in steps[:-1] if error >= step.least), smallest)
@@ -145,7 +170,7 @@ def significant(value: float, digits: int = 2) -> str:
 
 
 def signed(number: str) -> str:
-    """With a real minus sign, and without one before zero."""
+    """Return the number with a real minus sign, and without one before zero."""
     return number.replace("-", "−") if float(number) else number.lstrip("-")
 
 
@@ -171,20 +196,20 @@ def listed(values: Sequence[float], unit: str, digits: int | None = None) -> str
 def metres(value: float, digits: int | None = None) -> str:
     """A length in m as people write it on a scale, without cm: 0.42 m, 8.31 m, 251.4 m, 12.3 km; or with ``digits``
     after the point. It is in the units that were chosen."""
-    steps = [step for step in ladder("m") if step.unit != "cm" or _chosen.get()]
+    steps = [step for step in ladder("m") if step.unit != "cm" or _ladders()]
     return written(value, "m", steps, None if digits is not None and abs(value) >= steps[0].least else digits)
 
 
 def roughly(value: float) -> str:
     """A length in m of 0 or more, rounded for a sentence: 0.14 m, 2.9 m, 252 m."""
-    steps = [step for step in ladder("m") if step.unit != "cm" or _chosen.get()]
+    steps = [step for step in ladder("m") if step.unit != "cm" or _ladders()]
     step = next((step for step in steps if value >= step.least), steps[-1])
     number = units.convert(value, "m", step.unit)
     return written(value, "m", steps, 0 if number >= 9.95 and step.unit != "km" else 1 if number >= 0.995 else 2)
 
 
 def times(factor: float) -> str:
-    """How many times as large: 1.4 times, 86 times."""
+    """Return a factor in words: 1.4 times, 86 times."""
     return f"{factor:.{0 if factor >= 9.95 else 1}f} times"
 
 

@@ -25,7 +25,7 @@ class Spin:
 
 @dataclass(frozen=True)
 class Spread:
-    """How precisely a practised player sets a parameter: with a standard deviation of ``share`` times its value, or at
+    """The precision of a practised player at a parameter: a standard deviation of ``share`` times its value, or at
     least ``least``.
 
     ``least`` is in the parameter's unit.
@@ -42,7 +42,7 @@ class Spread:
 
 @dataclass(frozen=True)
 class Handle:
-    """What a player drags in the picture: ``Handle("hoop.distance", "hoop.height")`` is at (distance, height) in m.
+    """A place to drag in the picture: ``Handle("hoop.distance", "hoop.height")`` is at (distance, height) in m.
 
     One without ``x`` or ``y`` moves only along the other. ``[*]`` in the keys, as in ``balls[*].x``, gives every entry
     of a list a handle. The wind, ``air.wind``, has one in every scene.
@@ -52,6 +52,7 @@ class Handle:
     y: str = ""
     #: Where it is (m), from the parameters, if that is not what its keys say.
     at: Callable[[Any], tuple[float, float]] | None = None
+    with_y: tuple[str, ...] = ()  # keys of what moves up and down with it, such as the board behind a hoop
     where: str = ""  # the switch without which there is none
     goal: bool = False  # whether a shot that gets there scores
     #: From the parameters to the changes without which the keys have no effect, such as a rack that is broken up.
@@ -60,7 +61,7 @@ class Handle:
 
 @dataclass(frozen=True)
 class Goal:
-    """What a shot can be found for: the facts that are ``wanted``, and where the player clicks for it (m).
+    """A goal for which a shot can be found: the facts that are ``wanted``, and where the player clicks for it (m).
 
     ``vary`` has the ranges of the parameters that are tried, by default of speed and angle. Goals of the same name are
     several ways to the same.
@@ -74,11 +75,12 @@ class Goal:
 
 @dataclass(frozen=True)
 class Controls:
-    """How a player controls a scene: most fields are keys of parameters."""
+    """The controls of a scene: most fields are keys of parameters."""
 
     speed: str = "launch.speed"
     angle: str = "launch.angle"  # deg, counter-clockwise from +x
-    strongest: float = 30.0  # speed of a full pull, in the speed's unit
+    strongest: float = 30.0  # the highest speed of a full pull, in the speed's unit
+    softest: float = 0.05  # the speed of the shortest pull, as a share of the scene file's
     spins: tuple[Spin, ...] = ()  # of the wheel, and of the wheel with Shift
     ball: str = "ball"  # the ball that is pulled: its name, or the key that holds its name
     also: Mapping[str, Any] = field(default_factory=dict)  # what else a pull sets, such as how the shot begins
@@ -95,7 +97,7 @@ class Controls:
     next_start: Callable[[Any, Any], Mapping[str, Any]] | None = None
 
     def mistake(self, schema: type[Group], facts: Sequence[str]) -> str | None:
-        """What is wrong with these controls for a scene with such parameters and facts, in a line; None if nothing."""
+        """The problem with these controls for a scene with such parameters and facts, in a line; or None."""
         for name, kind in (("sliders", str), ("handles", Handle), ("spins", Spin), ("spread", Spread)):
             entries = getattr(self, name)
             if not isinstance(entries, tuple | list) or not all(isinstance(entry, kind) for entry in entries):
@@ -119,6 +121,8 @@ class Controls:
             "spins": [spin.key for spin in self.spins],
             "also": [*self.also],
             "sliders": [key.partition("[")[0] for key in self.sliders],
-            "handles": [key.partition("[")[0] for it in self.handles for key in (it.x, it.y, it.where) if key],
+            "handles": [
+                key.partition("[")[0] for it in self.handles for key in (it.x, it.y, *it.with_y, it.where) if key
+            ],
             "spread": [spread.key for spread in self.spread],
         }

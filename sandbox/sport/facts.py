@@ -27,8 +27,8 @@ from sandbox import units
 from sandbox.sport.amounts import amount, in_both, margin, metres
 
 if TYPE_CHECKING:
-    from sandbox.engine.run import Run
-    from sandbox.engine.setup import Until
+    from sandbox.engine.model.setup import Until
+    from sandbox.engine.paths.run import Run
 
 #: ``"start"``, ``"end"``, the name of what must have been touched, or a function of the parameters that gives the
 #: condition.
@@ -55,7 +55,7 @@ class Fact:
     where: Callable[[Run, Any], bool] | None = None  # on cards only where this holds
     in_order: bool = True  # whether the order of a list matters where many runs are compared
     digits: int | None = None  # after the point, where its unit usually has others
-    names: bool = False  # whether its words are names of balls, surfaces and catches
+    names: bool = False  # whether its words are names of balls, surfaces and traps
 
     def text(self, value: Any, error: float | None = None, also: bool = False) -> str:
         """The value as text; "" for what did not happen.
@@ -104,7 +104,7 @@ def once(how: Callable[[Run, Any], Value]) -> Callable[[Run, Any], Value]:
 
 
 def mistake_in(facts: Any) -> str | None:
-    """What is wrong with a scene's FACTS, as the end of a message; None if nothing is."""
+    """The problem with a scene's FACTS, as the end of a message; None if there is none."""
     if not isinstance(facts, tuple | list):
         return f" must be a tuple of facts, but is {facts!r}"
     keys: set[str] = set()

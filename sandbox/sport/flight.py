@@ -7,11 +7,13 @@ from dataclasses import replace
 from math import pi
 from typing import Any, ClassVar
 
-from sandbox.engine.setup import HOLLOW_SPHERE, Ball, Force, Surface, Vector
-from sandbox.engine.touch import Obstacle
-from sandbox.parameters import Group, SceneParameters, either, group, quantity
+from sandbox.engine.contact.touch import Obstacle
+from sandbox.engine.model.ball import HOLLOW_SPHERE, Ball, Force
+from sandbox.engine.model.shapes import Vector
+from sandbox.engine.model.surface import Surface
+from sandbox.parameters import Group, SceneParameters, group, one_of, quantity
 from sandbox.physics.coefficients import Coefficient, Scaled
-from sandbox.physics.elementwise import cos, most, sin
+from sandbox.physics.elementwise import cos, maximum, sin
 from sandbox.physics.forces import Drag, Gravity, Magnus, SpinDecay
 from sandbox.sport.air import Air, AnyDrag, AnyLift, Lift, Model, model_of, wind_in
 
@@ -39,18 +41,18 @@ class Launch(Directed):
 
     speed: float = quantity(..., "m/s", 0, 340, "ball speed")
     angle: float = quantity(..., "deg", -90, 180, "direction above the horizontal")
-    spin: float = quantity(..., "rpm", -20000, 20000, "backspin positive, topspin negative")
+    spin: float = quantity(0.0, "rpm", -20000, 20000, "backspin positive, topspin negative")
 
 
 class Release(Group):
-    """Where the ball leaves hand or racket."""
+    """The place where the ball leaves hand or racket."""
 
     place: float = quantity(..., "m", -20, 20, "from the player's own line, forward")
-    height: float = quantity(..., "m", 0.01, 10, "of the ball's centre above the ground")
+    height: float = quantity(..., "m", 0, 10, "of the ball's centre above the ground")
 
     def of(self, ball: Sphere) -> Vector:
         """That place in m; no lower than where the ball lies on the ground."""
-        return self.place, most(self.height, ball.radius)
+        return self.place, maximum(self.height, ball.radius)
 
 
 class Sphere(Group):
@@ -63,8 +65,8 @@ class Sphere(Group):
     mass: float = quantity(..., "kg", 0.0001, 20, "mass")
     radius: float = quantity(..., "m", 0.0005, 0.5, "radius")
     cross_section: float | None = quantity(None, "m^2", 1e-7, 1, "frontal area, if it does not follow from the radius")
-    drag: AnyDrag = either(..., "drag of the air")
-    lift: AnyLift = either(..., "Magnus force")
+    drag: AnyDrag = one_of(..., "drag of the air")
+    lift: AnyLift = one_of(..., "Magnus force")
 
     def __init_subclass__(cls, drag: Laws | None = None, lift: Laws | None = None, **options: Any) -> None:
         super().__init_subclass__(**options)
@@ -111,7 +113,7 @@ def forces_in_flight(ball: Sphere, air: Air, gravity: float = 0.0, lift_share: f
     if air.density == 0.0:
         return forces
     about = (wind_in(air), ball.cross_section, air.viscosity)
-    drag, lift = ball.drag.coefficient_in(air, ball.radius), ball.lift.coefficient_in(air, ball.radius)
+    drag, lift = ball.drag.coefficient_in(air, ball), ball.lift.coefficient_in(air, ball)
     if drag is not None:
         forces.append(Drag(ball.radius, air.density, drag, *about))
     if lift is not None:

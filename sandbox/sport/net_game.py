@@ -9,10 +9,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from sandbox.engine.run import Event, Run
-from sandbox.engine.setup import Bounce, Segment, Surface, Until
+from sandbox.engine.model.setup import Until
+from sandbox.engine.model.surface import Bounce, Segment, Surface
+from sandbox.engine.paths.run import Event, Run
 from sandbox.parameters import Group, group, quantity
 from sandbox.physics.court import cross_restitution
+from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Handle
 from sandbox.sport.facts import Fact, once
@@ -44,12 +46,12 @@ class NetGame(Flight):
 
     @property
     def middle(self) -> float:
-        """Where the net is, in m."""
+        """The position of the net, in m."""
         return 0.5 * self.court.length
 
     @property
     def limit(self) -> tuple[float, str]:
-        """How far from the player's own end line the ball may land, in m, and what is there."""
+        """The distances from the player's own end line within which the ball may land, in m, and what is there."""
         return self.court.length, "end line"
 
 
@@ -62,7 +64,7 @@ class HardCourt(Court):
 
 @dataclass(frozen=True)
 class CourtBounce:
-    """How a hard court responds to an impact."""
+    """The response of a hard court to an impact."""
 
     court: HardCourt
 
@@ -123,9 +125,12 @@ net_clearance = at(at_net, lambda ball, it: ball.y - it.ball.radius - it.net.hei
 
 
 def taken(run: Run, parameters: Any) -> float:
-    """When the other player takes the ball, in s: a little beyond the end line; at the end if it does not get there."""
-    passed = at_baseline(run, parameters)
-    return run.duration if passed is None else min(run.duration, passed.t + 0.15)
+    """When the other player takes the ball, in s: a little beyond the end line; at the end if it does not get there, or
+    only comes down beyond it."""
+    passed, landed = at_baseline(run, parameters), landing(run, parameters)
+    if passed is None or landed is None or landed.t > passed.t:
+        return run.duration
+    return min(run.duration, passed.t + 0.15)
 
 
 def word(run: Run, parameters: Any) -> str:
@@ -169,8 +174,8 @@ BOUNCE_FACTS = (
 )
 
 
-def verdict(run: Run, parameters: Any) -> str:
-    """What happened, in a sentence."""
+def verdict(run: SceneRun, parameters: Any) -> str:
+    """Return the outcome in a sentence."""
     said, landed, (limit, line) = run.result["verdict"], run.result["landing"], parameters.limit
     if said == "in":
         return f"In, {roughly(limit - landed)} before the {line}"

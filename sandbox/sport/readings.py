@@ -1,4 +1,4 @@
-"""What facts are computed from: how a ball was launched, its state at a moment, how far it went."""
+"""Readings of a run, from which facts are computed: the launch, a ball's state at a moment, its distance."""
 
 from __future__ import annotations
 
@@ -7,14 +7,15 @@ from dataclasses import dataclass
 from math import atan2, degrees, hypot
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from sandbox.engine.setup import Touches, Vector
-from sandbox.physics.elementwise import least, most
+from sandbox.engine.model.setup import Touches
+from sandbox.engine.model.shapes import Vector
+from sandbox.physics.elementwise import maximum, minimum
 from sandbox.sport.amounts import amount
 from sandbox.sport.facts import Fact, once
 from sandbox.sport.flight import RPM
 
 if TYPE_CHECKING:
-    from sandbox.engine.run import Event, Run
+    from sandbox.engine.paths.run import Event, Run
     from sandbox.physics.integrators import State
 
 
@@ -111,7 +112,7 @@ class Passes(Touches):
         (ax, ay), (bx, by), (x0, y0, *_), (x1, y1, *_) = self.a, self.b, start, end
         ex, ey = bx - ax, by - ay
         along = (x0 - ax) * ex + (y0 - ay) * ey, (x1 - ax) * ex + (y1 - ay) * ey
-        inside = (least(*along) > 0.0) & (most(*along) < ex * ex + ey * ey)
+        inside = (minimum(*along) > 0.0) & (maximum(*along) < ex * ex + ey * ey)
         before, after = ((x - ax) * ey - (y - ay) * ex for x, y in ((x0, y0), (x1, y1)))
         return inside & (before <= 0.0) & (after > 0.0)
 
@@ -154,9 +155,18 @@ def apex(run: Run, parameters: Any) -> float:
     return run.highest("ball")[1][1]
 
 
-BALL_SPEED = Fact("ball_speed", "ball speed", "m/s", at(start, "speed"), "start")
-LAUNCH_ANGLE = Fact("launch_angle", "launch", "deg", at(start, "direction"), "start")
-LAUNCH_SPIN = Fact("launch_spin", "spin", "rpm", at(start, "rpm"), "start", sides=("topspin", "backspin"))
+def launch_value(what: str) -> Callable[[Run, Any], Any]:
+    """The function that reads a value of the launch, as it was given: -28.8 deg, though its sine and cosine have lost
+    the last digit of that."""
+    return at(start, lambda ball, parameters: round(getattr(ball, what), _DIGITS))
+
+
+#: Digits after the point that are left of a value that was converted to a velocity or rad/s and back.
+_DIGITS = 10
+
+BALL_SPEED = Fact("ball_speed", "ball speed", "m/s", launch_value("speed"), "start")
+LAUNCH_ANGLE = Fact("launch_angle", "launch", "deg", launch_value("direction"), "start")
+LAUNCH_SPIN = Fact("launch_spin", "spin", "rpm", launch_value("rpm"), "start", sides=("topspin", "backspin"))
 #: How the ball was launched, seen from the side.
 LAUNCH = (BALL_SPEED, LAUNCH_ANGLE, LAUNCH_SPIN)
 

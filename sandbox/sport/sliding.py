@@ -5,10 +5,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import cos, dist, hypot, pi, sin
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from sandbox.engine.on_plane import slowest_hop
-from sandbox.engine.setup import DISC, Ball, Catch, Vector
+from sandbox.engine.model.ball import DISC, Ball
+from sandbox.engine.model.shapes import Vector
+from sandbox.engine.model.surface import Trap
+from sandbox.engine.motion.on_plane import slowest_hop
 from sandbox.errors import RequestError
 from sandbox.parameters import SceneParameters, group, quantity
 from sandbox.sport.facts import Fact
@@ -16,7 +18,7 @@ from sandbox.sport.flight import DEGREE, RPM, Directed
 from sandbox.sport.solids import Solid
 
 if TYPE_CHECKING:
-    from sandbox.engine.run import Event, Run
+    from sandbox.engine.paths.run import Event, Run
 
 
 #: Chords of a rounded corner: their directions are 0.7 deg off at most.
@@ -27,7 +29,7 @@ _REACH = 2.0
 
 
 class Slide(Directed):
-    """How a body is sent on its way."""
+    """The launch of a body."""
 
     speed: float = quantity(..., "m/s", 0, 80, "speed")
     angle: float = quantity(..., "deg", -180, 180, "direction, to the left of straight ahead")
@@ -63,15 +65,15 @@ class Body(Solid):
         return Ball(name, self.mass, self.radius, place, velocity, spin, inertia_factor=DISC)
 
 
-def beyond(name: str, a: Vector, b: Vector, gap: float = 0.0, only: Sequence[str] = ()) -> Catch:
+def beyond(name: str, a: Vector, b: Vector, gap: float = 0.0, only: Sequence[str] = ()) -> Trap:
     """Takes a body whose centre is more than ``gap`` m beyond a line, to the right on the way from a to b."""
     length = dist(a, b)
     nx, ny = (b[1] - a[1]) / length, (a[0] - b[0]) / length
     out = gap + _REACH
-    return Catch(name, (a[0] + out * nx, a[1] + out * ny), _REACH, (b[0] + out * nx, b[1] + out * ny), only)
+    return Trap(name, (a[0] + out * nx, a[1] + out * ny), _REACH, (b[0] + out * nx, b[1] + out * ny), only)
 
 
-def beside(name: str, side: float, near: float, far: float, gap: float = 0.0, only: Sequence[str] = ()) -> list[Catch]:
+def beside(name: str, side: float, near: float, far: float, gap: float = 0.0, only: Sequence[str] = ()) -> list[Trap]:
     """Takes a body more than ``gap`` m beyond a line on either side, at y = +-side, from x = near to far (m)."""
     return [
         beyond(name, (far, side), (near, side), gap, only),
@@ -103,7 +105,7 @@ def meetings(run: Run) -> list[Event]:
 
 
 def met(run: Run, name: str) -> list[tuple[str, Event]]:
-    """What a body meets, in order, up to what takes it off: what it is called, and the event."""
+    """The collisions of a body in order, up to its removal: the name of what it met, and the event."""
     return [(e.partner if e.ball == name else e.ball, e) for e in meetings(run) if name in (e.ball, e.partner)]
 
 
@@ -120,28 +122,34 @@ def check_inside(balls: Sequence[Ball], length: float, width: float, corner: flo
 
 
 def taken(run: Run) -> dict[str, str]:
-    """What took bodies off, by their names, in order."""
+    """The catches that removed bodies, by the names of these, in order."""
     return {event.ball: event.partner for event in run.events if event.kind == "caught"}
 
 
 def end_of(run: Run, name: str) -> Vector:
-    """Where a body lies in the end, or was taken off, in m."""
+    """The final position of a body, or that of its removal, in m."""
     t = run.caught_at(name)
     x, y = run.state(name, run.duration if t is None else t)[:2]
     return x, y
 
 
 def left(run: Run) -> dict[str, Vector]:
-    """Where each body lies that was not taken off, in m."""
+    """The final position of each body that was not removed, in m."""
     off = taken(run)
     return {ball.name: end_of(run, ball.name) for ball in run.setup.balls if ball.name not in off}
 
 
 def aside(run: Run, name: str, launch: Slide) -> float:
-    """How far a body ends to the left of the line on which it was launched, in m."""
+    """The distance in m by which a body ends to the left of the line on which it was launched, in m."""
     (x, y), (x0, y0) = end_of(run, name), run.state(name, 0.0)[:2]
     way = launch.angle * DEGREE
     return (y - y0) * cos(way) - (x - x0) * sin(way)
 
 
-REST_TIME = Fact("rest_time", "at rest after", "s", lambda run, _: run.duration if run.ended == "rest" else None)
+def rest_time(run: Run, parameters: Any) -> float | None:
+    """Time in s after which nothing moves any more; None for a single ball that was caught: it did not come to rest."""
+    caught_alone = len(run.arcs) == 1 and run.caught_at(*run.arcs) is not None
+    return run.duration if run.ended == "rest" and not caught_alone else None
+
+
+REST_TIME = Fact("rest_time", "at rest after", "s", rest_time)

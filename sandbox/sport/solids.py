@@ -1,4 +1,4 @@
-"""What a ball can strike: how it answers, and the room that it takes up."""
+"""Solids that a ball can strike: their response, and the room that they take up."""
 
 from __future__ import annotations
 
@@ -7,10 +7,11 @@ from itertools import combinations, pairwise
 from math import inf
 from typing import Any, NamedTuple
 
-from sandbox.engine.setup import Always, Bounce, Circle, Segment, Surface, Vector
+from sandbox.engine.model.shapes import Vector
+from sandbox.engine.model.surface import Bounce, Circle, ConstantBounce, Segment, Surface
 from sandbox.errors import RequestError
 from sandbox.parameters import Group, quantity, walk
-from sandbox.physics.elementwise import anywhere, most
+from sandbox.physics.elementwise import anywhere, maximum
 
 #: The ground reaches so far to either side, in m.
 FAR = 25_000.0
@@ -27,15 +28,15 @@ def rectangle(left: float, bottom: float, right: float, top: float) -> list[Vect
 
 
 class Solid(Group):
-    """What a ball can strike."""
+    """A solid that a ball can strike."""
 
     restitution: float = quantity(..., "", 0, 1, "of the ball and this")
     friction: float = quantity(..., "", 0, 10, "of the ball and this")
 
     @property
-    def bounce(self) -> Always:
-        """Of two balls that meet so."""
-        return Always(Bounce(self.restitution, self.friction))
+    def bounce(self) -> ConstantBounce:
+        """The bounce of two balls with these values."""
+        return ConstantBounce(Bounce(self.restitution, self.friction))
 
     def surface(self, name: str, shape: Segment | Circle, **more: Any) -> Surface:
         """Its surface, of that shape."""
@@ -59,20 +60,20 @@ class Extent(NamedTuple):
 
 
 def disc(name: str, keys: Sequence[str], x: float, y: float, radius: float) -> Extent:
-    """Of a ball, or of a tube seen along its axis."""
+    """The extent of a ball, or of a tube seen along its axis."""
     return Extent(name, keys, x, y, x, y, radius)
 
 
 def below(name: str) -> Extent:
-    """Of everything below 0 m."""
+    """The extent of everything below 0 m."""
     return Extent(name, (), -inf, -inf, inf, 0.0)
 
 
 def check_apart(parameters: Group, *extents: Extent) -> None:
     """Raise RequestError where two of them overlap, with the values of the keys that place them."""
     for one, other in combinations(extents, 2):
-        across = most(one.left - other.right, other.left - one.right, 0.0)
-        up = most(one.bottom - other.top, other.bottom - one.top, 0.0)
+        across = maximum(one.left - other.right, other.left - one.right, 0.0)
+        up = maximum(one.bottom - other.top, other.bottom - one.top, 0.0)
         if anywhere((across * across + up * up) ** 0.5 < one.radius + other.radius - 1e-9):
             keys = {*one.keys, *other.keys}
             where = ", ".join(f"{it.key} = {it.value:g} {it.unit}" for it in walk(parameters) if it.key in keys)

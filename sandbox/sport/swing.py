@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from math import cos, radians, sin
 
-from sandbox.engine.setup import Ball
+from sandbox.engine.model.ball import Ball
 from sandbox.errors import RequestError
 from sandbox.parameters import Group, quantity
 from sandbox.physics.swing import Rebound, apparent_restitution, gripping, struck
@@ -33,7 +33,7 @@ class Bat(Swing):
     tangential: float = quantity(..., "", 0, 1, "share of the slip that is reversed")
 
     def rebound(self, ball_mass: float, inertia_factor: float) -> Rebound:
-        """Of a ball of that mass in kg."""
+        """The value for a ball of that mass in kg."""
         normal = apparent_restitution(self.restitution, ball_mass, self.mass, self.inertia, self.offset)
         return gripping(normal, self.tangential, inertia_factor)
 

@@ -3,37 +3,64 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import atan2, degrees, hypot
-from typing import Any
+from math import atan2, degrees, exp, hypot, inf, log
+from typing import Any, NamedTuple
 
 from sandbox.parameters import Parameter
 from sandbox.window.session import Session
 
-#: A full pull, as a share of the stage's height.
-FULL = 0.42
+#: The longest full pull, as a share of the stage's height; the shortest, in px, however near the window's edge is; and
+#: what it leaves free before that edge, in px.
+FULL, SHORTEST, BORDER = 0.42, 60.0, 4.0
 #: A shorter pull in px is a click, not a shot.
 LEAST = 8.0
-#: A full pull gives this many times the speed of the current shot or of the scene file, whichever is larger; and at
-#: least this share of the strongest shot.
-TIMES, WEAKEST = 2.0, 0.005
+#: A full pull gives this many times the scene's own speed, unless that is more than the scene's strongest.
+HARDEST = 2.0
+#: At this share of a full pull the shot has the scene's own speed; near there a px changes the speed this many times as
+#: much as it would if the same px everywhere changed it by the same factor.
+OWN, EVENNESS = 0.6, 0.3
+#: A scene whose own speed is 0 is aimed with as if it were this share of its strongest.
+FROM_REST = 0.1
 #: What one press of a key changes: the angle in deg, the speed as a share of a full pull; a tenth with Shift.
 TURN, PUSH = 1.0, 0.01
 
 
-def strongest(session: Session) -> float:
-    """The speed of a full pull, in the speed's unit: scaled to the shot, since one pull serves putts and drives."""
-    controls = session.controls
-    speeds = [session.value(controls.speed), session.base_value(controls.speed)]
-    speed = max((value for value in speeds if isinstance(value, float)), default=0.0)
-    return min(controls.strongest, max(TIMES * speed, WEAKEST * controls.strongest))
+class Speeds(NamedTuple):
+    """The speeds of pulls, in the speed's unit: the shortest, the one at ``OWN`` of a full one, and a full one."""
+
+    lowest: float
+    own: float
+    highest: float
+
+    def at(self, share: float) -> float:
+        """The speed at this share of a full pull, from 0 to 1.
+
+        The logarithm of speed over the scene's own is quadratic in the distance from ``OWN`` on either side of it, so
+        that a few px change little where the scene is played, and soft shots are still within reach.
+        """
+        end, length = (self.lowest, OWN) if share < OWN else (self.highest, 1.0 - OWN)
+        away = abs(share - OWN) / length
+        return self.own * exp(log(end / self.own) * (EVENNESS * away + (1.0 - EVENNESS) * away**2))
+
+
+def speeds(session: Session) -> Speeds:
+    """The speeds within reach of a pull: scaled to the scene's own, since one pull serves putts and drives."""
+    controls, parameter = session.controls, session.parameters.get(session.controls.speed)
+    base = session.base_value(controls.speed)
+    own = base if isinstance(base, float) and base > 0 else FROM_REST * controls.strongest
+    low, high = controls.softest * own, min(controls.strongest, HARDEST * own)
+    if parameter is not None:
+        low, high = parameter.within(low), parameter.within(high)
+    return Speeds(min(low, own), own, max(high, own))
 
 
 @dataclass
 class Pull:
-    """A pull of the mouse, which may start anywhere; its scale stays the same until it ends."""
+    """A pull of the mouse, which may start anywhere; it is full at the window's edge, or before it."""
 
     start: tuple[int, int]  # px
-    strongest: float  # of a full pull
+    speeds: Speeds
+    window: tuple[int, int]  # width and height of it, px
     height: float  # of the stage, px
     stretch: float  # vertical scale over horizontal scale
     vector: tuple[float, float] = (0.0, 0.0)  # px, y down
@@ -44,20 +71,29 @@ class Pull:
         return hypot(*self.vector)
 
     @property
+    def full(self) -> float:
+        """Length of a full pull in this direction, in px: as far as there is room."""
+        room = inf
+        for at, by, end in zip(self.start, self.vector, self.window, strict=True):
+            if by:
+                room = min(room, ((end - at if by > 0 else at) - BORDER) * self.length / abs(by))
+        return max(SHORTEST, min(FULL * self.height, room))
+
+    @property
     def drawn(self) -> tuple[float, float]:
         """The part of it that counts, in px."""
-        shorter = min(1.0, FULL * self.height / max(self.length, 1e-9))
+        shorter = min(1.0, self.full / max(self.length, 1e-9))
         return self.vector[0] * shorter, self.vector[1] * shorter
 
     @property
     def shoots(self) -> bool:
-        """Whether it is long enough for a shot."""
+        """True if it is long enough for a shot."""
         return self.length >= LEAST
 
     @property
     def share(self) -> float:
-        """Of a full pull, from 0 to 1."""
-        return min(1.0, max(0.0, (self.length - LEAST) / (FULL * self.height - LEAST)))
+        """The share of a full pull, from 0 to 1."""
+        return min(1.0, max(0.0, (self.length - LEAST) / (self.full - LEAST)))
 
     def changes(self, session: Session) -> dict[str, Any] | None:
         """The changes that the pull makes; None if it is not a shot. The ball goes in the opposite direction."""
@@ -66,10 +102,9 @@ class Pull:
         if not self.shoots or speed is None or angle is None:
             return None
         along, down = self.vector
-        # More than proportional, for finer control of soft shots.
         return {
             **controls.also,
-            controls.speed: speed.within(float(f"{self.strongest * self.share**1.5:.4g}")),
+            controls.speed: speed.within(float(f"{self.speeds.at(self.share):.4g}")),
             controls.angle: _turned(angle, round(degrees(atan2(down / self.stretch, -along)), 2)),
         }
 
@@ -82,7 +117,7 @@ def nudged(session: Session, turn: float = 0.0, push: float = 0.0) -> dict[str, 
     if turn and angle is not None:
         changes[controls.angle] = _turned(angle, round(angle.value + turn * TURN, 3))
     if push and speed is not None:
-        step = float(f"{PUSH * strongest(session):.1g}")
+        step = float(f"{PUSH * speeds(session).highest:.1g}")
         changes[controls.speed] = speed.within(round(speed.value + push * step, 6))
     return {**controls.also, **changes} if changes else {}
 

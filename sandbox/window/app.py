@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Iterator, Mapping
+from concurrent.futures import wait as wait_for
 from contextlib import contextmanager
 from pathlib import Path
 from time import perf_counter, sleep
@@ -12,15 +13,19 @@ from typing import Any
 
 import pygame
 
-from sandbox.errors import RequestError
+from sandbox.errors import RequestError, RunError
+from sandbox.scene.finding import find
 from sandbox.window import commands, replay
 from sandbox.window.background import steady
 from sandbox.window.game import Game
+from sandbox.window.history import Changes
 from sandbox.window.memory import Memory, usual_place
+from sandbox.window.opening import LOADING
 from sandbox.window.pointer import Pointer
 from sandbox.window.session import Session
 from sandbox.window.sound import Sound
 from sandbox.window.view import SIZE, View
+from sandbox.window.worker import checked
 from sandbox.workers import Processes
 
 MODIFIED = pygame.KMOD_CTRL | pygame.KMOD_ALT
@@ -30,10 +35,10 @@ FRAMES = 60  # per second
 IDLE = 0.4
 #: How often events are looked for then, in s, if none came for so many s; before that in every frame.
 LOOKS, QUIET = 0.05, 2.0
-#: The window is shown with its first shot, but after this time, in s, in any case.
+#: Until its first shot, but no longer than this time, in s, the window shows that it loads.
 FIRST = 1.5
 #: What SDL falls back to if there is no display.
-UNSEEN = ("offscreen", "dummy")
+HEADLESS_DRIVERS = ("offscreen", "dummy")
 #: Variables of which one names the display or the driver.
 SEEN_BY = ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER")
 NO_DISPLAY = "no display to open a window on; without one use sandbox run SCENE with --poster F.png or --gif F.gif"
@@ -52,8 +57,10 @@ class App:
         self._repeated: set[int] = set()  # keys, in this frame
 
     def run(self) -> None:
-        """Until the window is closed."""
+        """Make frames until the window is closed."""
         started, clock = perf_counter(), pygame.time.Clock()
+        self.view.draw()  # that it loads
+        pygame.display.flip()
         while self.game.running and perf_counter() - started < FIRST and not self.view.complete:
             self.tick(clock.tick(FRAMES) / 1000)
         self.view.changed = True
@@ -79,7 +86,7 @@ class App:
 
     @property
     def busy(self) -> bool:
-        """Whether the next frame should come soon, though nothing happens in the window."""
+        """True if the next frame should come soon, though nothing happens in the window."""
         return self.game.running and (self.game.busy or (self.view.busy and not self.hidden))
 
     def tick(self, dt: float) -> bool:
@@ -136,7 +143,7 @@ class App:
             case pygame.WINDOWFOCUSLOST:
                 self.held.clear()
             case pygame.DROPFILE:
-                self.game.open(event.file)
+                self.game.opening.open(event.file)
             case pygame.KEYDOWN:
                 found, over = commands.pressed(event.key, event.mod), view.over
                 stays = over.key(event.key) if over is not None and not event.mod & MODIFIED else None
@@ -148,7 +155,7 @@ class App:
                 self.pointer.handle(event)
 
     def _fresh(self, event: pygame.event.Event, typing: bool) -> bool:
-        """Whether a key was pressed, or is held to type or for a command that repeats, at most once a frame: after a
+        """True if a key was pressed, or is held to type or for a command that repeats, at most once a frame: after a
         slow frame its repeats have piled up."""
         repeats = event.key in self.held
         self.held.add(event.key)
@@ -167,13 +174,16 @@ def play(source: str, changes: Mapping[str, Any] | None = None, scene: str | Non
     recorded = source.endswith(replay.SUFFIX)
     if scene is not None and not recorded:
         raise RequestError(f"--scene {scene}: says which scene a replay is of, and {source} is not a replay")
-    session = replay.read(Path(source), scene)[0] if recorded else Session(source, changes)
     worker, helper = Processes(1), Processes(1)
     try:
+        if not recorded:
+            _load_there(worker, source, changes or {})
+        first = replay.read(Path(source), scene).changes if recorded else Changes(source, dict(changes or {}))
+        session = Session(first.source, first.values)
         game = Game(session, worker, helper=helper, memory=Memory(usual_place()))
         with opened(SIZE, f"{session.title} – Sports sandbox") as screen:
             if recorded:
-                game.open_replay(Path(source), scene)
+                game.opening.open_replay(Path(source), scene)
             app = App(game, screen, Sound())
             if game.memory.look != (1.0, False):
                 app.view.set_look(*game.memory.look)
@@ -181,6 +191,15 @@ def play(source: str, changes: Mapping[str, Any] | None = None, scene: str | Non
     finally:
         worker.close(abandon=True)
         helper.close(abandon=True)
+
+
+def _load_there(worker: Processes, source: str, changes: Mapping[str, Any]) -> None:
+    """Have the worker load a scene before this process does, in which what is wrong with it is reported. Raises
+    RunError if that takes too long: its code may never end."""
+    folder = find(source).folder
+    work = worker.submit(checked, source, changes, folder)
+    if not wait_for([work], LOADING).done:
+        raise RunError(f"loading {source}: given up after {LOADING:.0f} s: does its code ever end?")
 
 
 @contextmanager
@@ -192,7 +211,7 @@ def opened(size: tuple[int, int], title: str) -> Iterator[pygame.Surface]:
     try:
         try:
             pygame.display.init()
-            if "SDL_VIDEODRIVER" not in os.environ and pygame.display.get_driver() in UNSEEN:
+            if "SDL_VIDEODRIVER" not in os.environ and pygame.display.get_driver() in HEADLESS_DRIVERS:
                 raise RequestError(NO_DISPLAY)
             screen = pygame.display.set_mode(size, pygame.RESIZABLE)
         except pygame.error:

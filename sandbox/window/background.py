@@ -7,12 +7,16 @@ import sys
 from collections.abc import Callable
 from concurrent.futures import Future
 from concurrent.futures import wait as wait_for
+from dataclasses import dataclass
 from functools import partial
 from math import inf
 from queue import SimpleQueue
 from threading import Thread
 from time import perf_counter
-from typing import Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
+
+if TYPE_CHECKING:
+    from sandbox.workers import Processes
 
 T = TypeVar("T")
 
@@ -20,6 +24,15 @@ T = TypeVar("T")
 PATIENCE = 0.005
 #: How often Python switches between threads, in s: its default of 5 ms would be a third of a frame.
 SWITCH_INTERVAL = 0.0005
+
+
+@dataclass
+class Workers:
+    """The processes in which scenes are loaded and run, and how long a frame waits for the first."""
+
+    path: Processes  # for the path that is aimed
+    helper: Processes  # for what takes longer; maybe the same
+    patience: float  # s
 
 
 def steady() -> None:
@@ -58,7 +71,7 @@ class Background:
                 future.set_exception(error)
 
 
-class Latest(Generic[T]):
+class LatestJob(Generic[T]):
     """The result of work that is done again whenever what it is done for changes, one after the other."""
 
     def __init__(self, abandon: Callable[[Future[T]], object] | None = None, hung: float = inf) -> None:
@@ -109,7 +122,7 @@ class Latest(Generic[T]):
         self.key = self.value = self.error = None
 
 
-class Once:
+class KeyedCache:
     """Values that are made once for what they are made of, and again when that changes."""
 
     def __init__(self) -> None:

@@ -23,7 +23,7 @@ LEAST = 160  # px on 720 rows, of the time line
 WIDEST_RATE = "×1/16"
 #: What is left out in a narrow window until the time line has room, in this order: the scene's part of a preset's name,
 #: the shot's duration, and buttons whose commands have a key or are in the list "more".
-SPARED = (
+HIDE_ORDER = (
     frozenset({"scene"}),
     frozenset({"duration"}),
     frozenset({"-next_shot", "next_shot"}),
@@ -91,7 +91,7 @@ class Bar:
         return next((name for name, rect in self.buttons.items() if rect.collidepoint(position)), None)
 
     def on_line(self, position: Place) -> bool:
-        """Whether a place is on the time line, or near it."""
+        """True if a place is on the time line, or near it."""
         return self.line.inflate(16, self.rect.height - 12).collidepoint(position)
 
     def share(self, position: Place) -> float:
@@ -102,7 +102,7 @@ class Bar:
         """Place everything that fits."""
         time, least = "0" * max(2, len(f"{duration:.0f}")) + ".00 s", round(LEAST * self.unit)
         without: frozenset[str] = frozenset()
-        for spared in (frozenset(), *SPARED):
+        for spared in (frozenset(), *HIDE_ORDER):
             without |= spared
             self.title = title.rpartition("/")[2] if "scene" in without else title
             self._place(time if "duration" in without else f"{time[:-2]} / {time}", without)

@@ -9,6 +9,7 @@ import pygame
 
 from sandbox.picture.palette import Colour, mix, palette
 from sandbox.picture.sheet import Entry, Sheet
+from sandbox.window.layout import Form, Layout
 
 CARD = palette("card")
 
@@ -18,8 +19,6 @@ class Canvas(Sheet):
 
     def __init__(self, surface: pygame.Surface) -> None:
         super().__init__(surface.get_size(), surface=surface)
-        self.avoid = pygame.Rect(0, 0, 0, 0)  # where no card is stacked
-        self.start_cards(self.frame.top)
 
     def ended(self, text: str, size: str, room: float, bold: bool = False) -> str:
         """The text cut to ``room`` px, at a comma if there is one."""
@@ -68,66 +67,65 @@ class Canvas(Sheet):
             tip = 0.6 * mark * half
             self.painter.polygon([(x - half, y - tip), (x + half, y - tip), (x, y + tip)], colour)
 
-    def card(
-        self,
-        lines: Iterable[tuple[str, Any]],
-        anchor: str = "",
-        at: tuple[float, float] = (0.0, 0.0),
-        within: pygame.Rect | None = None,
-    ) -> pygame.Rect:
-        """A small card whose side or corner ``anchor`` (named as by pygame.Rect) is at a place in px, or the next card
-        down the right side; where it is.
-
-        Each line is a text with its colour, or a label and a value. The card is moved inside ``within``.
-        """
+    def text(self, lines: Iterable[tuple[str, Any]]) -> Form:
+        """A small card of lines: each is a text with its colour, or a label and a value."""
         letters, gap, lines = self.lettering, self.gap, list(lines)
         row = letters.height("small") + gap // 2
         values = [letters.width(value, "small", bold=True) + 3 * gap for _, value in lines if isinstance(value, str)]
         wide = max(letters.width(text, "small") for text, _ in lines) + max(values, default=0) + 4 * gap
-        size = wide, len(lines) * row + 2 * gap - gap // 2
-        rect = pygame.Rect((0, 0), size) if anchor else self.stacked(size)
-        if anchor:
-            setattr(rect, anchor, (round(at[0]), round(at[1])))
-        rect.clamp_ip(within or self.surface.get_rect())
-        self.painter.panel(rect, CARD["background"], 0.9, 8 * self.unit)
-        for number, (text, value) in enumerate(lines):
-            left, right, top = rect.left + 2 * gap, rect.right - 2 * gap, rect.top + gap + number * row
-            is_value = isinstance(value, str)
-            letters.write(self.surface, text, "small", (left, top), CARD["quiet"] if is_value else value)
-            if is_value:
-                letters.write(self.surface, value, "small", (right, top), CARD["text"], "topright", bold=True)
-        return rect
 
-    def start_cards(self, top: float) -> None:
-        """Stack the next cards down the right side from here on, in px."""
-        self.column = pygame.Rect(self.frame.right, round(top) - self.gap, 0, 0)
+        def draw(rect: pygame.Rect) -> None:
+            self.painter.panel(rect, CARD["background"], 0.9, 8 * self.unit)
+            for number, (text, value) in enumerate(lines):
+                left, right, top = rect.left + 2 * gap, rect.right - 2 * gap, rect.top + gap + number * row
+                is_value = isinstance(value, str)
+                letters.write(self.surface, text, "small", (left, top), CARD["quiet"] if is_value else value)
+                if is_value:
+                    letters.write(self.surface, value, "small", (right, top), CARD["text"], "topright", bold=True)
 
-    def stacked(self, size: tuple[int, int]) -> pygame.Rect:
-        """The place of the next card down the right side, below ``avoid`` if they overlap; where it would reach the
-        numbers along the bottom, in another column to the left."""
-        top, foot, column = self.column.top, self.card_row() - self.gap, self.column
-        rect = pygame.Rect((0, 0), size)
-        rect.topright = column.right, column.bottom + self.gap
-        if rect.bottom > foot and column.height:
-            rect.topright = column.left - self.gap, top + self.gap
-            self.column = column = pygame.Rect(rect.right, top, 0, 0)
-        if rect.colliderect(self.avoid):
-            rect.top = self.avoid.bottom + self.gap
-        left = min(rect.left, column.left)
-        self.column = pygame.Rect(left, top, column.right - left, rect.bottom - top)
-        return rect
+        return Form((wide, len(lines) * row + 2 * gap - gap // 2), draw)
 
-    def note(self, *lines: tuple[str, Colour]) -> None:
-        """A small card down the right side."""
-        room = self.frame.width - 4 * self.gap
-        self.card((part, colour) for text, colour in lines for part in self.lettering.wrapped(text, "small", room))
+    def card(self, lines: Iterable[tuple[str, Any]], anchor: str, at: tuple[float, float]) -> None:
+        """A small card whose side or corner ``anchor`` (named as by pygame.Rect) is at a place in px, moved inside."""
+        form = self.text(lines)
+        rect = pygame.Rect((0, 0), form.size)
+        setattr(rect, anchor, (round(at[0]), round(at[1])))
+        form.draw(rect.clamp(self.surface.get_rect()))
 
-    def messages(self, messages: Sequence[tuple[str, bool]]) -> None:
-        """Messages over the bottom of the picture, each with whether it is bad, in up to ten lines."""
+    def notes(self, lines: Sequence[tuple[str, Colour]]) -> list[Form]:
+        """A small card of texts with their colours: wide, narrower and higher, and with less and less of it."""
+        wrapped = self.lettering.wrapped
+        rooms = [round(share * self.frame.width) - 4 * self.gap for share in (1.0, 0.45, 0.3, 0.2)]
+        texts = [[(part, ink) for text, ink in lines for part in wrapped(text, "small", room)] for room in rooms]
+        (first, ink), *_ = lines
+        shorter = [[(part, ink) for part in wrapped(first, "small", room)] for room in rooms]
+        shortest = [[(self.ended(first, "small", room), ink)] for room in rooms]
+        less = [self.text(each)._replace(whole=False) for each in (*shorter, *shortest)]
+        return [*map(self.text, texts), *less]
+
+    def messages(self, layout: Layout, messages: Sequence[tuple[str, bool]]) -> None:
+        """Messages over the bottom of the picture, each with whether it is bad, in up to ten lines; where there is no
+        room even for one they lie over all else."""
         room, foot = round(0.8 * self.size[0]), self.card_row() - 2 * self.gap
-        for text, bad in reversed(messages):
+        for number, (text, bad) in enumerate(reversed(messages)):
             lines = [line for part in text.splitlines() for line in self.lettering.wrapped(part, "small", room)][-10:]
-            rect = self.card([(line, CARD["text"]) for line in lines], "midbottom", (self.size[0] // 2, foot))
+            fewer = [self._message(lines[-count:], bad)._replace(whole=False) for count in range(len(lines) - 1, 0, -1)]
+            forms = [self._message(lines, bad), *fewer]
+            at = self.size[0] // 2, foot
+            rect = layout.put(f"message {number}", forms, at, "midbottom")
+            if rect is None:
+                rect = pygame.Rect((0, 0), forms[0].size)
+                rect.midbottom = at
+                forms[0].draw(rect)
+            foot = rect.top - self.gap
+
+    def _message(self, lines: Sequence[str], bad: bool) -> Form:
+        """A card of text with a stripe that says whether it is bad."""
+        form = self.text([(line, CARD["text"]) for line in lines])
+
+        def draw(rect: pygame.Rect) -> None:
+            form.draw(rect)
             stripe = pygame.Rect(rect.left, rect.top + self.gap, max(3, self.gap // 2), rect.height - 2 * self.gap)
             self.surface.fill(CARD["bad" if bad else "good"], stripe)
-            foot = rect.top - self.gap
+
+        return Form(form.size, draw)

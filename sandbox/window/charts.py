@@ -7,18 +7,20 @@ from typing import Any
 import numpy as np
 import pygame
 
-from sandbox.picture.graph import Curve, Panel, draw_panel, motion
+from sandbox.picture.chart import Curve
+from sandbox.picture.graph import Panel, draw_panel, motion
 from sandbox.picture.palette import palette
 from sandbox.picture.path import hardest
 from sandbox.picture.view import View
 from sandbox.sport.amounts import amount
 from sandbox.window.canvas import Canvas
+from sandbox.window.layout import Form
 from sandbox.window.shots import Shot
 
 CARD = palette("card")
 
 #: What is shown of what there is.
-SHOWN = ("speed", "height", "way", "spin")
+SHOWN = ("speed", "height", "distance", "spin")
 #: The card's share of the picture's width from the side and from above, unless its text is wider; height of a curve, px
 #: on 720 rows.
 SHARE, CURVE = (0.24, 0.15), 46
@@ -38,25 +40,30 @@ class Charts:
             for name, (unit, values) in moves.items() if name in SHOWN
         ]  # fmt: skip
 
-    def draw(self, sheet: Canvas, t: float | None) -> pygame.Rect:
-        """A card down the right side, or at the left in a view from above, with a mark at ``t`` in s; where it is."""
-        unit, gap, letters = sheet.unit, sheet.gap, sheet.lettering
+    def forms(self, sheet: Canvas, t: float | None) -> list[Form]:
+        """A card of all strips with a mark at ``t`` in s, a lower one, and ever fewer strips."""
+        shares = [(share, len(self.strips)) for share in (1.0, 0.7)]
+        return [
+            self._form(sheet, t, *how) for how in (*shares, *((0.7, n) for n in range(len(self.strips) - 1, 0, -1)))
+        ]
+
+    def _form(self, sheet: Canvas, t: float | None, share: float, count: int) -> Form:
+        """The first strips, their curves a share as high as usual."""
+        unit, gap, letters, strips = sheet.unit, sheet.gap, sheet.lettering, self.strips[:count]
         row = letters.height("small")
-        tall = round(max(CURVE * unit, 2.2 * row)) + 2 * row + 4 * gap
-        said = [_said(strip, t) for strip in self.strips]
+        tall = round(max(share * CURVE * unit, 2.2 * row)) + 2 * row + 4 * gap
         longest = [f"{strip.title} ({strip.shown.unit})  {_said(strip, None)}" for strip in self.strips]
         written = max(letters.width(text, "small", bold=True) for text in longest) + 4 * gap
         wide = max(round(SHARE[not self.shot.upright] * sheet.size[0]), written)
-        size = wide, len(self.strips) * tall + 2 * gap
-        rect = sheet.stacked(size) if self.shot.upright else pygame.Rect((0, 0), size)
-        if not self.shot.upright:
-            rect.bottomleft = sheet.frame.left, round(sheet.card_row() - gap)
-        sheet.painter.panel(rect, CARD["background"], 0.85, 10 * unit)
         until = max(self.shot.run.duration, 1e-9)
-        for i, (strip, text) in enumerate(zip(self.strips, said, strict=True)):
-            place = pygame.Rect(rect.left + 2 * gap, rect.top + 2 * gap + i * tall, rect.width - 4 * gap, tall)
-            draw_panel(sheet, place, strip, until, t, self.hits, text)
-        return rect
+
+        def draw(rect: pygame.Rect) -> None:
+            sheet.painter.panel(rect, CARD["background"], 0.85, 10 * unit)
+            for i, strip in enumerate(strips):
+                place = pygame.Rect(rect.left + 2 * gap, rect.top + 2 * gap + i * tall, rect.width - 4 * gap, tall)
+                draw_panel(sheet, place, strip, until, t, self.hits, _said(strip, t))
+
+        return Form((wide, len(strips) * tall + 2 * gap), draw, whole=count == len(self.strips))
 
 
 def _said(strip: Panel, t: float | None) -> str:

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pygame
 
-from sandbox.engine.accuracy import LEVELS
+from sandbox.engine.model.accuracy import LEVELS
 from sandbox.picture.energy_chart import energy_chart
 from sandbox.picture.frames import save_png
 from sandbox.picture.graph import graph
@@ -19,8 +19,7 @@ from sandbox.picture.palette import palette
 from sandbox.scene import listings, listings_in
 from sandbox.scene.finding import folder_of, is_installed
 from sandbox.window import aim, export, replay
-from sandbox.window.find import Found, Question, find, questions
-from sandbox.window.game import WIDEST
+from sandbox.window.find import Found, Question, find, questions, said_range
 from sandbox.window.measure import Tape
 from sandbox.window.menu import Menu, thumbnail
 from sandbox.window.overlay import Board, Chart, Choice, Mark, Overlay, Row
@@ -34,11 +33,15 @@ CARD = palette("card")
 TEXT_SIZES = (1.0, 1.15, 1.3, 1.5)
 #: Earlier shots in the graphs over time.
 MOST_GRAPHS = 5
+#: The fan can be made this many times wider or narrower.
+WIDEST = 16.0
 #: One step enlarges the picture by this factor, or moves it by this many px.
 ZOOM, PAN = 1.25, 60.0
 #: One step moves the end of the tape by this many px.
 STEP = 12.0
 
+#: The group of the menu that has a tile for each scene.
+SPORTS = "sports"
 NO_SHOTS = "no shots yet: pull back and let go"
 
 
@@ -73,7 +76,7 @@ SAME = {"=": "+", "[+]": "+", "[-]": "-", "[0]": "0", "enter": "return", "f1": "
 
 
 def name_of(key: int, modifiers: int) -> str:
-    """What a key that is pressed is called in a command's ``keys``."""
+    """The name of a pressed key in a command's ``keys``."""
     held = "ctrl " * bool(modifiers & pygame.KMOD_CTRL) + "alt " * bool(modifiers & pygame.KMOD_ALT)
     name = pygame.key.name(key)
     return held + SAME.get(name, name)
@@ -101,15 +104,16 @@ def do(view: View, command: str, by: float = 1) -> None:
 
 def _watching(view: View, action: str, *arguments: Any) -> None:
     """Call a method of the playback, if a shot is being watched."""
-    if view.game.playback is not None:
-        getattr(view.game.playback, action)(*arguments)
+    if view.game.watching.playback is not None:
+        getattr(view.game.watching.playback, action)(*arguments)
 
 
 def _go(view: View, by: float) -> None:
-    if view.game.playback is None:
-        view.game.shoot()
+    if view.game.watching.playback is None:
+        view.game.grasp.let_go()
+        view.game.aiming.shoot()
     else:
-        view.game.playback.toggle()
+        view.game.watching.playback.toggle()
 
 
 def _pick(view: View, by: float) -> None:
@@ -119,7 +123,8 @@ def _pick(view: View, by: float) -> None:
         return
     keys = [spot.grip.keys for spot in view.spots]
     if not keys:
-        view.game.tell("nothing can be moved while a shot is watched" if view.game.playback else "nothing can be moved")
+        watched = " while a shot is watched" * (view.game.watching.playback is not None)
+        view.game.messages.tell(f"there is nothing to move{watched}")
         return
     now = keys.index(view.picked_keys) if view.picked_keys in keys else -1 if by > 0 else 0
     view.picked_keys = keys[(now + int(by)) % len(keys)]
@@ -136,18 +141,19 @@ def _move(view: View, across: float, up: float) -> bool:
     if spot is None:
         return False
     step, (x, y) = spot.step(snap=True), spot.grip.place
-    view.game.drag_to((x + step * across, y + step * up), step * (abs(across) + abs(up)), spot.grip)
+    to, least = (x + step * across, y + step * up), step * (abs(across) + abs(up))
+    view.game.aiming.set(spot.grip.changes(to, least))
     return True
 
 
 def _with_shot(view: View, action: Callable[[Shot], object]) -> None:
     """Do something with the shot that is watched, or the last one."""
     game = view.game
-    shot = game.shot if game.playback is not None else game.shots[-1] if game.shots else None
+    shot = game.shot if game.watching.playback is not None else game.shots.paths[-1] if game.shots.paths else None
     if shot is None:
-        game.tell(NO_SHOTS)
+        game.messages.tell(NO_SHOTS)
     else:
-        game.trying(lambda: action(shot))
+        game.messages.reporting_errors(lambda: action(shot))
 
 
 # See
@@ -180,10 +186,10 @@ def _shots(view: View, by: float) -> None:
     game, stage = view.game, view.stage
 
     def played() -> list[Played]:
-        return [row for row in game.table.rows if row.start[:2] == (game.session.base.folder, game.session.source)]
+        return [row for row in game.shots.rows if row.start[:2] == (game.session.base.folder, game.session.source)]
 
     if not played():
-        game.tell(NO_SHOTS)
+        game.messages.tell(NO_SHOTS)
     elif stage is not None:
         _open(view, "shots", lambda: Table(played, partial(_with_row, view, played), stage.colour_of))
 
@@ -193,11 +199,11 @@ def _with_row(view: View, played: Callable[[], list[Played]], action: str, row: 
     game = view.game
     match action:
         case "aim as it":
-            game.aim_as(row)
+            game.aiming.aim_as(row)
         case "pin":
-            game.pin(row)
+            game.watching.pin(row)
         case "delete":
-            game.table.rows.remove(row)
+            game.shots.rows.remove(row)
         case "csv":
             _export(view, ".csv", partial(write_csv, played()), "-shots")
 
@@ -205,10 +211,10 @@ def _with_row(view: View, played: Callable[[], list[Played]], action: str, row: 
 def _find(view: View, by: float) -> None:
     """Find shots: at what, if there is a choice, and then which."""
     game, shot = view.game, view.game.shot
-    game.aim_again()
+    game.aiming.again()
     asked = questions(game.session, shot is None or shot.upright)
     if not asked:
-        game.tell("this scene says of no shot that it scores")
+        game.messages.tell("this scene defines no scoring")
     elif len(asked) == 1:
         _find_one(view, asked[0])
     else:
@@ -220,18 +226,19 @@ def _find(view: View, by: float) -> None:
 
         rows = [Row(name, name) for name in names]
         foot = view.bar.places["see"]
-        _open(view, "find", lambda: Choice("at what?", rows, lambda name: _find_one(view, names[name]), foot, marks))
+        _open(view, "find", lambda: Choice("aim at ...", rows, lambda name: _find_one(view, names[name]), foot, marks))
 
 
 def _find_one(view: View, question: Question) -> None:
     """Look for shots at something, and offer them."""
     game, changes = view.game, view.game.session.changes
+    ranges = said_range(question, game.session)
 
     def then(found: list[Found]) -> None:
         if changes.source != game.session.source:
             return
         if not found:
-            game.tell(f"no shot at {question.name} was found by changing speed and angle")
+            game.messages.tell(f"no shot at {question.name} was found with {ranges}")
             return
         shots = [Shot(each.scene, unpacked(each.scene, each.run), number=i) for i, each in enumerate(found, 1)]
 
@@ -242,7 +249,7 @@ def _find_one(view: View, question: Question) -> None:
                 for shot in shots]  # fmt: skip
 
         def choose(number: str) -> None:
-            game.change(found[int(number) - 1].values)
+            game.aiming.change(found[int(number) - 1].values)
 
         rows = [Row(str(i), f"{i}   {each.said}") for i, each in enumerate(found, 1)]
         foot, title = view.bar.places["see"], f"shots at {question.name}, the most forgiving first"
@@ -250,12 +257,12 @@ def _find_one(view: View, question: Question) -> None:
             view.on.add("map")
         _open(view, "found", lambda: Choice(title, rows, choose, foot, marks))
 
-    work = game.helper.submit(find, game.session.scene, question.goals)
-    game.ask(work, then, f"looking for shots at {question.name} ...; Esc stops it")
+    work = game.workers.helper.submit(find, game.session.scene, question.goals)
+    game.jobs.ask(work, then, f"looking for shots at {question.name} with {ranges} ...; Esc stops it")
 
 
 def _menu(view: View, by: float) -> None:
-    """All scenes, each with its presets; those opened last and the user's own come first."""
+    """All scenes as tiles; each with its presets, after those opened last and the user's own."""
     game = view.game
     groups: dict[str, list[Row]] = {}
     for item in listings():
@@ -263,16 +270,21 @@ def _menu(view: View, by: float) -> None:
     known = {row.action: row for rows in groups.values() for row in rows}
     own = [Row(item.name, item.name, "", item.about) for item in listings_in(Path())]
     opened = [known.get(source, Row(source, Path(source).name, "", source)) for source in game.memory.recent]
-    groups = {**({"recent": opened} if opened else {}), **({"in this folder": own} if own else {}), **groups}
+    sports = [Row(name, name, "", rows[0].about) for name, rows in groups.items()]
+    firsts = {SPORTS: sports, "recent": opened, "in this folder": own}
+    groups = {**{name: rows for name, rows in firsts.items() if rows}, **groups}
 
     def picture_of(source: str) -> Future[bytes]:
         if source not in view.thumbnails:
             folder = folder_of(source)  # no code runs only because it lies here
             shown = folder is not None and is_installed(folder)
-            view.thumbnails[source] = game.helper.submit(thumbnail if shown else bytes, *([source] if shown else []))
+            view.thumbnails[source] = game.workers.helper.submit(
+                thumbnail if shown else bytes, *([source] if shown else [])
+            )
         return view.thumbnails[source]
 
-    _open(view, "menu", lambda: Menu("What shall we play?", groups, game.open, game.session.source, picture_of))
+    now = game.session.source.partition("/")[0]
+    _open(view, "menu", lambda: Menu("Choose a scene", groups, game.opening.open, now, picture_of, SPORTS))
 
 
 def _chart(view: View, name: str, draw: Callable[[Shot, tuple[int, int]], pygame.Surface]) -> None:
@@ -285,26 +297,25 @@ def _chart(view: View, name: str, draw: Callable[[Shot, tuple[int, int]], pygame
 def _graphs(view: View, by: float) -> None:
     """The graphs of the current shot with the earlier ones that began from the same place."""
     shot = view.game.shot
-    earlier = view.game.earlier(shot.start, but=shot) if shot is not None else []
+    earlier = view.game.shots.earlier(shot.start, but=shot) if shot is not None else []
     others = {f"shot {other.number}": other.run for other in earlier[::-1][:MOST_GRAPHS] if other.number}
     _chart(view, "graphs", lambda shot, size: graph(shot.run, size, others))
 
 
 def _wider(view: View, by: float) -> None:
-    game = view.game
-    game.fan_width = min(max(game.fan_width * 2.0**by, 1 / WIDEST), WIDEST)
+    view.fan_width = min(max(view.fan_width * 2.0**by, 1 / WIDEST), WIDEST)
     view.on.add("fan")
 
 
 def _predict(view: View, by: float) -> None:
     """Show more or less of the path while aiming."""
     view.ahead = AHEAD[(AHEAD.index(view.ahead) + 1) % len(AHEAD)]
-    view.game.tell(f"path while aiming: {view.ahead}")
+    view.game.messages.tell(f"path while aiming: {view.ahead}")
 
 
 def _tape(view: View, by: float) -> None:
     """Lay the tape from the ball, to be dragged or moved by key; or put it away."""
-    shot, camera, playback = view.game.shot, view.camera, view.game.playback
+    shot, camera, playback = view.game.shot, view.camera, view.game.watching.playback
     view.on ^= {"tape"}
     view.tape = None
     if "tape" in view.on and shot is not None and camera is not None:
@@ -316,10 +327,10 @@ def _accuracy(view: View, by: float) -> None:
     """Go to the next level, and report its cost and errors."""
     game, levels = view.game, list(LEVELS)
     level = levels[(levels.index(game.session.value("accuracy.level")) + 1) % len(levels)]
-    if game.change({"accuracy.level": level}):
-        game.tell(f"accuracy {level} ...")
-        result = game.helper.submit(cost_and_errors, game.session.scene)
-        game.ask(result, lambda said: game.tell(f"accuracy {level}: {said}"))
+    if game.aiming.change({"accuracy.level": level}):
+        game.messages.tell(f"accuracy {level} ...")
+        result = game.workers.helper.submit(cost_and_errors, game.session.scene)
+        game.jobs.ask(result, lambda said: game.messages.tell(f"accuracy {level}: {said}"))
 
 
 def _back(view: View, by: float) -> None:
@@ -327,24 +338,24 @@ def _back(view: View, by: float) -> None:
     game = view.game
     if view.over is not None:
         view.open(None)
-    elif game.holding:
-        game.give_up_pull()
+    elif game.grasp.holds:
+        game.grasp.cancel()
         view.free()
     elif view.picked_keys is not None:
         view.picked_keys = None
     elif view.tape is not None or "tape" in view.on:
         view.on.discard("tape")
         view.tape = None
-    elif not game.stop_jobs() and not game.stop():
-        game.aim_again()
+    elif not game.jobs.stop() and not game.stop():
+        game.aiming.again()
 
 
 def _sound(view: View, by: float) -> None:
     if view.sound is None or not view.sound.there:
-        view.game.tell("no sound: there is no sound device")
+        view.game.messages.tell("no sound: there is no sound device")
     else:
         view.sound.on = not view.sound.on
-        view.game.tell("sound on" if view.sound.on else "sound off")
+        view.game.messages.tell("sound on" if view.sound.on else "sound off")
 
 
 # Keep
@@ -352,8 +363,13 @@ def _sound(view: View, by: float) -> None:
 
 def _export(view: View, suffix: str, write: Callable[[Path], object], about: str = "") -> None:
     """Write a new file, and say where it is."""
+    stem, messages = view.game.session.title + about, view.game.messages
+    messages.reporting_errors(lambda: messages.tell(f"wrote {export.new_file(stem, suffix, write)}"))
+
+
+def _save_scene(view: View) -> None:
     game = view.game
-    game.trying(lambda: game.tell(f"wrote {export.new_file(game.session.title + about, suffix, write)}"))
+    game.messages.reporting_errors(lambda: game.messages.tell(f"wrote {export.scene_file(game.session)}"))
 
 
 def _screenshot(view: View, by: float) -> None:
@@ -365,15 +381,15 @@ def _open_replay(view: View, by: float) -> None:
     """The newest file of those that the window wrote."""
     found = sorted(export.FOLDER.glob(f"*{replay.SUFFIX}"), key=lambda path: path.stat().st_mtime)
     if found:
-        view.game.open(str(found[-1]))
+        view.game.opening.open(str(found[-1]))
     else:
-        view.game.tell(f"no replays in {export.FOLDER} yet")
+        view.game.messages.tell(f"no replays in {export.FOLDER} yet")
 
 
 def _animate(view: View, shot: Shot) -> None:
     game = view.game
     work = view.writer.submit(export.new_file, game.session.title, ".gif", partial(export.animate, shot))
-    game.ask(work, lambda path: game.tell(f"wrote {path}"), "writing the animation ...")
+    game.jobs.ask(work, lambda path: game.messages.tell(f"wrote {path}"), "writing the animation ...")
 
 
 def _copy(view: View, by: float) -> None:
@@ -381,9 +397,9 @@ def _copy(view: View, by: float) -> None:
     try:
         pygame.scrap.put_text(command)
     except pygame.error:  # there is no clipboard
-        view.game.tell(command)
+        view.game.messages.tell(command)
     else:
-        view.game.tell(f"copied: {command}")
+        view.game.messages.tell(f"copied: {command}")
 
 
 # More
@@ -393,7 +409,7 @@ def _other_preset(view: View, by: float) -> None:
     names = [listing.name for listing in listings()]
     source = view.game.session.source
     now = names.index(source) if source in names else 0
-    view.game.open(names[(now + int(by)) % len(names)])
+    view.game.opening.open(names[(now + int(by)) % len(names)])
 
 
 def _text_size(view: View, by: float) -> None:
@@ -406,21 +422,21 @@ def _text_size(view: View, by: float) -> None:
 #: Every command; keys, help, lists and the hints of the bar are made from it.
 TABLE: tuple[Command, ...] = (
     Command("go", ("space",), "shoot; pause, resume", "Play", _go, mouse="pull back and let go"),
-    Command("again", ("return",), "aim again; in billiards go on", "Play",
-            lambda view, by: view.game.aim_again(from_rest=True)),
+    Command("again", ("return",), "aim again (billiards: next shot)", "Play",
+            lambda view, by: view.game.aiming.again(from_rest=True)),
     Command("turn", ("left", "right"), "turn the shot (Shift: finely)", "Play",
-            lambda view, by: _move(view, -by, 0) or view.game.nudge(aim.nudged(view.game.session, turn=by)),
+            lambda view, by: _move(view, -by, 0) or view.game.aiming.nudge(aim.nudged(view.game.session, turn=by)),
             repeats=True, fine=True),
     Command("push", ("up", "down"), "stronger, weaker (Shift: finely)", "Play",
-            lambda view, by: _move(view, 0, by) or view.game.nudge(aim.nudged(view.game.session, push=by)),
+            lambda view, by: _move(view, 0, by) or view.game.aiming.nudge(aim.nudged(view.game.session, push=by)),
             repeats=True, fine=True),
     Command("spin", ("e", "d"), "spin (Shift: finely)", "Play",
-            lambda view, by: view.game.nudge(aim.spun(view.game.session, 0, by)),
+            lambda view, by: view.game.aiming.nudge(aim.spun(view.game.session, 0, by)),
             mouse="wheel", repeats=True, fine=True),
     Command("other_spin", ("x", "z"), "second spin, if any", "Play",
-            lambda view, by: view.game.nudge(aim.spun(view.game.session, 1, by)),
+            lambda view, by: view.game.aiming.nudge(aim.spun(view.game.session, 1, by)),
             mouse="Shift wheel", repeats=True, fine=True),
-    Command("handle", ("k", "i"), "take hold of the next thing; arrows move it, Esc lets go", "Play",
+    Command("handle", ("k", "i"), "select the next handle; arrows move it, Esc lets go", "Play",
             _pick, mouse="drag it"),
     Command("pad", ("2",), "set spin on a ball, or where the (level) cue's tip hits", "Play", mouse="drag on it"),
     Command("restart", ("r",), "from the start", "Watch", lambda view, by: _watching(view, "restart")),
@@ -428,9 +444,10 @@ TABLE: tuple[Command, ...] = (
             lambda view, by: _watching(view, "step", int(by)), repeats=True),
     Command("faster", ("+", "-"), "faster to 8, slower to 1/16", "Watch",
             lambda view, by: _watching(view, "change_rate", int(by))),
-    Command("next_shot", ("n", "p"), "next, previous shot", "Watch", lambda view, by: view.game.watch_other(int(by))),
+    Command("next_shot", ("n", "p"), "next, previous shot", "Watch",
+            lambda view, by: view.game.watching.watch_other(int(by))),
     Command("shots", ("q",), "table of shots: sort, pin, delete, CSV, statistics", "See", _shots),
-    Command("find", ("/",), "find me a shot: at the ring, a pocket, the pin ...", "See", _find),
+    Command("find", ("/",), "find a shot: at the rim, a pocket, the pin ...", "See", _find),
     Command("view", ("v",), "follow the ball", "See"),
     Command("predict", ("y",), "path while aiming: all, to the first contact, a metre, nothing", "See", _predict),
     Command("ghosts", ("g",), "earlier shots", "See"),
@@ -451,9 +468,9 @@ TABLE: tuple[Command, ...] = (
             lambda view, by: _chart(view, "energy", lambda shot, size: energy_chart(shot.run, size))),
     Command("tape", ("t",), "tape; arrows move its end, K the other", "See", _tape, mouse="right drag"),
     Command("accuracy", ("a",), "accuracy: fast, balanced, precise", "See",
-            lambda view, by: view.game.trying(lambda: _accuracy(view, by))),
+            lambda view, by: view.game.messages.reporting_errors(lambda: _accuracy(view, by))),
     Command("save_scene", ("s",), "a scene file with what was changed", "Keep",
-            lambda view, by: view.game.trying(lambda: view.game.tell(f"wrote {export.scene_file(view.game.session)}"))),
+            lambda view, by: _save_scene(view)),
     Command("copy", ("c",), "copy the command line of this shot", "Keep", _copy),
     Command("screenshot", ("f12",), "picture of the window", "Keep", _screenshot),
     Command("animation", ("f9",), "animation of the last shot", "Keep",
@@ -461,15 +478,16 @@ TABLE: tuple[Command, ...] = (
     Command("save_replay", ("f5",), "replay file of the last shot", "Keep",
             lambda view, by: _with_shot(view, lambda shot: _export(view, replay.SUFFIX, partial(replay.save, shot)))),
     Command("compare", ("f6",), "compute the shot again, and compare", "Keep",
-            lambda view, by: _with_shot(view, view.game.compare)),
-    Command("open_replay", ("f7",), "see the newest replay; or drop one here", "Keep", _open_replay),
+            lambda view, by: _with_shot(view, view.game.watching.compare)),
+    Command("open_replay", ("f7",), "open the latest replay; or drop one here", "Keep", _open_replay),
     Command("menu", ("l",), "all scenes and presets", "More", _menu),
     Command("next_preset", ("page down", "page up"), "next, previous preset", "More", _other_preset),
     Command("panel", ("tab",), "the panel of parameters", "More"),
-    Command("reset", ("backspace",), "all parameters as in the file", "More", lambda view, by: view.game.reset()),
+    Command("reset", ("backspace",), "all parameters as in the file", "More",
+            lambda view, by: view.game.aiming.reset()),
     Command("undo", ("ctrl z", "ctrl y"), "undo, redo the last of 200 changes", "More",
-            lambda view, by: view.game.undo() if by > 0 else view.game.redo(), repeats=True),
-    Command("rack", ("b",), "the balls back where they began", "More", lambda view, by: view.game.begin_again()),
+            lambda view, by: view.game.aiming.undo() if by > 0 else view.game.aiming.redo(), repeats=True),
+    Command("rack", ("b",), "put the balls back", "More", lambda view, by: view.game.aiming.begin_again()),
     Command("sound", ("u",), "sound", "More", _sound),
     Command("text_size", ("alt +", "alt -"), "larger, smaller text", "More", _text_size),
     Command("contrast", ("alt c",), "high contrast", "More",
@@ -481,9 +499,9 @@ TABLE: tuple[Command, ...] = (
                                                               partial(do, view)))),
     Command("back", ("escape",), "close what is open, stop a run; aim again", "More", _back),
     Command("quit", ("ctrl q",), "exit", "More", lambda view, by: setattr(view.game, "running", False)),
-    Command("row", ("ctrl down", "ctrl up"), "another row of the panel", "Panel",
+    Command("row", ("ctrl down", "ctrl up"), "next, previous row", "Panel",
             lambda view, by: view.panel.step(int(by)), repeats=True),
-    Command("value", ("ctrl right", "ctrl left"), "more, less of it (Shift: finely)", "Panel",
+    Command("value", ("ctrl right", "ctrl left"), "increase, decrease (Shift: finely)", "Panel",
             lambda view, by: view.panel.nudge(by), repeats=True, fine=True),
     Command("group", ("ctrl page down", "ctrl page up"), "another group", "Panel",
             lambda view, by: view.panel.turn(int(by))),
@@ -510,7 +528,7 @@ def pressed(key: int, modifiers: int) -> tuple[Command, float] | None:
 
 
 def hint_of(button: str) -> str:
-    """What a button of the bar does, and by which key; one with a minus does the opposite of its command."""
+    """The meaning of a button of the bar, and its key; one with a minus does the opposite of its command."""
     if button in HINTS:
         return HINTS[button]
     command = _BY_NAME[button.removeprefix("-")]

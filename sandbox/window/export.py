@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from sandbox.errors import RunError
-from sandbox.files import reason, writing, written_whole
+from sandbox.files import atomic_write, reason, writing
 from sandbox.picture.frames import save_gif
 from sandbox.scene import reference
 from sandbox.window.session import Session
@@ -56,14 +56,14 @@ def scene_file(session: Session) -> Path:
         _put(document, key.split("."), value)
 
     def write(path: Path) -> None:
-        with written_whole(path) as file:
+        with atomic_write(path) as file:
             file.write(tomlkit.dumps(document))
 
     return new_file(session.title, ".toml", write)
 
 
 def _named(session: Session, written: str) -> str:
-    """How a new scene file names its scene; it keeps the preset that the session's own file begins from."""
+    """The name of its scene in a new scene file; it keeps the preset that the session's own file begins from."""
     scene = session.base
     own = reference(scene.folder, FOLDER)
     begins_from = written.rpartition("/")[2]

@@ -23,8 +23,6 @@ SHOTS = 100
 #: So many more are computed at least before a fan is shown, and no more after this time in s; and after this one by a
 #: process that may have to compute the path at once.
 FEWEST, QUICK, BRIEF = 8, 0.3, 0.05
-#: So many are computed at once where their balls fly one by one.
-AT_ONCE = 8
 #: Spread if the scene gives none: of the speed, as a share of it, and of the angle, in deg.
 SPEED, ANGLE = 0.01, 0.5
 #: Opacity of one path; and how far from the picture, in px, a path is still followed.
@@ -39,8 +37,8 @@ PARTS = 1 << 16
 _Spread = Mapping[str, tuple[declared.Parameter, float]]
 
 
-class Flown(NamedTuple):
-    """What a fan shows of a shot."""
+class FanShot(NamedTuple):
+    """A shot of a fan: its path, whether it scores, and its result."""
 
     path: np.ndarray  # m, shape (points, 2)
     scored: bool
@@ -88,14 +86,13 @@ class Fan:
         self.together = not quick and fly_together(scene, list(spread), points[0])
         if not self.together:
             scene = scene.changed({"accuracy.level": "fast"})
-        self.flown: list[Flown | None] = []  # None where it could not be computed
+        self.flown: list[FanShot | None] = []  # None where it could not be computed
         self._drawn: tuple[Any, list[int], np.ndarray] = None, [0, 0], np.empty(0)  # how, how many, and their densities
         self._scene = scene
-        ordered = points[::-1] if backwards else points
-        self._runs = runs(scene, list(spread), ordered, asked=asked, at_once=AT_ONCE)
+        self._runs = runs(scene, list(spread), points[::-1] if backwards else points, asked=asked)
 
     def is_of(self, scene: Scene, *how: Any) -> bool:
-        """Whether it is the fan of this scene with this spread and these facts."""
+        """True if it is the fan of this scene with this spread and these facts."""
         return self._of == (scene.folder, scene.parameters, *how)
 
     def go_on(self, most: int, fewest: int, seconds: float) -> None:
@@ -107,11 +104,11 @@ class Fan:
                 break
         self.left -= len(shots)
         paths = iter(points([(shot.run, shot.ball) for shot in shots if shot]) if any(shots) else ())
-        self.flown += [Flown(next(paths)[:, 1:], shot.scored, shot.run.result) if shot else None for shot in shots]
+        self.flown += [FanShot(next(paths)[:, 1:], shot.scored, shot.run.result) if shot else None for shot in shots]
 
-    def densities(self, others: Sequence[Flown | None], camera: Camera, size: tuple[int, int]) -> np.ndarray:
-        """How many paths of shots that score, and of the rest, go through each pixel, shape (2, height, width); with
-        those of ``others``. Those that are in this picture already are only added to."""
+    def densities(self, others: Sequence[FanShot | None], camera: Camera, size: tuple[int, int]) -> np.ndarray:
+        """Return the number of paths of shots that score, and of the rest, through each pixel, shape (2, height,
+        width); with those of ``others``. Those that are in this picture already are only added to."""
         how, counts, sums = self._drawn
         if how != (camera, size) or len(others) < counts[1]:
             counts, sums = [0, 0], np.zeros((2, *size[::-1]))
@@ -142,9 +139,9 @@ def _asked(scene: Scene) -> list[str]:
     return [fact for fact in (scene.controls.scores, scene.controls.fan_fact) if fact]
 
 
-def others(scene: Scene, width: float, left: int) -> list[Flown | None]:
-    """What another process has computed so far, from its end, of the fan of which so many shots were ``left`` when it
-    was asked for more; nothing of one that is computed together."""
+def shots_from_end(scene: Scene, width: float, left: int) -> list[FanShot | None]:
+    """The shots that another process has computed so far, from the end of the fan, of which so many were ``left`` when
+    it was asked for more; none of a fan that is computed together."""
     fan = _fan(scene, spread_of(scene, width), _asked(scene), backwards=True)
     if not fan.together:
         fan.go_on(left, 1, BRIEF)
@@ -159,7 +156,7 @@ def cloud(
     early: str,
     size: tuple[int, int],
     colours: tuple[Colour, Colour],
-    elsewhere: Sequence[Flown | None] = (),
+    elsewhere: Sequence[FanShot | None] = (),
 ) -> Cloud:
     """The fan of a scene as a camera sees it, in the colours of shots that score and that do not; asked again, it has
     more shots. Those of its end may have been computed ``elsewhere``.
@@ -169,7 +166,7 @@ def cloud(
     """
     spread = spread_of(scene, width)
     if not spread:
-        return Cloud((0, 0), (0, 0), b"", ("no fan: this shot does not begin as a player's does", ""), 0, 0, 0)
+        return Cloud((0, 0), (0, 0), b"", ("no fan: this shot does not start from the player's controls", ""), 0, 0, 0)
     asked = _asked(scene)
     if quick and early and scene.settles(asked) is None:
         asked = [early]
@@ -184,8 +181,8 @@ def cloud(
     return Cloud(*_drawn(good, rest, colours), said, len(shots), scored, SHOTS if quick else left)
 
 
-def _said(scene: Scene, asked: Sequence[str], shots: Sequence[Flown]) -> str:
-    """How many score, and the mean and spread of the last number that was asked for."""
+def _said(scene: Scene, asked: Sequence[str], shots: Sequence[FanShot]) -> str:
+    """Text: how many score, and the mean and spread of the last number that was asked for."""
     count = len(shots)
     text = f"{count} shots" if count else "no such shot could be computed"
     if any(shot.result.get(scene.controls.scores) is not None for shot in shots):
@@ -206,8 +203,8 @@ def short(sigma: float) -> str:
 
 
 def density(lines: Sequence[np.ndarray], size: tuple[int, int]) -> np.ndarray:
-    """How many lines (px, shape (n, 2)) go through each pixel of a picture, shape (height, width): smooth lines, since
-    each of their points, 1 px apart, is shared out among the four nearest pixels."""
+    """The number of lines (px, shape (n, 2)) through each pixel of a picture, shape (height, width): smooth, since each
+    of their points, 1 px apart, is shared out among the four nearest pixels."""
     width, height = size
     if not lines:
         return np.zeros((height, width))
@@ -233,7 +230,7 @@ def _evenly(line: np.ndarray) -> np.ndarray:
 def _drawn(
     good: np.ndarray, others: np.ndarray, colours: tuple[Colour, Colour]
 ) -> tuple[tuple[int, int], tuple[int, int], bytes]:
-    """Where the densities are not zero: that part's place and size in px, and its pixels."""
+    """Return place and size in px of the part where the densities are not zero, and its pixels."""
     total = good + others
     rows, columns = np.flatnonzero(total.any(axis=1)), np.flatnonzero(total.any(axis=0))
     if not len(rows):

@@ -12,14 +12,15 @@ from sandbox.lab.axes import Span
 from sandbox.scene import Scene
 from sandbox.sport.amounts import amount
 from sandbox.sport.controls import Goal
+from sandbox.window.aim import speeds
 from sandbox.window.fan import spread_of
 from sandbox.window.handles import grips
 from sandbox.window.session import Session
 from sandbox.window.worker import Packed, computed
 
-#: Where the scene says nothing else, speeds are tried up to so many times the current one, from a share of that; and
-#: angles in deg: upwards, or to either side of the current one.
-TIMES, SLOWEST, FROM_SIDE, TO_A_SIDE = 2.0, 0.2, (2.0, 85.0), 25.0
+#: Where the scene says nothing else, all speeds of a pull are tried; and angles in deg: upwards, or so far to either
+#: side of the scene file's.
+FROM_SIDE, TO_A_SIDE = (2.0, 85.0), 25.0
 #: By two parameters, so many solutions are searched around more finely, in this share of the ranges.
 REFINED, FINER = 2, 0.12
 #: A region with more room than this share of the range is known well enough.
@@ -40,7 +41,7 @@ class Found(NamedTuple):
 
 @dataclass(frozen=True)
 class Question:
-    """What is looked for: goals of one name, at a place of the world (m) if there is one."""
+    """A search for a shot: goals of one name, at a place of the world (m) if there is one."""
 
     name: str
     at: tuple[float, float] | None
@@ -48,7 +49,7 @@ class Question:
 
 
 def questions(session: Session, upright: bool) -> list[Question]:
-    """What can be aimed at now."""
+    """The targets that can be aimed at now."""
     controls, usual = session.controls, _usual(session, upright)
     goals = list(controls.goals(session.scene.parameters)) if controls.goals is not None else []
     marked = {(handle.x, handle.y) for handle in controls.handles if handle.goal}
@@ -64,19 +65,35 @@ def questions(session: Session, upright: bool) -> list[Question]:
 
 
 def _usual(session: Session, upright: bool) -> dict[str, tuple[float, float]]:
-    """The ranges of speed and angle that are searched where the scene says nothing else."""
+    """The ranges of speed and angle that are searched where the scene says nothing else: what a pull can reach, and the
+    current speed."""
     controls = session.controls
     speed, angle = session.parameters.get(controls.speed), session.parameters.get(controls.angle)
     if speed is None or angle is None:
         return {}
-    fastest = min(controls.strongest, TIMES * speed.value or controls.strongest)
+    reach, own = speeds(session), session.base_value(controls.angle)
     low, high = FROM_SIDE
-    if not upright or angle.value < low:  # such as a serve, downwards
-        low, high = angle.value - TO_A_SIDE, angle.value + TO_A_SIDE
+    if not upright or own < low:  # such as a serve, downwards
+        low, high = own - TO_A_SIDE, own + TO_A_SIDE
     return {
-        controls.speed: (speed.within(SLOWEST * fastest), speed.within(fastest)),
+        controls.speed: (min(reach.lowest, speed.value), max(reach.highest, speed.value)),
         controls.angle: (angle.within(low), angle.within(high)),
     }
+
+
+def said_range(question: Question, session: Session) -> str:
+    """The ranges in which shots are looked for: ``speed 0.37 to 14.8 m/s, angle 2 to 85 deg``; and the speed where
+    it stays as it is."""
+    texts = []
+    for key in dict.fromkeys(key for goal in question.goals for key in goal.vary):
+        ends = [end for goal in question.goals for end in goal.vary.get(key, ())]
+        parameter = session.parameters[key]
+        name = key.rpartition(".")[2].replace("_", " ")
+        texts.append(f"{name} {min(ends):.3g} to {max(ends):.3g} {parameter.unit or ''}".rstrip())
+    speed = session.parameters.get(session.controls.speed)
+    if speed is not None and not any(session.controls.speed in goal.vary for goal in question.goals):
+        texts.append(f"at {speed.value:.3g} {speed.unit or ''}".rstrip())
+    return ", ".join(texts)
 
 
 def find(scene: Scene, goals: list[Goal]) -> list[Found]:
@@ -110,7 +127,7 @@ def _solutions(scene: Scene, goal: Goal) -> list[Solution]:
 
 
 def _differ(one: Found, other: Found) -> bool:
-    """Whether two shots are more than a tenth apart in some parameter."""
+    """True if two shots are more than a tenth apart in some parameter."""
     pairs = [(value, other.values.get(key)) for key, value in one.values.items() if isinstance(value, float)]
     return any(there is None or abs(value - there) > APART * max(abs(value), abs(there)) for value, there in pairs)
 

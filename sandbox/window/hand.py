@@ -1,4 +1,4 @@
-"""What the hand holds: the rubber band of a pull, and the handles of what can be dragged."""
+"""Things held by hand: the rubber band of a pull, and the handles of what can be dragged."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from sandbox.picture.palette import palette
 from sandbox.sport.amounts import nice
 from sandbox.window.canvas import Canvas
 from sandbox.window.handles import Grip
+from sandbox.window.layout import Layout
 from sandbox.window.stage import Stage
 
 CARD, FORCE = palette("card"), palette("force")
@@ -43,13 +44,13 @@ class Spot(NamedTuple):
         return nice((SNAPS * self.unit if snap else FINE) / self.camera.scale)
 
     def dragged(self, before: Place, to: Place) -> Place:
-        """Where it is dragged to, in m or m/s, by a drag between two places in px."""
+        """The place that it is dragged to, in m or m/s, by a drag between two places in px."""
         (x0, y0), (x, y) = self.camera.world(*before), self.camera.world(*to)
         return self.grip.place[0] + x - x0, self.grip.place[1] + y - y0
 
 
 def spots(grips: Sequence[Grip], stage: Stage, sheet: Canvas) -> list[Spot]:
-    """Where the handles are; that of the wind has a camera of its own."""
+    """The places of the handles; that of the wind has a camera of its own."""
     ball, aside, unit = stage.ball_at(stage.shot), ASIDE * sheet.unit, sheet.unit
     foot = sheet.frame.right - FOOT[0] * unit, sheet.frame.top + FOOT[1] * unit
     found = []
@@ -68,7 +69,9 @@ def nearest(found: Sequence[Spot], at: Place) -> Spot | None:
     return near if near is not None and dist(near.at, at) <= NEAR * near.unit else None
 
 
-def draw_handles(sheet: Canvas, found: Sequence[Spot], mouse: Place | None, held: Grip | None, text: str) -> None:
+def draw_handles(
+    sheet: Canvas, layout: Layout, found: Sequence[Spot], mouse: Place | None, held: Grip | None, text: str
+) -> None:
     """The handles, those in a list only near the mouse, if it is there; the one that is held, or that the mouse is on,
     with its numbers."""
     unit = sheet.unit
@@ -83,18 +86,20 @@ def draw_handles(sheet: Canvas, found: Sequence[Spot], mouse: Place | None, held
                 sheet.painter.arrow(camera.anchor, at, 3.6 * unit, FORCE["wind"])
             sheet.painter.ring(at, 9 * unit, 5 * unit, CARD["background"], 0.8)
             sheet.painter.ring(at, 8 * unit, 2.2 * unit, CARD["accent"])
-            label(sheet, text, at, below=at[1] > camera.pixel(*grip.place)[1])  # beside a ball, which stays in sight
+            label(
+                sheet, layout, text, at, below=at[1] > camera.pixel(*grip.place)[1]
+            )  # beside a ball, which stays in sight
 
 
-def label(sheet: Canvas, text: str, at: tuple[float, float], below: bool) -> None:
+def label(sheet: Canvas, layout: Layout, text: str, at: tuple[float, float], below: bool) -> None:
     """A text on a card above or below a place in px."""
-    text = sheet.ended(text, "small", sheet.frame.width - 4 * sheet.gap)
-    room = pygame.Rect(sheet.frame.topleft, (sheet.frame.width, sheet.card_row() - sheet.gap - sheet.frame.top))
+    room = sheet.frame.width - 4 * sheet.gap
+    forms = [sheet.text([(sheet.ended(text, "small", share * room), CARD["text"])]) for share in (1.0, 0.5, 0.3)]
     away, anchor = (20 * sheet.unit, "midtop") if below else (-20 * sheet.unit, "midbottom")
-    sheet.card([(text, CARD["text"])], anchor, (at[0], at[1] + away), room)
+    layout.put("hand", forms, (at[0], at[1] + away), anchor)
 
 
-def draw_pull(sheet: Canvas, start: tuple[float, float], pull: tuple[float, float], text: str) -> None:
+def draw_pull(sheet: Canvas, layout: Layout, start: tuple[float, float], pull: tuple[float, float], text: str) -> None:
     """The rubber band from where the pull began to the hand, and the speed and angle that it gives."""
     hand = start[0] + pull[0], start[1] + pull[1]
     length = hypot(*pull)
@@ -107,4 +112,4 @@ def draw_pull(sheet: Canvas, start: tuple[float, float], pull: tuple[float, floa
         pygame.draw.aaline(sheet.surface, CARD["accent"], foot, hand, max(2, round(2.5 * sheet.unit)))
     sheet.painter.disc(hand, 8.5 * sheet.unit, CARD["shadow"], 0.8)
     sheet.painter.disc(hand, 6.5 * sheet.unit, CARD["accent"])
-    label(sheet, text, hand, below=pull[1] >= 0)
+    label(sheet, layout, text, hand, below=pull[1] >= 0)

@@ -1,4 +1,4 @@
-"""What is dragged in the picture: where the scene's handles are, and which changes a drag makes."""
+"""Things dragged in the picture: where the scene's handles are, and which changes a drag makes."""
 
 from __future__ import annotations
 
@@ -28,10 +28,11 @@ class Grip:
     values: tuple[float, float]  # of the parameters
     bounds: list[tuple[float, float]]
     first: dict[str, Any]
+    with_y: dict[str, float]  # what moves up and down with it: keys and values, m
 
     @property
     def in_list(self) -> bool:
-        """Whether it is one of many."""
+        """True if it is one of many."""
         return "]" in "".join(self.keys) and not self.is_wind
 
     @property
@@ -46,7 +47,9 @@ class Grip:
             if key and slope:
                 low, high = bounds
                 found[key] = min(max(float(f"{round((value + (to - was) / slope) / step) * step:.9g}"), low), high)
-        return {**self.first, **found}
+        rise = found[self.keys[1]] - self.values[1] if self.keys[1] in found else 0.0
+        carried = {key: max(0.0, float(f"{value + rise:.9g}")) for key, value in self.with_y.items()}
+        return {**self.first, **found, **carried}
 
     def said(self, session: Session) -> str:
         """The parameters and their current values: ``hoop distance 4.19 m, height 3.05 m``."""
@@ -77,7 +80,8 @@ def grips(session: Session) -> list[Grip]:
                 (-inf, inf) if p is None or p.low is None or p.high is None else (p.low, p.high) for p in declared
             ]
             name = _name(parameters, next(filter(None, keys)))
-            found.append(Grip(keys, place, name, slopes, (values[0], values[1]), bounds, first))
+            with_y = {key: value_at(parameters, key) for key in handle.with_y}
+            found.append(Grip(keys, place, name, slopes, (values[0], values[1]), bounds, first, with_y))
     return found
 
 
@@ -92,7 +96,7 @@ def _entries(handle: Handle, parameters: Group) -> Iterator[tuple[str, str]]:
 def _slopes(
     handle: Handle, keys: tuple[str, str], values: Sequence[float], place: Place, session: Session
 ) -> tuple[float, float]:
-    """How far the handle moves per change of its parameters; 0 where that cannot be told."""
+    """The distance that the handle moves per change of its parameters; 0 where that cannot be told."""
     if handle.at is None:
         return 1.0, 1.0
     slopes = []

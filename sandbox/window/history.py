@@ -9,7 +9,7 @@ DEPTH = 200
 
 
 class Changes(NamedTuple):
-    """What is aimed with: a scene file, as it was opened, and the changes over it."""
+    """The parameters that are aimed with: a scene file, as it was opened, and the changes over it."""
 
     source: str
     values: dict[str, Any]  # by key
@@ -53,7 +53,7 @@ class History:
         self.steps[self.now] = self.steps[self.now]._replace(changes=changes)
 
     def end(self) -> None:
-        """What is done next is another step, even if it is of the same kind."""
+        """Make the next change another step, even if it is of the same kind."""
         self.steps[self.now] = self.steps[self.now]._replace(what=None)
 
     def cancel(self, changes: Changes) -> None:

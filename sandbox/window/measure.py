@@ -1,4 +1,4 @@
-"""What can be measured on the picture: a point of a trace under the mouse, and a tape between two places."""
+"""Measuring on the picture: a point of a trace under the mouse, and a tape between two places."""
 
 from __future__ import annotations
 
@@ -7,12 +7,14 @@ from dataclasses import dataclass
 from math import hypot
 
 import numpy as np
+import pygame
 
 from sandbox.picture.camera import Camera
 from sandbox.picture.palette import palette
 from sandbox.picture.sheet import Entry
 from sandbox.sport.amounts import metres
 from sandbox.window.canvas import Canvas
+from sandbox.window.layout import Layout
 from sandbox.window.shots import Shot
 
 CARD = palette("card")
@@ -47,7 +49,7 @@ def reading(shot: Shot, camera: Camera, mouse: tuple[int, int], near: float, unt
 
 
 def away_from(line: np.ndarray, at: tuple[float, float]) -> tuple[float, int, float]:
-    """How far a place is from a line or a point (px, shape (n, 2)); the nearest piece, and the share along that."""
+    """The distance from a line or a point (px, shape (n, 2)); the nearest piece, and the share along that."""
     along = np.diff(line, axis=0) if len(line) > 1 else np.zeros((1, 2))
     from_start = np.asarray(at) - line[: len(along)]
     squares = np.maximum((along**2).sum(axis=1), 1e-12)
@@ -57,7 +59,7 @@ def away_from(line: np.ndarray, at: tuple[float, float]) -> tuple[float, int, fl
     return float(away[i]), i, float(share[i])
 
 
-def draw_reading(sheet: Canvas, shot: Shot, read: Reading, entries: Sequence[Entry]) -> None:
+def draw_reading(sheet: Canvas, layout: Layout, shot: Shot, read: Reading, entries: Sequence[Entry]) -> None:
     """A mark on the trace, and next to it the ball's state there."""
     unit = sheet.unit
     sheet.painter.disc(read.at, 7 * unit, CARD["background"], 0.9)
@@ -65,15 +67,19 @@ def draw_reading(sheet: Canvas, shot: Shot, read: Reading, entries: Sequence[Ent
     rows = [("time", f"{read.t:.3f} s"), *((e[0], e[1]) for e in entries if e[0] != "time")]
     if len(shot.movers) > 1:
         rows.insert(0, ("ball", read.ball))
-    beside(sheet, rows, read.at)
+    beside(sheet, layout, "reading", rows, read.at)
 
 
-def beside(sheet: Canvas, rows: Sequence[tuple[str, str]], at: tuple[float, float]) -> None:
-    """A card of labels and values next to a place in px, on the side where there is room."""
+def beside(sheet: Canvas, layout: Layout, name: str, rows: Sequence[tuple[str, str]], at: tuple[float, float]) -> None:
+    """A card of labels and values next to a place in px, on the side where there is room; the last rows go first."""
     middle, away = sheet.surface.get_rect().center, 16 * sheet.unit
     right, below = at[0] > 1.3 * middle[0], at[1] < middle[1]
     anchor = ("top" if below else "bottom") + ("right" if right else "left")
-    sheet.card(rows, anchor, (at[0] + (-away if right else away), at[1] + (away if below else -away)))
+    mark = pygame.Rect(0, 0, round(away), round(away))
+    mark.center = round(at[0]), round(at[1])
+    layout.kept.append(mark)
+    forms = [sheet.text(rows[:count])._replace(whole=count == len(rows)) for count in range(len(rows), 0, -1)]
+    layout.put(name, forms, (at[0] + (-away if right else away), at[1] + (away if below else -away)), anchor)
 
 
 @dataclass
@@ -87,7 +93,7 @@ class Tape:
     def length(self) -> float:
         return hypot(self.end[0] - self.start[0], self.end[1] - self.start[1])
 
-    def draw(self, sheet: Canvas, camera: Camera, upright: bool) -> None:
+    def draw(self, sheet: Canvas, layout: Layout, camera: Camera, upright: bool) -> None:
         a, b = camera.pixel(*self.start), camera.pixel(*self.end)
         unit = sheet.unit
         if hypot(b[0] - a[0], b[1] - a[1]) > 1:
@@ -98,6 +104,5 @@ class Tape:
             sheet.painter.disc(at, 3.6 * unit, CARD["accent"])
         along, across = self.end[0] - self.start[0], self.end[1] - self.start[1]
         names = ("along", "up") if upright else ("x", "y")
-        beside(
-            sheet, [("tape", metres(self.length, 2)), (names[0], metres(along, 2)), (names[1], metres(across, 2))], b
-        )
+        lengths = [("tape", self.length), (names[0], along), (names[1], across)]
+        beside(sheet, layout, "tape", [(name, metres(length, 2)) for name, length in lengths], b)

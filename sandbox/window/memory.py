@@ -1,4 +1,4 @@
-"""What the window remembers from one time to the next: files opened last, and which hints were followed."""
+"""The window's memory from one time to the next: files opened last, and which hints were followed."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import os
 from contextlib import suppress
 from pathlib import Path
 
-from sandbox.files import written_whole
+from sandbox.files import atomic_write
 
 #: What a first user may try, by the name under which it is remembered.
 HINTS = {
@@ -20,7 +20,7 @@ MOST = 8
 
 
 def usual_place() -> Path:
-    """Where programs keep such things."""
+    """The folder in which programs keep such things."""
     home = os.environ.get("XDG_STATE_HOME") or os.environ.get("LOCALAPPDATA") or Path.home() / ".local" / "state"
     return Path(home) / "sports-sandbox" / "window.json"
 
@@ -65,5 +65,5 @@ class Memory:
         if self.file is not None:
             with suppress(OSError):
                 self.file.parent.mkdir(parents=True, exist_ok=True)
-                with written_whole(self.file) as file:
+                with atomic_write(self.file) as file:
                     json.dump({"recent": self.recent, "followed": self.followed, "look": self.look}, file)

@@ -30,7 +30,7 @@ def thumbnail(source: str) -> bytes:
 
 class Menu(Overlay):
     """A column of groups, and the rows of the one that is chosen: lines, or with ``picture_of`` a picture and what is
-    said of each."""
+    said of each; or tiles, pictures with their names below."""
 
     def __init__(
         self,
@@ -39,13 +39,14 @@ class Menu(Overlay):
         choose: Callable[[str], object],
         now: str = "",
         picture_of: Callable[[str], Future[bytes]] | None = None,
+        tiles: str = "",
     ) -> None:
-        """``now`` is the action that is chosen."""
+        """``now`` is the action that is chosen in the first group, which is shown; ``tiles`` the group of tiles."""
         super().__init__()
         self.title, self.groups, self.choose, self.picture_of = title, dict(groups), choose, picture_of
+        self.tiles, self.across = tiles, 1  # tiles in a row
         self.turn_to(next(iter(self.groups)))
-        for group, row in ((group, row) for group, rows in self.groups.items() for row in rows if row.action == now):
-            self.group, self.chosen = group, row
+        self.chosen = next((row for row in self.rows if row.action == now), self.chosen)
 
     @property
     def rows(self) -> Sequence[Row]:
@@ -59,6 +60,14 @@ class Menu(Overlay):
     def turn(self, by: int) -> None:
         names = list(self.groups)
         self.turn_to(names[(names.index(self.group) + by) % len(names)])
+
+    def show(self, row: Row) -> None:
+        line = self.rows.index(row) // self.across * self.across
+        self.first = min(max(self.first, line - self.seen + self.across), line)
+
+    def scroll(self, by: int) -> None:
+        hidden = max(0, len(self.rows) - self.seen)
+        self.first = min(max(self.first + by * self.across, 0), -(-hidden // self.across) * self.across)
 
     def do(self, what: Row | str) -> bool:
         if isinstance(what, str):
@@ -84,8 +93,12 @@ class Menu(Overlay):
         left = rect.left + wide + 3 * gap
         room = pygame.Rect(left, top, rect.right - gap - left, rect.bottom - top - gap)
         frame = pygame.Rect((0, 0), [round(length * max(0.6, min(1.0, unit))) for length in THUMBNAIL])
+        self.across = 1
+        if self.picture_of is not None and self.group == self.tiles:
+            self._tiles(self.picture_of, room, frame)
+            return
         if self.picture_of is None:
-            room.width = min(room.width, max(room.width // 2, self.width_of_words() + gap))
+            room.width = min(room.width, max(room.width // 2, self.width_of_words(self.sheet) + gap))
             for row, place in self.listed(room, round(small + 1.3 * gap)):
                 self.words(row, place)
             return
@@ -102,6 +115,25 @@ class Menu(Overlay):
                 lines = [*lines[: most - 1], letters.cut(" ".join(lines[most - 1 :]), "small", wide)]
             for line, text in enumerate(lines, 1):
                 sheet.write(text, "small", (x, y + line * small), CARD["quiet"])
+
+    def _tiles(self, picture_of: Callable[[str], Future[bytes]], room: pygame.Rect, frame: pygame.Rect) -> None:
+        """The rows as pictures with their names below, as many in a row as there is room for."""
+        sheet, letters, gap = self.sheet, self.sheet.lettering, self.sheet.gap
+        wide, tall = frame.width + 2 * gap, frame.height + letters.height("small") + 3 * gap
+        self.across = max(1, (room.width - gap) // (wide + gap))
+        lines = max(1, room.height // (tall + gap))
+        self.seen = self.across * lines
+        self.scroll(0)
+        self.scroll_bar(room, lines * (tall + gap))
+        for i, row in enumerate(self.rows[self.first : self.first + self.seen]):
+            place = pygame.Rect(room.left, room.top, wide, tall)
+            place.move_ip(i % self.across * (wide + gap), i // self.across * (tall + gap))
+            self.part(place, row)
+            frame.midtop = place.centerx, place.top + gap
+            self._picture(picture_of, row.action, frame)
+            colour = CARD["accent" if row.action in self.on else "text"]
+            name = letters.cut(row.text, "small", frame.width, True)
+            sheet.write(name, "small", (place.centerx, frame.bottom + gap), colour, "midtop", bold=True)
 
     def _picture(self, picture_of: Callable[[str], Future[bytes]], source: str, frame: pygame.Rect) -> None:
         """A thumbnail, asked for once it is seen."""

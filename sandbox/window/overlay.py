@@ -1,4 +1,4 @@
-"""What lies over the picture for a while, one at a time: rows that are chosen by mouse or by key, and scrolled; or
+"""Overlays on the picture, one at a time: rows that are chosen by mouse or by key, and scrolled; or
 marks and paths in the picture itself."""
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ import pygame
 
 from sandbox.picture.palette import Colour, mix, palette
 from sandbox.window.canvas import Canvas
+from sandbox.window.layout import Layout
 from sandbox.window.measure import away_from
 from sandbox.window.stage import draw_line
 
@@ -38,7 +39,7 @@ class Row(NamedTuple):
 
 
 class Overlay:
-    """What lies over the picture: by default nothing in it can be chosen, and a click closes it."""
+    """An overlay on the picture: by default nothing in it can be chosen, and a click closes it."""
 
     name = ""  # of the command that opens and closes it
 
@@ -48,10 +49,11 @@ class Overlay:
         self.chosen = chosen
         self.first, self.seen = 0, 1  # of the rows that are seen, and how many
         self.pictures: dict[str, Future[Any]] = {}  # that are made in the background
+        self.kept: list[pygame.Rect] = []  # of the picture, in px: balls and what is aimed at
 
     @property
     def made(self) -> int:
-        """How many of its pictures are there."""
+        """The number of its pictures that are there."""
         return sum(picture.done() for picture in self.pictures.values())
 
     @property
@@ -62,7 +64,7 @@ class Overlay:
     # What is done
 
     def at(self, position: tuple[int, int]) -> Any:
-        """What can be chosen at a place."""
+        """The choice at a place."""
         return next((what for rect, what in self.places if rect.collidepoint(position)), None)
 
     def pressed(self, at: tuple[int, int]) -> bool:
@@ -109,6 +111,16 @@ class Overlay:
 
     # Drawing
 
+    def place(self, sheet: Canvas) -> pygame.Rect:
+        """The part of a sheet that it takes, where no card is drawn: by default all of it."""
+        return sheet.surface.get_rect()
+
+    def off_kept(self, sheet: Canvas, wanted: Sequence[pygame.Rect]) -> pygame.Rect:
+        """The first of some rectangles that can be moved off what is kept clear, moved; or the first one as it is."""
+        layout = Layout(sheet.surface.get_rect(), sheet.gap, self.kept)
+        found = (layout.find(rect.size, rect.topleft, "topleft", layout.taken) for rect in wanted)
+        return next((rect for rect in found if rect is not None), wanted[0])
+
     def draw(self, sheet: Canvas, mouse: tuple[int, int], on: Collection[str] = ()) -> None:
         """Draw it; ``on`` are the actions that are switched on."""
         self.sheet, self.mouse, self.on = sheet, mouse, on
@@ -130,21 +142,27 @@ class Overlay:
     def listed(self, room: pygame.Rect, tall: int) -> list[tuple[Any, pygame.Rect]]:
         """The rows for which a room has space, each with its place, ``tall`` px high; a bar at the right shows which
         of all they are."""
-        rows, width, gap = self.rows, room.width, self.sheet.gap
         self.seen = max(1, room.height // tall)
         self.scroll(0)
-        if len(rows) > self.seen:
-            width -= gap
-            bar = pygame.Rect(room.right - gap // 2, room.top, max(2, gap // 2), self.seen * tall)
-            self.sheet.surface.fill(mix(CARD["background"], CARD["quiet"], 0.2), bar)
-            bar.top, bar.height = bar.top + bar.height * self.first // len(rows), bar.height * self.seen // len(rows)
-            self.sheet.surface.fill(CARD["quiet"], bar)
-        shown = rows[self.first : self.first + self.seen]
+        width = room.width - self.scroll_bar(room, self.seen * tall)
+        shown = self.rows[self.first : self.first + self.seen]
         return [(row, pygame.Rect(room.left, room.top + i * tall, width, tall)) for i, row in enumerate(shown)]
 
-    def width_of_words(self) -> int:
-        """What the longest of the rows takes as a line."""
-        letters, gap = self.sheet.lettering, self.sheet.gap
+    def scroll_bar(self, room: pygame.Rect, tall: int) -> int:
+        """Draw a bar, ``tall`` px high at the right of a room, that shows which of all rows are seen; returns how much
+        room it takes in px, which is none if all are."""
+        count, gap = len(self.rows), self.sheet.gap
+        if count <= self.seen:
+            return 0
+        bar = pygame.Rect(room.right - gap // 2, room.top, max(2, gap // 2), tall)
+        self.sheet.surface.fill(mix(CARD["background"], CARD["quiet"], 0.2), bar)
+        bar.top, bar.height = bar.top + tall * self.first // count, tall * min(self.seen, count - self.first) // count
+        self.sheet.surface.fill(CARD["quiet"], bar)
+        return gap
+
+    def width_of_words(self, sheet: Canvas) -> int:
+        """The width of the longest of the rows as a line, in px."""
+        letters, gap = sheet.lettering, sheet.gap
         keys = [letters.width(row.key, "small", bold=True) + 2 * gap if row.key else 0 for row in self.rows]
         return max(letters.width(row.text, "small") + key for row, key in zip(self.rows, keys, strict=True)) + 4 * gap
 
@@ -195,29 +213,33 @@ class Board(Overlay):
         self.choose(what.action)
         return self.stays
 
-    def compose(self) -> None:
-        sheet, gap, letters, room = self.sheet, self.sheet.gap, self.sheet.lettering, self.sheet.surface.get_rect()
+    def place(self, sheet: Canvas) -> pygame.Rect:
+        gap, letters, room = sheet.gap, sheet.lettering, sheet.surface.get_rect()
         tall = round(letters.height("small") + 1.3 * gap)
         title = letters.width(self.title, "small", bold=True) + 4 * gap if self.title else 0
-        wide = max(self.width_of_words(), title, self.foot.width - 2 * gap) + 3 * gap
+        wide = max(self.width_of_words(sheet), title, self.foot.width - 2 * gap) + 3 * gap
         head = tall * bool(self.title)
         high = min(len(self.rows), (room.height - head - 4 * gap) // tall) * tall
         rect = pygame.Rect(self.foot.left, self.foot.bottom + gap // 2, min(wide, room.width), head + high + 2 * gap)
         if self.foot.top > room.height // 2:
             rect.bottom = min(self.foot.top, room.height) - gap
-        rect.clamp_ip(room)
+        return self.off_kept(sheet, [rect.clamp(room)])
+
+    def compose(self) -> None:
+        sheet, gap, rect = self.sheet, self.sheet.gap, self.place(self.sheet)
+        tall = round(sheet.lettering.height("small") + 1.3 * gap)
+        head = tall * bool(self.title)
         sheet.board(rect)
         if self.title:
             place = pygame.Rect(rect.left + gap, rect.top + gap, rect.width - 2 * gap, tall)
             sheet.item(place, self.title, CARD["accent"], bold=True, left=place.left + 2 * gap)
-        for row, place in self.listed(
-            pygame.Rect(rect.left + gap, rect.top + gap + head, rect.width - 2 * gap, high), tall
-        ):
+        room = pygame.Rect(rect.left + gap, rect.top + gap + head, rect.width - 2 * gap, rect.height - head - 2 * gap)
+        for row, place in self.listed(room, tall):
             self.words(row, place)
 
 
 class Mark(NamedTuple):
-    """What can be chosen: a line in the picture (px, shape (n, 2)), or a point; and its name there."""
+    """A choice in the picture: a line in the picture (px, shape (n, 2)), or a point; and its name there."""
 
     action: str
     line: np.ndarray

@@ -24,19 +24,25 @@ TIMES, NOTCHES = 2.0, 20
 class Pad:
     """The spins of a session: one along the width of a ball, or two across it, in ``rect`` of the picture."""
 
-    def __init__(self, session: Session, upright: bool, left: float, top: float, sheet: Canvas) -> None:
-        self.session, self.upright, self.unit = session, upright, sheet.unit
+    def __init__(self, session: Session, upright: bool, sheet: Canvas, share: float = 1.0) -> None:
+        """``share`` is that of its usual size."""
+        self.session, self.upright, self.unit, self.sheet = session, upright, sheet.unit, sheet
         spins = session.controls.spins[:2]
         self.spins = [p for spin in spins if (p := session.parameters.get(spin.key)) is not None]
         self.reaches = [self._reach(p, spin.step) for p, spin in zip(self.spins, spins, strict=False)]
         #: The tip of a cue: both in radii of the ball, so it slips off beyond a circle.
         self.is_tip = len(self.spins) == 2 and all(p.unit == "" for p in self.spins)
-        radius, row = RADIUS * self.unit, sheet.lettering.height("small")
+        self.radius, row = share * RADIUS * self.unit, sheet.lettering.height("small")
         self.texts = self._texts()
-        width = max(2 * radius, *(sheet.lettering.width(text, "small") for text in self.texts))
-        self.rect = pygame.Rect(left, top, width + 4 * sheet.gap, 2 * radius + len(self.texts) * row + 4 * sheet.gap)
-        self.centre = self.rect.left + 2 * sheet.gap + radius, self.rect.top + 2 * sheet.gap + radius
-        self.radius = radius
+        width = max(2 * self.radius, *(sheet.lettering.width(text, "small") for text in self.texts))
+        tall = 2 * self.radius + len(self.texts) * row + 4 * sheet.gap
+        self.rect = pygame.Rect(0, 0, round(width) + 4 * sheet.gap, round(tall))
+
+    @property
+    def centre(self) -> tuple[float, float]:
+        """The middle of the ball, in px."""
+        inset = 2 * self.sheet.gap + self.radius
+        return self.rect.left + inset, self.rect.top + inset
 
     def _reach(self, parameter: Parameter, step: float) -> float:
         """The value at the edge of the ball."""
@@ -57,7 +63,7 @@ class Pad:
 
     @property
     def most(self) -> float:
-        """How far from the middle the tip may be, in radii."""
+        """The largest distance of the tip from the middle, in radii."""
         return min((p.high or 1.0) for p in self.spins) if self.is_tip else 1.0
 
     def changes(self, at: tuple[float, float]) -> dict[str, Any]:
@@ -73,8 +79,9 @@ class Pad:
             found[parameter.key] = int(100 * value) / 100 if self.is_tip else float(f"{value:.3g}")
         return found
 
-    def draw(self, sheet: Canvas) -> None:
+    def draw(self, rect: pygame.Rect) -> None:
         """On a card: the ball, the circle of the tip, or how far it turns in a moment."""
+        self.rect, sheet = rect, self.sheet
         unit, (x, y), radius = self.unit, self.centre, self.radius
         sheet.painter.panel(self.rect, CARD["background"], 0.85, 8 * unit)
         sheet.painter.disc((x, y), radius, CARD["text"], 0.92)

@@ -11,7 +11,7 @@ import pygame
 
 from sandbox.parameters import Parameter
 from sandbox.picture.palette import mix, palette
-from sandbox.window.background import Once
+from sandbox.window.background import KeyedCache
 from sandbox.window.canvas import Canvas
 from sandbox.window.game import Game
 from sandbox.window.overlay import Board, Overlay, Row
@@ -48,7 +48,7 @@ class Setting:
         if isinstance(self.value, bool):
             return "on" if self.value else "off"
         if self.value is None and self.parameter.choices:
-            return "as the level says" if self.key.startswith("accuracy.") else "left out"
+            return "set by level" if self.key.startswith("accuracy.") else "default"
         return "" if self.value is None else f"{self.value:.6g}" if isinstance(self.value, float) else str(self.value)
 
     @property
@@ -57,7 +57,7 @@ class Setting:
 
     @property
     def words(self) -> list[Any]:
-        """What it can be, unless it is a number; None is for left out."""
+        """Its possible values, unless it is a number; None is for the default."""
         if not self.parameter.choices:
             return [False, True]
         return [None] * (self.parameter.optional or self.value is None) + list(self.parameter.choices)
@@ -107,7 +107,7 @@ class Panel(Overlay):
         self.typing: Setting | None = None  # the row that keys go into
         self.before, self.after = "", ""  # the text of its field, before and after the caret
         self.whole = True  # whether all of it is selected
-        self._once = Once()
+        self._once = KeyedCache()
 
     @property
     def groups(self) -> dict[str, list[Parameter]]:
@@ -141,7 +141,7 @@ class Panel(Overlay):
 
     def set(self, row: Setting, value: Any) -> None:
         """Give a row another value; an invalid one is reported."""
-        self.game.change({row.key: value})
+        self.game.aiming.change({row.key: value})
 
     def turn_to(self, group: str) -> None:
         """Show another group."""
@@ -163,13 +163,13 @@ class Panel(Overlay):
     def do(self, what: Any) -> bool:
         """Do what a click on a part of it does."""
         if what == RESET_ALL:
-            self.game.reset()
+            self.game.aiming.reset()
         elif what == FAVOURITES:
             self._offer(what, [(name, name) for name in self.groups], self.group, self.turn_to)
         else:
             row, part = what
             if part == RESET_OF:
-                self.game.reset(row.key)
+                self.game.aiming.reset(row.key)
             elif row.is_number:
                 self.begin_typing(row)
             elif isinstance(row.value, bool):
@@ -198,7 +198,7 @@ class Panel(Overlay):
         self.show(row)
 
     def type(self, event: pygame.event.Event) -> None:
-        """A key that goes into a field: a letter, one that moves the caret or deletes, Ctrl A, Ctrl V; Enter takes the
+        """A key that goes into a field: a letter, one that moves the caret or deletes, Ctrl A, C, X, V; Enter takes the
         text, Tab goes on to the next field too, Escape leaves the text."""
         before, after, ctrl = self.before, self.after, event.mod & pygame.KMOD_CTRL
         edits = {
@@ -221,6 +221,12 @@ class Panel(Overlay):
             self._put(*edits[event.key])
         elif ctrl and event.key == pygame.K_a:
             self.before, self.after, self.whole = before + after, "", True
+        elif ctrl and event.key in (pygame.K_c, pygame.K_x):
+            if self.whole:
+                with suppress(pygame.error):  # there is no clipboard
+                    pygame.scrap.put_text(before + after)
+                    if event.key == pygame.K_x:
+                        self._put("", "")
         else:
             text = event.unicode
             if ctrl and event.key == pygame.K_v:
@@ -258,7 +264,7 @@ class Panel(Overlay):
     def reset_row(self) -> None:
         """The chosen row as in the file."""
         if self.chosen is not None:
-            self.game.reset(self.chosen.key)
+            self.game.aiming.reset(self.chosen.key)
 
     # Drawing
 
@@ -330,7 +336,7 @@ class Panel(Overlay):
         return next((text for text in texts if self.sheet.lettering.width(text, "small") <= room), texts[-1])
 
     def _tip(self, parameter: Parameter, row: int) -> None:
-        """What a parameter means, and its bounds, next to the panel."""
+        """Draw a parameter's meaning and bounds next to the panel."""
         text = f"{parameter.key}: {parameter.meaning}"
         if parameter.low is not None and parameter.high is not None:
             text += f"; from {parameter.low:g} to {parameter.high:g} {parameter.unit}".rstrip()

@@ -67,7 +67,7 @@ class Pointer:
             self.fingers[event.finger_id] = event.x * width, event.y * height
         now = list(self.fingers.values())
         if len(now) == 2 and event.type == pygame.FINGERDOWN:  # the first finger did not mean to pull
-            self.view.game.give_up_pull()
+            self.view.game.grasp.cancel()
             self._released()
         elif len(now) == len(before) == 2:
             (x0, y0), (x, y) = (np.mean(points, axis=0) for points in (before, now))
@@ -81,11 +81,11 @@ class Pointer:
             view.over.scroll(-event.y)
         elif view.on_panel(view.at):
             view.panel.scroll(-event.y)
-        elif held & pygame.KMOD_CTRL or view.game.playback is not None:
+        elif held & pygame.KMOD_CTRL or view.game.watching.playback is not None:
             view.zoom(NOTCH ** getattr(event, "precise_y", event.y), view.at)
         else:
             other = bool(held & pygame.KMOD_SHIFT) or event.x != 0
-            view.game.nudge(aim.spun(view.game.session, int(other), event.y or event.x))
+            view.game.aiming.nudge(aim.spun(view.game.session, int(other), event.y or event.x))
 
     def _pressed(self, at: Place) -> Callable[[Place], object] | None:
         """Do what a press does; returns what dragging from there does."""
@@ -98,8 +98,8 @@ class Pointer:
             over, view.over = view.over, None
             if over.pressed(at):
                 view.over = over
-        elif view.bar.on_line(at) and game.playback is not None:
-            game.playback.playing = False
+        elif view.bar.on_line(at) and game.watching.playback is not None:
+            game.watching.playback.playing = False
             return self._begun(self._scrub, at)
         elif view.on_panel(at):
             drag = view.panel.press(at)
@@ -121,16 +121,16 @@ class Pointer:
             commands.do(view, "graphs")
         elif (spot := view.spot_at(at)) is not None:
             view.hold()
-            game.begin_drag(spot.grip)
+            game.grasp.begin_drag(spot.grip)
             return lambda to: self._drag_handle(spot, at, to)
         elif (pad := view.pad) is not None and pad.rect.collidepoint(at):
-            return self._begun(lambda to: game.nudge(pad.changes(to)), at)
-        elif game.playback is None:
+            return self._begun(lambda to: game.aiming.nudge(pad.changes(to)), at)
+        elif game.watching.playback is None:
             return self._pull(at)
-        elif game.playback.over:
+        elif game.watching.playback.over:
             return lambda to: self._perhaps_pull(at, to)
         else:
-            game.tell("Enter to aim again, Space to pause")
+            game.messages.tell("Enter to aim again, Space to pause")
             return self._pan
         return None
 
@@ -147,31 +147,32 @@ class Pointer:
         if known is not None and rect is not None:
             shares = (to[0] - rect.left) / rect.width, (rect.bottom - to[1]) / rect.height
             across, up = (min(max(share, 0.0), 1.0) for share in shares)
-            view.game.nudge(aim.aimed(view.game.session, *known.aim(across, up)))
+            view.game.aiming.nudge(aim.aimed(view.game.session, *known.aim(across, up)))
 
     def _pan(self, to: Place) -> None:
         self.view.pan(to[0] - self.view.at[0], to[1] - self.view.at[1])
 
     def _scrub(self, to: Place) -> None:
-        playback = self.view.game.playback
+        playback = self.view.game.watching.playback
         if playback is not None:
             playback.seek(self.view.bar.share(to) * playback.duration)
             self.view.changed = True
 
     def _drag_handle(self, spot: Spot, start: Place, to: Place) -> None:
-        if self.view.game.grip is not None:
+        if self.view.game.grasp.grip is not None:
             step = spot.step(snap=bool(pygame.key.get_mods() & pygame.KMOD_SHIFT))
-            self.view.game.drag_to(spot.dragged(start, to), step)
+            self.view.game.grasp.drag_to(spot.dragged(start, to), step)
 
     def _pull(self, at: Place) -> Callable[[Place], object]:
         view = self.view
-        view.game.begin_pull(at, view.area.height, view.stage.camera.stretch if view.stage is not None else 1.0)
-        return view.game.pull_to
+        stretch = view.stage.camera.stretch if view.stage is not None else 1.0
+        view.game.grasp.begin_pull(at, view.canvas.get_size(), view.area.height, stretch)
+        return view.game.grasp.pull_to
 
     def _perhaps_pull(self, start: Place, to: Place) -> None:
         """A pull ends the watching of a shot that is over; a click does not."""
         if abs(to[0] - start[0]) + abs(to[1] - start[1]) >= aim.LEAST:
-            self.view.game.aim_again(from_rest=True)
+            self.view.game.aiming.again(from_rest=True)
             self.drag = self._pull(start)
             self.drag(to)
 
@@ -189,5 +190,5 @@ class Pointer:
 
     def _released(self) -> None:
         self.drag = None
-        self.view.game.release()
+        self.view.game.grasp.release()
         self.view.free()

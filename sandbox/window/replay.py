@@ -11,23 +11,27 @@ from typing import Any
 
 import numpy as np
 
-from sandbox.engine.accuracy import Accuracy
-from sandbox.engine.arc import Arc
-from sandbox.engine.lasting import LastingContact
-from sandbox.engine.one_point import OnePoint
-from sandbox.engine.path import Path as Arcs
-from sandbox.engine.run import Event, Numerics, Run
-from sandbox.engine.setup import Ball, Setup
-from sandbox.engine.touch import Obstacle, Touching
-from sandbox.engine.track import Heaped, Pressing
+from sandbox.engine.contact.touch import Obstacle, Touching
+from sandbox.engine.model.accuracy import Accuracy
+from sandbox.engine.model.ball import Ball
+from sandbox.engine.model.setup import Setup
+from sandbox.engine.motion.body_point_contact import BodyPointContact
+from sandbox.engine.motion.moving_ball import InCluster, InHeap
+from sandbox.engine.motion.sustained_contact import SustainedContact
+from sandbox.engine.paths.arc import Arc
+from sandbox.engine.paths.path import Path as Arcs
+from sandbox.engine.paths.run import Event, Numerics
 from sandbox.errors import RequestError
-from sandbox.files import reason, writing, written_whole
+from sandbox.files import atomic_write, read_given, writing
 from sandbox.scene import Scene, load
 from sandbox.scene.finding import folder_of, is_installed
+from sandbox.scene.scene_run import SceneRun
 from sandbox.window.session import Session
 from sandbox.window.shots import Shot
 
 FORMAT, VERSION = "sandbox replay", 2
+#: Most bytes of a replay: that of an hour with all its arcs has less.
+LARGEST = 200_000_000
 SUFFIX = ".replay.json"
 
 
@@ -40,7 +44,7 @@ def save(shot: Shot, path: Path) -> None:
         "run": _through_json(data_of(shot.run)),
     }
     record = {"format": FORMAT, "version": VERSION, "check": checksum(body), "body": body}
-    with writing("", path), written_whole(path) as file:
+    with writing("", path), atomic_write(path) as file:
         json.dump(record, file)
 
 
@@ -54,16 +58,14 @@ def checksum(body: dict[str, Any]) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def read(path: Path, scene: str | None = None, running: Path | None = None) -> tuple[Session, Shot]:
-    """The shot of a file with its session. Raises RequestError if it is damaged or of another version.
+def read(path: Path, scene: str | None = None, running: Path | None = None) -> Shot:
+    """The shot of a file. Raises RequestError if it is damaged or of another version.
 
     A file from somebody else runs no code: its scene must be installed, or be the ``scene`` that the player names, or
     be in the folder ``running``, whose code runs already.
     """
     try:
-        record = json.loads(path.read_text("utf-8"))
-    except OSError as error:
-        raise RequestError(f"{path}: cannot be read: {reason(error)}") from None
+        record = json.loads(read_given(path, LARGEST))
     except (ValueError, RecursionError):
         raise RequestError(f"{path}: damaged: not complete JSON") from None
     if not isinstance(record, dict) or record.get("format") != FORMAT:
@@ -79,10 +81,9 @@ def read(path: Path, scene: str | None = None, running: Path | None = None) -> t
         source = scene if scene is not None else _allowed(str(body["scene"]), path, running)
         session = Session(source, body["changes"])
         recorded = load(source, body["parameters"])
-        shot = Shot(recorded, run_of(recorded, body["run"]), session.changes, recorded=True)
+        return Shot(recorded, run_of(recorded, body["run"]), session.changes, recorded=True)
     except (AttributeError, KeyError, IndexError, TypeError, ValueError, OverflowError) as error:
         raise RequestError(f"{path}: damaged: {type(error).__name__} {error}") from None
-    return session, shot
 
 
 def _allowed(source: str, path: Path, running: Path | None) -> str:
@@ -96,7 +97,7 @@ def _allowed(source: str, path: Path, running: Path | None) -> str:
     return source
 
 
-def compared(recorded: Run, again: Run) -> str:
+def compared(recorded: SceneRun, again: SceneRun) -> str:
     """In words, how far apart a recorded run and the same shot, simulated again, are."""
     if again.arcs.keys() != recorded.arcs.keys():
         return "simulated again: different balls"
@@ -111,7 +112,7 @@ def compared(recorded: Run, again: Run) -> str:
 # The run
 
 
-def data_of(run: Run) -> dict[str, Any]:
+def data_of(run: SceneRun) -> dict[str, Any]:
     """A run without its setup, which the scene builds again; surfaces are given by their indices in it."""
     places = {id(surface): place for place, surface in enumerate(run.setup.surfaces)}
     return {
@@ -125,7 +126,7 @@ def data_of(run: Run) -> dict[str, Any]:
     }
 
 
-def run_of(scene: Scene, record: dict[str, Any]) -> Run:
+def run_of(scene: Scene, record: dict[str, Any]) -> SceneRun:
     """The run of a scene. Raises KeyError, TypeError, ValueError or IndexError if the record is not one of it."""
     setup = scene.build()
     balls = {ball.name: ball for ball in setup.balls}
@@ -137,7 +138,7 @@ def run_of(scene: Scene, record: dict[str, Any]) -> Run:
         raise ValueError("no path lasts as long as the run")
     if not all(_is_number(number) for event in events for number in (event.t, event.speed, event.x, event.y)):
         raise ValueError("an event contains something that is not a number")
-    return Run(
+    return SceneRun(
         setup,
         Accuracy(**record["accuracy"]),
         arcs,
@@ -145,22 +146,23 @@ def run_of(scene: Scene, record: dict[str, Any]) -> Run:
         Numerics(**record["numerics"]),
         record["duration"],
         record["ended"],
-        record["result"],
         scene,
+        record["result"],
     )
 
 
-#: How a ball touches others along an arc, by name.
-_WITH_BALLS: dict[str, type[Heaped | Pressing]] = {kind.__name__: kind for kind in (Heaped, Pressing)}
+#: How a ball touches others along an arc, by its name in a file.
+_WITH_BALLS: dict[str, type[InHeap | InCluster]] = {"Heaped": InHeap, "Pressing": InCluster}
+_NAMES = {kind: name for name, kind in _WITH_BALLS.items()}
 
 
 def _arc_data(arc: Arc, places: dict[int, int]) -> tuple[Any, ...]:
     contact: Any = arc.contact
-    if isinstance(contact, LastingContact):
+    if isinstance(contact, SustainedContact):
         mode, obstacle, touching, direction, spin_rate = contact
         contact = mode, places[id(obstacle.surface)], tuple(touching), direction, spin_rate
     elif contact is not None:
-        contact = type(contact).__name__, *contact
+        contact = _NAMES[type(contact)], *contact
     return arc.t0, arc.t1, arc.start, arc.curves, contact, arc.end
 
 
@@ -177,7 +179,7 @@ def _arc(item: Any, setup: Setup, ball: Ball) -> Arc:
     elif contact is not None:
         mode, place, (gap, nx, ny, curvature, center, feature), direction, spin_rate = contact
         touching = Touching(gap, nx, ny, curvature, tuple(center), feature)
-        kind = OnePoint if ball.turns else LastingContact
+        kind = BodyPointContact if ball.rotates else SustainedContact
         contact = kind(mode, Obstacle(setup.surfaces[place], ball.radius), touching, direction, spin_rate)
     last = None if end is None else tuple(end)
     return Arc(t0, t1, tuple(start), tuple(map(tuple, curves)), contact, last)

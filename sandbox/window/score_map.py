@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from time import perf_counter
 from typing import NamedTuple
 
@@ -16,6 +17,7 @@ from sandbox.scene import Scene
 from sandbox.sport.controls import Spread
 from sandbox.window.canvas import Canvas
 from sandbox.window.fan import ANGLE, SPEED, within
+from sandbox.window.layout import Form
 
 CARD = palette("card")
 
@@ -26,6 +28,8 @@ REACH = 15.0
 COARSE, FINER, QUICK = (13, 9), 3, 0.5
 #: Size of the map's cells together, in px on 720 rows.
 MAP = (210, 150)
+#: What is said of a map on which nothing scores: where to look.
+NOTHING = "none scores; / looks farther"
 #: A cell's value.
 MISSED, SCORED, FAILED = 0, 1, 2
 
@@ -40,12 +44,12 @@ class ScoreMap(NamedTuple):
     seconds: float  # that it took
 
     def holds(self, speed: float, angle: float) -> bool:
-        """Whether an aim lies on the map."""
+        """True if an aim lies on the map."""
         across, up = self.place(speed, angle)
         return 0 <= across <= 1 and 0 <= up <= 1
 
     def place(self, speed: float, angle: float) -> tuple[float, float]:
-        """Where an aim lies, as shares of both sides."""
+        """The place of an aim, as shares of both sides."""
         (slow, fast), (low, high) = self.speeds, self.angles
         return (speed - slow) / (fast - slow), (angle - low) / (high - low)
 
@@ -56,8 +60,13 @@ class ScoreMap(NamedTuple):
 
     @property
     def share(self) -> float:
-        """Of the cells that score."""
+        """The share of the cells that score."""
         return float((self.cells == SCORED).mean())
+
+    @property
+    def said(self) -> str:
+        """The share for people; where nothing scores, what to do."""
+        return f"{100 * self.share:.0f} % of these score" if self.share else NOTHING
 
 
 def score_map(scene: Scene, finer: int = 1) -> ScoreMap:
@@ -66,9 +75,9 @@ def score_map(scene: Scene, finer: int = 1) -> ScoreMap:
     spread = {item.key: item for item in controls.spread}
     keys, started = [controls.speed, controls.angle], perf_counter()
     if not controls.scores or any(not isinstance(getattr(known.get(key), "value", None), float) for key in keys):
-        raise RequestError("no map: this scene says of no shot that it scores")
+        raise RequestError("no map: this scene defines no scoring")
     if any(known[key].value != value for key, value in controls.also.items()):
-        raise RequestError("no map: this shot does not begin as a player's does")
+        raise RequestError("no map: this shot does not start from the player's controls")
     usual = Spread(controls.speed, SPEED), Spread(controls.angle, least=ANGLE)
     ends, middles = [], []
     for key, other, count in zip(keys, usual, COARSE, strict=True):
@@ -87,34 +96,49 @@ def score_map(scene: Scene, finer: int = 1) -> ScoreMap:
     return ScoreMap(ends[0], ends[1], units, np.array(cells, np.uint8).reshape(shape), perf_counter() - started)
 
 
-def draw_map(sheet: Canvas, found: ScoreMap, aim: tuple[float, float]) -> pygame.Rect:
-    """The map on a card down the right side, with a ring at the aim; returns where its cells are."""
+def map_forms(
+    sheet: Canvas, found: ScoreMap, aim: tuple[float, float], drawn: Callable[[pygame.Rect], object]
+) -> list[Form]:
+    """The map on a card with a ring at the aim, smaller ones, and at last the share that scores alone; ``drawn`` is
+    told where the cells are."""
+    maps = [_map_form(sheet, found, aim, drawn, share) for share in (1.0, 0.75, 0.55)]
+    return [*maps, sheet.text([(found.said, CARD["text"])])._replace(whole=False)]
+
+
+def _map_form(
+    sheet: Canvas, found: ScoreMap, aim: tuple[float, float], drawn: Callable[[pygame.Rect], object], share: float
+) -> Form:
     letters, gap, unit = sheet.lettering, sheet.gap, sheet.unit
-    row, (wide, tall) = letters.height("small"), (round(length * unit) for length in MAP)
+    row, (wide, tall) = letters.height("small"), (round(share * length * unit) for length in MAP)
     (slow, fast), (low, high) = found.speeds, found.angles
+    below = f"{slow:.3g}  {found.units[0]}  {fast:.3g}"
+    wide = max(wide, letters.width(below, "small"))
     up = max(letters.width(f"{angle:.3g}", "small") for angle in (low, high))
-    card = sheet.stacked((wide + up + 6 * gap, tall + 2 * row + 4 * gap))
-    sheet.painter.panel(card, CARD["background"], 0.9, 8 * unit)
-    cells = pygame.Rect(card.right - 2 * gap - wide, card.top + row + 2 * gap, wide, tall)
-    colours = np.array([mix(CARD["background"], CARD["quiet"], 0.3), CARD["good"], CARD["bad"]], np.uint8)
-    image = pygame.surfarray.make_surface(colours[found.cells[:, ::-1]])
-    sheet.surface.blit(pygame.transform.scale(image, cells.size), cells)
-    across, along = found.place(*aim)
-    if 0 <= across <= 1 and 0 <= along <= 1:
-        at = cells.left + across * wide, cells.bottom - along * tall
-        for radius, colour in ((6.5, CARD["background"]), (5.0, CARD["accent"])):
-            sheet.painter.ring(at, radius * unit, 2.5 * unit, colour)
+    whole = max(wide + up + 2 * gap, letters.width(found.said, "small")) + 4 * gap
 
     def write(text: str, at: tuple[float, float], anchor: str, colour: Colour = CARD["quiet"]) -> None:
         letters.write(sheet.surface, text, "small", at, colour, anchor)
 
-    write(f"{100 * found.share:.0f} % of these score", (cells.left, card.top + gap), "topleft", CARD["text"])
-    speed, angle = found.units
-    foot = cells.bottom + gap // 2
-    write(f"{slow:.3g}", (cells.left, foot), "topleft")
-    write(speed, (cells.centerx, foot), "midtop")
-    write(f"{fast:.3g}", (cells.right, foot), "topright")
-    write(f"{high:.3g}", (cells.left - gap, cells.top), "topright")
-    write(angle, (cells.left - gap, cells.centery), "midright")
-    write(f"{low:.3g}", (cells.left - gap, cells.bottom), "bottomright")
-    return cells
+    def draw(card: pygame.Rect) -> None:
+        sheet.painter.panel(card, CARD["background"], 0.9, 8 * unit)
+        cells = pygame.Rect(card.right - 2 * gap - wide, card.top + row + 2 * gap, wide, tall)
+        colours = np.array([mix(CARD["background"], CARD["quiet"], 0.3), CARD["good"], CARD["bad"]], np.uint8)
+        image = pygame.surfarray.make_surface(colours[found.cells[:, ::-1]])
+        sheet.surface.blit(pygame.transform.scale(image, cells.size), cells)
+        across, along = found.place(*aim)
+        if 0 <= across <= 1 and 0 <= along <= 1:
+            at = cells.left + across * wide, cells.bottom - along * tall
+            for radius, colour in ((6.5, CARD["background"]), (5.0, CARD["accent"])):
+                sheet.painter.ring(at, radius * unit, 2.5 * unit, colour)
+        write(found.said, (card.left + 2 * gap, card.top + gap), "topleft", CARD["text"])
+        speed, angle = found.units
+        foot = cells.bottom + gap // 2
+        write(f"{slow:.3g}", (cells.left, foot), "topleft")
+        write(speed, (cells.centerx, foot), "midtop")
+        write(f"{fast:.3g}", (cells.right, foot), "topright")
+        write(f"{high:.3g}", (cells.left - gap, cells.top), "topright")
+        write(angle, (cells.left - gap, cells.centery), "midright")
+        write(f"{low:.3g}", (cells.left - gap, cells.bottom), "bottomright")
+        drawn(cells)
+
+    return Form((whole, tall + 2 * row + 4 * gap), draw)

@@ -11,9 +11,9 @@ from sandbox.scene import Scene, load
 from sandbox.scene.modules import read_again
 from sandbox.sport.controls import Controls
 from sandbox.text import command_line
-from sandbox.window.background import Once
+from sandbox.window.background import KeyedCache
 from sandbox.window.history import Changes
-from sandbox.window.shots import Shot, place_of
+from sandbox.window.shots import Shot, scene_without_controls
 
 #: Files are checked so often, in s.
 EVERY = 0.2
@@ -53,14 +53,14 @@ class Session:
     """One scene file with changes. Raises SandboxError for an invalid scene or change."""
 
     def __init__(self, source: str, changes: Mapping[str, Any] | None = None) -> None:
-        self._once = Once()
+        self._once = KeyedCache()
         self.open(source, changes)
+        self.scene.build()  # reports values that are invalid together
 
     def open(self, source: str, changes: Mapping[str, Any] | None = None) -> None:
         """Switch to another scene; if that is invalid, keep this one."""
         base = load(source)
         scene = base.changed(changes, "--set") if changes else base
-        scene.build()  # reports values that are invalid together
         self.base, self.scene = base, scene
         self.changes = Changes(source, dict(changes or {}))
         self.watch = Watch(self.files)
@@ -117,8 +117,8 @@ class Session:
 
     @property
     def place(self) -> tuple[Any, ...]:
-        """What the scene is apart from what a player aims with."""
-        place: tuple[Any, ...] = self._once("place", (self.scene,), lambda: place_of(self.scene))
+        """The scene without the parameters that a player aims with."""
+        place: tuple[Any, ...] = self._once("place", (self.scene,), lambda: scene_without_controls(self.scene))
         return place
 
     # Changing
@@ -177,12 +177,10 @@ class Session:
             return
         before, self.base = self.base, base
         try:
-            scene = self.with_changes(self.changes.values)
-            scene.build()
+            self.scene = self.with_changes(self.changes.values)
         except BaseException:
             self.base = before
             raise
-        self.scene = scene
 
     def command(self) -> str:
         """The command line that runs this."""

@@ -13,16 +13,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from sandbox.files import written_whole
+from sandbox.files import atomic_write
 from sandbox.parameters import value_at
 from sandbox.physics.forces import Gravity
-from sandbox.picture.path import moves, points
+from sandbox.picture.path import moves, points, slow_motion
 from sandbox.scene import Scene
 from sandbox.sport.amounts import amount
 from sandbox.window.history import Changes
 
 if TYPE_CHECKING:
-    from sandbox.engine.run import Run
+    from sandbox.scene.scene_run import SceneRun
 
 #: So many paths are kept, apart from those that are pinned; and so many shots without their paths.
 PATHS, MOST = 20, 5000
@@ -30,6 +30,8 @@ PATHS, MOST = 20, 5000
 Z = 1.96
 #: How fast a shot is watched.
 RATES = (1 / 16, 1 / 8, 1 / 4, 1 / 2, 1.0, 2.0, 4.0, 8.0)
+#: So many earlier shots are drawn, apart from those that are pinned.
+SHOWN = 5
 STEP = 1 / 60  # s of the shot, for one step by hand
 #: Longest time in s that one frame moves the clock at rate 1: a late frame slows the shot down instead of skipping.
 LONGEST_FRAME = 1 / 30
@@ -47,7 +49,7 @@ def without(scene: Scene, keys: Iterable[str]) -> tuple[Any, ...]:
     return scene.folder, type(scene.parameters), values
 
 
-def place_of(scene: Scene) -> tuple[Any, ...]:
+def scene_without_controls(scene: Scene) -> tuple[Any, ...]:
     """A scene without what a player aims with: speed, angle, spins, and how the shot begins."""
     controls = scene.controls
     return without(scene, {controls.speed, controls.angle, *controls.also, *(spin.key for spin in controls.spins)})
@@ -58,7 +60,7 @@ class Shot:
     """A scene and its run."""
 
     scene: Scene
-    run: Run
+    run: SceneRun
     changes: Changes = Changes("", {})
     number: int = 0  # from 1 in the order of shooting; 0 while aiming
     recorded: bool = False  # read from a replay
@@ -71,10 +73,10 @@ class Shot:
     @cached_property
     def place(self) -> tuple[Any, ...]:
         """The scene without the parameters that a player aims with."""
-        return place_of(self.scene)
+        return scene_without_controls(self.scene)
 
     @cached_property
-    def unaimed(self) -> tuple[Any, ...]:
+    def scene_without_aim(self) -> tuple[Any, ...]:
         """The scene without the speed and the angle of the shot."""
         return without(self.scene, (self.scene.controls.speed, self.scene.controls.angle))
 
@@ -107,7 +109,7 @@ class Shot:
 
     @cached_property
     def upright(self) -> bool:
-        """Whether y is height: seen from above, gravity does not act in the plane."""
+        """True if y is height: seen from above, gravity does not act in the plane."""
         return any(isinstance(force, Gravity) for ball in self.run.setup.balls for force in ball.forces)
 
     @cached_property
@@ -133,7 +135,7 @@ class Shot:
 
     @cached_property
     def verdict(self) -> str:
-        """What happened, in a sentence."""
+        """The outcome, in a sentence."""
         return self.scene.verdict(self.run)
 
     @property
@@ -146,8 +148,10 @@ class Shot:
 class Playback:
     """The current time in a shot."""
 
-    def __init__(self, shot: Shot, rate: float) -> None:
-        self.shot, self.duration, self.rate = shot, shot.run.duration, rate
+    def __init__(self, shot: Shot, rate: float | None = None) -> None:
+        """``rate`` is the player's; without one a shot that is over too soon to be seen starts in slow motion."""
+        self.shot, self.duration, self.chosen = shot, shot.run.duration, rate
+        self.rate = rate if rate is not None else 1.0 / slow_motion(shot.run, shot.ball)
         self.t, self.playing = 0.0, True
 
     @property
@@ -179,7 +183,12 @@ class Playback:
 
     def change_rate(self, by: int) -> None:
         index = RATES.index(self.rate) + by
-        self.rate = RATES[min(max(index, 0), len(RATES) - 1)]
+        self.rate = self.chosen = RATES[min(max(index, 0), len(RATES) - 1)]
+
+    @property
+    def slowed(self) -> bool:
+        """True if it is in slow motion that the player has not chosen."""
+        return self.chosen is None and self.rate < 1.0
 
 
 class Played:
@@ -195,7 +204,7 @@ class Played:
 
     @cached_property
     def numbers(self) -> dict[str, float]:
-        """What can be compared: speed and angle, then the facts that are numbers, by their keys."""
+        """The numbers that can be compared: speed and angle, then the facts that are numbers, by their keys."""
         controls, found = self.scene.controls, {}
         for key, fact in self.scene.facts.items():
             value = self.result.get(key)
@@ -231,8 +240,14 @@ class Shots:
         """The shots whose paths are kept."""
         return [row.shot for row in self.rows if row.shot is not None]
 
+    def earlier(self, start: tuple[Any, ...], but: Shot | None = None) -> list[Shot]:
+        """The last shots of a scene file that began from the same place, and those that are pinned."""
+        alike = [shot for shot in self.paths if shot.start[:2] == start[:2] and shot is not but]
+        pinned = [shot for shot in alike if self.pinned(shot)]
+        return pinned + [shot for shot in alike if shot.start == start and shot not in pinned][-SHOWN:]
+
     def pinned(self, shot: Shot) -> bool:
-        """Whether the path of a shot stays."""
+        """True if the path of a shot stays."""
         return any(row.pinned for row in self.rows if row.number == shot.number)
 
     def pin(self, row: Played) -> None:
@@ -242,7 +257,7 @@ class Shots:
 
 
 def interval(scored: int, n: int) -> tuple[float, float]:
-    """Where the true share of shots of which so many of n scored lies with 95 %: lower and upper end (Wilson 1927)."""
+    """The 95 % interval of the true share of shots, of n of which so many scored: lower and upper end (Wilson 1927)."""
     p = scored / n
     middle, half = p + Z**2 / (2 * n), Z * sqrt(p * (1 - p) / n + Z**2 / (4 * n**2))
     low, high = ((middle + sign * half) / (1 + Z**2 / n) for sign in (-1, 1))
@@ -253,7 +268,7 @@ def write_csv(rows: Sequence[Played], path: Path) -> None:
     """A row for each shot: what was changed in its scene file, speed and angle, and its results."""
     changed = list(dict.fromkeys(key for row in rows for key in row.changes.values))
     numbers = list(dict.fromkeys(key for row in rows for key in row.numbers if key not in changed))
-    with written_whole(path) as file:
+    with atomic_write(path) as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["shot", "scene", *changed, *numbers, "scored", "verdict"])
         for row in rows:

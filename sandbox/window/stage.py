@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import dist
+from typing import Any
 
 import numpy as np
 import pygame
@@ -13,12 +14,17 @@ from sandbox.picture.painter import Painter, blank
 from sandbox.picture.palette import Colour, mix, palette
 from sandbox.picture.path import simplify
 from sandbox.picture.sheet import Sheet
-from sandbox.window.background import Once
+from sandbox.picture.view import View as Picture
+from sandbox.window.background import KeyedCache
 from sandbox.window.canvas import Canvas
+from sandbox.window.layout import Form, Layout
 from sandbox.window.shots import Shot
 
 CARD, TRACE = palette("card"), palette("trace")
+WHITE, BLACK = (255, 255, 255), (0, 0, 0)
 
+#: The parts of a picture that are the same for all shots from one place, and take long to make.
+GROUND = ("place", "plan")
 #: A path closer than this to an edge of the stage, as a share of its size, makes it be composed anew.
 EDGE = 0.02
 #: Where a line bends by more than this, in rad, it has a round joint.
@@ -34,6 +40,10 @@ NEARER = 1.35
 #: Opacity of earlier shots (of 255), how much lighter a label is than its line, and how many places
 #: on its line are tried for a label.
 EARLIER, LIGHTER, PLACES = 215, 0.45, 9
+#: Towards which colour, and how far, those of the earlier shots are mixed once all of them are taken.
+SHADES = ((WHITE, 0.0), (WHITE, 0.5), (BLACK, 0.4), (WHITE, 0.75))
+#: So many squares along a path are left free where there is room.
+SQUARES = 50
 #: What a headline leaves free for the wind at the right, in px on 720 rows.
 WIND = 100
 #: Contacts closer together than this, in px, are marked once; and the largest number of marks.
@@ -51,6 +61,7 @@ class Stage:
         """
         self.shot, self.size, self.chosen = shot, size, chosen
         self.picture = shot.run.scene.picture(shot.run, size)
+        vars(self.picture)["story_end"] = self.story = story_of(shot, self.picture.story_end)
         self.whole = self.picture.camera
         vars(self.picture)["camera"] = chosen or self._camera_of(before) or self.whole
         self.camera = self.picture.camera
@@ -58,11 +69,10 @@ class Stage:
         sheet = Sheet(size, self.picture.on_dark, self.backdrop)
         self.picture.measure(sheet, self.camera)
         self.notes = self.picture.notes(self.camera)  # what is not drawn to scale
-        self.foot_of_wind = 0  # px
         along, up = self.picture.wind
-        if along or up:
-            self.foot_of_wind = sheet.wind(along, up, sheet.frame.right, sheet.frame.top).bottom + sheet.gap
-        self._once = Once()
+        wind = [sheet.wind(along, up, sheet.frame.right, sheet.frame.top)] if along or up else []
+        self.texts = [*wind, *(rect for _, rect in sheet.written)]  # of the place, in px
+        self._once = KeyedCache()
 
     def _camera_of(self, before: Stage | None) -> Camera | None:
         """The camera so far, if it shows the same place and all of the shot, large enough."""
@@ -74,31 +84,27 @@ class Stage:
         return before.camera if near and before.holds(self.shot) else None
 
     def shows(self, shot: Shot, chosen: Camera | None) -> bool:
-        """Whether it was composed for this shot and this choice of camera."""
+        """True if it was composed for this shot and this choice of camera."""
         return self.shot.run is shot.run and self.chosen == chosen
 
     def is_place_of(self, shot: Shot) -> bool:
-        """Whether a shot differs from the composed one only in what a player aims with."""
+        """True if a shot differs from the composed one only in what a player aims with."""
         return self.shot.place == shot.place
 
     def holds(self, shot: Shot) -> bool:
-        """Whether the path of another shot stays in sight."""
+        """True if the path of another shot stays in sight."""
         shares = self.camera.pixels(shot.track(shot.ball)[:, 1:]) / self.size
         return shot.run is self.shot.run or bool((shares >= EDGE).all() and (shares <= 1 - EDGE).all())
 
     def ball_at(self, shot: Shot, t: float = 0.0) -> tuple[float, float]:
-        """Where the ball that is played is, in px."""
+        """The place of the ball that is played, in px."""
         return self.camera.pixel(*shot.run.state(shot.ball, t)[:2])
 
-    def draw_ghosts(self, sheet: Canvas, ghosts: Sequence[Shot], around: Shot | None) -> None:
-        """Earlier shots; with their numbers and results around the path of ``around``, if given."""
+    def draw_ghosts(self, sheet: Canvas, ghosts: Sequence[Shot]) -> None:
+        """The paths of earlier shots."""
         shown = tuple(ghosts)
-        if not shown:
-            return
-        sheet.surface.blit(self._once("ghosts", shown, lambda: self._ghost_lines(shown)), (0, 0))
-        if around is not None:
-            labels = self._once("labels", (shown, around), lambda: self._ghost_labels(sheet, shown, around))
-            sheet.surface.blit(labels, (0, 0))
+        if shown:
+            sheet.surface.blit(self._once("ghosts", shown, lambda: self._ghost_lines(shown)), (0, 0))
 
     def _ghost_lines(self, shown: Sequence[Shot]) -> pygame.Surface:
         layer = blank(self.size, transparent=True)
@@ -109,11 +115,20 @@ class Stage:
         layer.set_alpha(EARLIER)
         return layer
 
-    def _ghost_labels(self, sheet: Canvas, shown: Sequence[Shot], around: Shot) -> pygame.Surface:
-        """Number and result of each earlier shot, where on its path there is room."""
+    def label_ghosts(self, sheet: Canvas, ghosts: Sequence[Shot], around: Shot, layout: Layout) -> None:
+        """Number and result of each earlier shot, where on its path there is room around the path of a shot."""
+        off = tuple(tuple(rect) for rect in layout.taken)
+        shown = tuple(ghosts)
+        found: Sheet = self._once(
+            "labels", (shown, around, off), lambda: self._ghost_labels(sheet, shown, around, layout)
+        )
+        sheet.surface.blit(found.surface, (0, 0))
+        layout.placed |= {f"earlier {number}": rect for number, (_, rect) in enumerate(found.written)}
+
+    def _ghost_labels(self, sheet: Canvas, shown: Sequence[Shot], around: Shot, layout: Layout) -> Sheet:
         labels = Sheet(self.size, surface=blank(self.size, transparent=True))
-        labels.labels.frame.height = sheet.card_row() - sheet.gap - sheet.frame.top
-        labels.labels.take(pygame.Rect(sheet.frame.topleft, (round(0.66 * sheet.size[0]), sheet.top_row)))
+        labels.labels.frame = layout.room.copy()
+        labels.labels.taken += layout.taken
         labels.labels.take_path(self.line(around).tolist(), 5 * sheet.unit)
         for shot in shown:
             name = str(shot.number) if shot.number else "before saving"
@@ -123,12 +138,32 @@ class Stage:
             beyond = ((1.0, -1.0), (-1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
             spots = [(x + 9 * a, y + 9 * d, a, d) for x, y in places.tolist() for a, d in beyond]
             labels.chip(text, spots, mix(self.colour_of(shot.number), CARD["text"], LIGHTER))
-        return labels.surface
+        return labels
+
+    def kept_clear(self, shot: Shot, t: float) -> list[pygame.Rect]:
+        """What nothing may cover at time t in s: balls, what is aimed at, and the texts of the place."""
+        return [*self.clear_of(shot, t), *self.texts]
+
+    def clear_of(self, shot: Shot, t: float) -> list[pygame.Rect]:
+        """The balls at time t in s, and what is aimed at, as far as they are seen."""
+        whole = pygame.Rect((0, 0), self.size)
+        return [rect for rect in self._picture_of(shot).kept_clear(self.camera, t) if rect.colliderect(whole)]
+
+    def along(self, shot: Shot) -> list[pygame.Rect]:
+        """Squares along the path of a shot, in px: cards leave it free where they can."""
+        line = self.line(shot)
+        far = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))])
+        every = np.linspace(0.0, far[-1], SQUARES)
+        points = np.column_stack([np.interp(every, far, axis) for axis in line.T])
+        return [pygame.Rect(round(x) - 6, round(y) - 6, 12, 12) for x, y in points.tolist()]
 
     def colour_of(self, number: int) -> Colour:
-        """The colour of an earlier shot, which stays the same."""
-        colours = self.picture.EARLIER
-        return colours[(number - 1) % len(colours)]
+        """The colour of an earlier shot, which stays the same; those whose paths are kept differ."""
+        own, usual = self.picture.EARLIER, [each for each in TRACE["colours"] if each != self.picture.TRACE]
+        colours = list(dict.fromkeys([*own, *usual]))
+        round_, place = divmod(number - 1, len(colours))
+        towards, share = SHADES[round_ % len(SHADES)]
+        return mix(colours[place], towards, share)
 
     def draw_path(self, sheet: Canvas, shot: Shot, until: float | None = None) -> None:
         """The path of every ball that moves, that of the played one last and strongest, and where they touch."""
@@ -141,10 +176,22 @@ class Stage:
         draw_line(sheet.surface, line, width, colour_of(shot.ball))
         self._contacts(sheet, shot, until)
 
-    def draw_balls(self, sheet: Canvas, t: float, until: float | None = None) -> None:
-        """The balls of the composed shot at time t in s; in a lens their paths until a time in s, or all of them."""
-        ahead = self.picture.run.duration if until is None else until
-        self.picture.draw_balls(sheet.painter, self.camera, t, ahead)
+    def draw_balls(self, sheet: Canvas, shot: Shot, t: float, until: float | None = None) -> None:
+        """The balls of a shot at time t in s; in a lens their paths until a time in s, or all of them."""
+        ahead = shot.run.duration if until is None else until
+        self._picture_of(shot).draw_balls(sheet.painter, self.camera, t, ahead)
+
+    def _picture_of(self, shot: Shot) -> Picture[Any]:
+        """The picture of a shot from the same place, as this stage's camera shows it and on the same ground."""
+        if shot.run is self.shot.run:
+            return self.picture
+        picture: Picture[Any] = self._once("picture", shot, lambda: shot.run.scene.picture(shot.run, self.size))
+        composed = {
+            "camera": self.camera,
+            **{name: vars(self.picture)[name] for name in GROUND if name in vars(self.picture)},
+        }
+        vars(picture).update(composed)
+        return picture
 
     def line(self, shot: Shot, ball: str = "", until: float | None = None) -> np.ndarray:
         """Points in px of the path of a ball, by default the played one, shape (n, 2); up to the time ``until`` (s)."""
@@ -170,6 +217,13 @@ class Stage:
         for at in marked[:MOST_CONTACTS]:
             sheet.painter.disc(at, 5.0 * sheet.unit, TRACE["rim"], 0.7)
             sheet.painter.disc(at, 3.6 * sheet.unit, CARD["accent"])
+
+
+def story_of(shot: Shot, told: float) -> float:
+    """When in s a shot's story ends in the window, which goes on after the verdict is in, at the time ``told``: with
+    the next impact of the ball that is played."""
+    impacts = (e.t for e in shot.run.events if e.kind == "impact" and e.ball == shot.ball and e.t > told)
+    return min(impacts, default=shot.run.duration)
 
 
 def draw_line(surface: pygame.Surface, points: np.ndarray, width: float, colour: Colour) -> None:
@@ -199,20 +253,32 @@ def draw_line(surface: pygame.Surface, points: np.ndarray, width: float, colour:
             pygame.draw.aaline(surface, colour, a, b)
 
 
-def headline(sheet: Canvas, text: str, notes: Sequence[str], colour: Colour) -> pygame.Rect:
-    """What happens, large on a dark card at the top left, and a line below it with as many notes as there is room for;
-    returns where it is."""
+def headline(sheet: Canvas, text: str, notes: Sequence[str], colour: Colour) -> list[Form]:
+    """What happens, large on a dark card, and a line below it with as many notes as there is room for; then smaller,
+    and with fewer notes."""
+    room = sheet.frame.width - 4 * sheet.gap - WIND * sheet.unit
+    rooms = [("large", 0.66 * sheet.size[0]), ("medium", room), ("small", room), ("small", 0.5 * room)]
+    width = sheet.lettering.width
+    forms = [_headline(sheet, text, notes, colour, size, room) for size, most in rooms
+             if width(text, size, bold=True) <= most]  # fmt: skip
+    last = [_headline(sheet, text, some, colour, "small", share * room) for share in (1.0, 0.6, 0.4)
+            for some in (notes[:1], ())]  # fmt: skip
+    return [*forms, *(form._replace(whole=False) for form in last)]
+
+
+def _headline(sheet: Canvas, text: str, notes: Sequence[str], colour: Colour, size: str, room: float) -> Form:
+    """A headline of one size with as many notes as there is room for, in px."""
     letters, inset = sheet.lettering, 2 * sheet.gap
-    room = sheet.frame.width - 2 * inset - WIND * sheet.unit
-    rooms = {"large": round(0.66 * sheet.size[0]), "medium": room}
-    size = next((size for size in rooms if letters.width(text, size, bold=True) <= rooms[size]), "small")
     text = letters.cut(text, size, room, bold=True)
     lines = ["   ·   ".join(notes[:count]) for count in range(len(notes), 0, -1)]
-    note = next((line for line in lines if letters.width(line, "small") <= room), letters.cut(lines[-1], "small", room))
+    cut = letters.cut(lines[-1], "small", room) if lines else ""
+    note = next((line for line in lines if letters.width(line, "small") <= room), cut)
     width = max(letters.width(text, size, bold=True), letters.width(note, "small"))
-    height = letters.height(size) + letters.height("small") + sheet.gap
-    rect = pygame.Rect(sheet.frame.left, sheet.frame.top, width + 2 * inset, height + inset)
-    sheet.painter.panel(rect, CARD["background"], CARD["opacity"], 10 * sheet.unit)
-    at = sheet.write(text, size, (rect.left + inset, rect.top + sheet.gap), colour, bold=True)
-    sheet.write(note, "small", (at.left, at.bottom + sheet.gap), CARD["quiet"])
-    return rect
+    height = letters.height(size) + (letters.height("small") + sheet.gap) * bool(note)
+
+    def draw(rect: pygame.Rect) -> None:
+        sheet.painter.panel(rect, CARD["background"], CARD["opacity"], 10 * sheet.unit)
+        at = sheet.write(text, size, (rect.left + inset, rect.top + sheet.gap), colour, bold=True)
+        sheet.write(note, "small", (at.left, at.bottom + sheet.gap), CARD["quiet"])
+
+    return Form((width + 2 * inset, height + inset), draw)

@@ -9,6 +9,7 @@ import pygame
 
 from sandbox.picture.palette import Colour, palette
 from sandbox.sport.amounts import amount
+from sandbox.window.canvas import Canvas
 from sandbox.window.overlay import HOVERED, Overlay
 from sandbox.window.shots import Played, interval
 
@@ -21,6 +22,7 @@ ACTIONS = {
     "delete": (pygame.K_DELETE, "Del  delete"),
     "csv": (pygame.K_c, "C  CSV file"),
 }
+FEWEST = 3  # rows that are seen
 #: Share of the picture that it takes at most; width of a column, and height of the histogram, in px on 720 rows.
 SHARE, COLUMN, TALL = (0.92, 0.86), 104, 74
 BINS = 24
@@ -84,13 +86,22 @@ class Table(Overlay):
 
     # Drawing
 
+    def place(self, sheet: Canvas) -> pygame.Rect:
+        """In the middle, or with fewer rows seen where balls and what is aimed at stay in sight."""
+        row = sheet.lettering.height("small") + sheet.gap
+        wide, most = (round(share * side) for share, side in zip(SHARE, sheet.size, strict=True))
+        rest = sheet.lettering.height("medium") + row + round(TALL * sheet.unit) + 7 * sheet.gap
+        full = min(rest + len(self.rows) * row, most)
+        sizes = [(wide, tall) for tall in range(full, min(full, rest + FEWEST * row) - 1, -row)]
+        rects = [pygame.Rect((0, 0), size) for size in sizes]
+        for rect in rects:
+            rect.center = sheet.surface.get_rect().center
+        return self.off_kept(sheet, rects)
+
     def compose(self) -> None:
         sheet, gap, unit, letters = self.sheet, self.sheet.gap, self.sheet.unit, self.sheet.lettering
         rows, row = self.rows, letters.height("small") + gap
-        wide, most = (round(share * side) for share, side in zip(SHARE, sheet.size, strict=True))
-        tall = letters.height("medium") + (1 + len(rows)) * row + round(TALL * unit) + 7 * gap
-        rect = pygame.Rect(0, 0, wide, min(tall, most))
-        rect.center = sheet.surface.get_rect().center
+        rect = self.place(sheet)
         sheet.board(rect)
         inner = rect.inflate(-4 * gap, -3 * gap)
         title = f"{len(rows)} shots" if len(rows) != 1 else "1 shot"
@@ -169,7 +180,7 @@ class Table(Overlay):
 
     @staticmethod
     def _label(key: str, rows: Sequence[Played]) -> str:
-        """What a column is called."""
+        """The name of a column."""
         fact = rows[0].scene.facts.get(key) if rows else None
         return fact.label if fact is not None else key.rpartition(".")[2].replace("_", " ") or "shot"
 

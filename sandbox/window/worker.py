@@ -1,20 +1,21 @@
-"""What the window's worker process computes: scenes are built and run there, so that drawing never waits for them."""
+"""Work for the window's worker process: scenes are built and run there, so that drawing never waits for them."""
 
 from __future__ import annotations
 
 import pickle
-from contextlib import suppress
-from dataclasses import replace
+from collections.abc import Mapping
+from contextlib import nullcontext, suppress
+from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from sandbox.errors import RunError, SandboxError
 from sandbox.scene import Scene, check, load, simulate
+from sandbox.scene.finding import folder_of
+from sandbox.scene.modules import read_again
+from sandbox.scene.scene_run import SceneRun
 from sandbox.tracebacks import one_line_error
-from sandbox.window.replay import data_of, run_of
-
-if TYPE_CHECKING:
-    from sandbox.engine.run import Run
+from sandbox.window.replay import data_of, read, run_of
 
 #: A run on its way to the window: pickled with its setup, or without, if that has functions that cannot be pickled.
 Packed = bytes | dict[str, Any]
@@ -24,6 +25,27 @@ def warm_up(source: str) -> None:
     """Import the scene; one that is invalid is reported where it is opened."""
     with suppress(Exception):
         load(source)
+
+
+def checked(source: str, changes: Mapping[str, Any], of: Path | None = None, code: bool = False) -> None:
+    """Load a scene with its picture and build it, with the changes if they are ``of`` its folder; with ``code`` from
+    its files as they are now. What never ends, does not end here. Raises SandboxError."""
+    folder = folder_of(source)
+    try:
+        with read_again(folder) if code and folder is not None else nullcontext():
+            scene = load(source)
+            scene = scene.changed(changes, "the window's") if scene.folder == of else scene
+            scene.picture_module()
+            scene.build()
+    except SandboxError:
+        raise
+    except Exception as error:
+        raise RunError(one_line_error(error)) from None
+
+
+def checked_replay(path: Path, scene: str | None, running: Path) -> None:
+    """Read a replay as the window will. Raises SandboxError."""
+    read(path, scene, running)
 
 
 def computed(scene: Scene) -> tuple[Packed, float]:
@@ -36,21 +58,23 @@ def computed(scene: Scene) -> tuple[Packed, float]:
     except Exception as error:  # from a scene's own code, maybe of a class that the window's process cannot import
         raise RunError(one_line_error(error)) from None
     took = perf_counter() - started
+    scene.verdict(run)  # its code runs here before it does in the window
     try:
-        return pickle.dumps(replace(run, scene=None)), took
+        return pickle.dumps((run.data, run.result)), took
     except Exception:  # such as a force that is a lambda
         return data_of(run), took
 
 
-def unpacked(scene: Scene, packed: Packed) -> Run:
+def unpacked(scene: Scene, packed: Packed) -> SceneRun:
     """The run of a scene, as the worker sent it."""
-    run: Run = run_of(scene, packed) if isinstance(packed, dict) else pickle.loads(packed)
-    run.scene = scene
-    return run
+    if isinstance(packed, dict):
+        return run_of(scene, packed)
+    run, result = pickle.loads(packed)
+    return SceneRun.of(run, scene, result)
 
 
 def cost_and_errors(scene: Scene) -> str:
-    """What a run of the scene costs, and the errors of its results, in a line."""
+    """The cost of a run of the scene and the errors of its results, in a line."""
     run = simulate(scene)
     checked = check(scene, run)
     units = scene.units

@@ -19,7 +19,7 @@ class Call(Protocol):
         ...
 
     def done(self) -> bool:
-        """Whether ``result`` returns without waiting."""
+        """True if ``result`` returns without waiting."""
         ...
 
 

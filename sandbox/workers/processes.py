@@ -21,6 +21,7 @@ from threading import Lock, Thread
 from typing import Any
 from weakref import WeakSet
 
+from sandbox.errors import RunError, no_forks
 from sandbox.workers.pool import WorkerLost
 
 _CONTEXT = multiprocessing.get_context("spawn")  # no state of this process leaks into the others
@@ -130,11 +131,7 @@ class _Process:
             if self._is_over:
                 raise WorkerLost("no more calls")
             if self._line is None:
-                self._line, other = _CONTEXT.Pipe()
-                self._process = _CONTEXT.Process(target=_serve, args=(other,), daemon=True)
-                with _starting():
-                    self._process.start()
-                other.close()
+                self._process, self._line = _started()
             return self._line
 
     def _end(self) -> int | None:
@@ -146,6 +143,19 @@ class _Process:
             code: int | None = self._process.exitcode
             self._process = self._line = None
             return code
+
+
+def _started() -> tuple[Any, Connection]:
+    """A new process that computes calls, and the line to it. Raises RunError if there is no room for one."""
+    try:
+        line, other = _CONTEXT.Pipe()
+        with other:
+            process = _CONTEXT.Process(target=_serve, args=(other,), daemon=True)
+            with _starting():
+                process.start()
+            return process, line
+    except OSError as error:
+        raise RunError(f"a worker process cannot be started: {(error.strerror or str(error)).lower()}") from None
 
 
 @contextmanager
@@ -175,6 +185,7 @@ def _starting() -> Iterator[None]:
 def _serve(line: Connection) -> None:
     """Compute the calls received, until the connection is closed."""
     _end_with_parent()
+    no_forks()
     gc.set_threshold(100_000)  # as in the program itself
     while True:
         try:

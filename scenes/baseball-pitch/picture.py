@@ -22,6 +22,11 @@ class Picture(SideView[Parameters]):
     LENGTHS, SECOND_UNIT, FROM, ASIDE = 1, "ft", "from the hand", 0.6
 
     @property
+    def aims(self) -> list[Box]:
+        plate = self.parameters.plate
+        return [Box(plate.distance, plate.bottom, plate.distance + DEEP, plate.top)]
+
+    @property
     def target(self) -> Box:
         return Box(-1.2, 0.0, self.parameters.plate.distance + MITT + 0.8, 2.6)
 
@@ -40,6 +45,11 @@ class Picture(SideView[Parameters]):
         batter = Person(front + 0.1, TALL, COLOURS["visitor"], "batting", z=0.9, facing=-1)
         catcher = Person(front + MITT + 0.35, TALL, COLOURS["batter"], "crouching", facing=-1)
         return Place(Landscape(**COLOURS["landscape"]), ground, [batter, *zone, catcher, pitcher])
+
+    def closeups_of(self) -> list[Box]:
+        """The zone, with batter and catcher."""
+        front = self.parameters.plate.distance
+        return [Box(front - 2.6, -0.1, front + MITT + 1.0, TALL + 0.2)]
 
     def lengths(self) -> list[Length]:
         return [Length(f"plate {metres(self.parameters.plate.distance)}", 0.0, self.parameters.plate.distance)]

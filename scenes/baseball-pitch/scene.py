@@ -6,9 +6,11 @@ Leaves out: everything sideways, with sliders; the wake of the seams; bounces be
 
 from __future__ import annotations
 
-from sandbox.engine.run import Event, Run
-from sandbox.engine.setup import Segment, Setup, Surface
+from sandbox.engine.model.setup import Setup
+from sandbox.engine.model.surface import Segment, Surface
+from sandbox.engine.paths.run import Event, Run
 from sandbox.parameters import Group, group, quantity
+from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spin
 from sandbox.sport.facts import ENDED, Fact
@@ -56,7 +58,7 @@ def build(parameters: Parameters) -> Setup:
 
 
 def is_over(event: Event) -> bool:
-    """Whether the pitch is over: caught, or on the ground."""
+    """True if the pitch is over: caught, or on the ground."""
     return event.partner in ("mitt", "ground")
 
 
@@ -64,13 +66,13 @@ at_plate = passing_at(lambda it: it.plate.distance)  # the ball as it passes the
 
 
 def is_strike(run: Run, parameters: Parameters) -> bool:
-    """Whether any part of the ball is in the zone."""
+    """True if any part of the ball is in the zone."""
     passed, plate, radius = at_plate(run, parameters), parameters.plate, parameters.ball.radius
     return passed is not None and plate.bottom - radius <= passed.y <= plate.top + radius
 
 
 def rise(run: Run, parameters: Parameters) -> float | None:
-    """How far in m the ball is over where gravity alone would have it at that time."""
+    """The height in m by which the ball is above its place at that time under gravity alone."""
     passed, start = at_plate(run, parameters), run.setup.balls[0]
     if passed is None:
         return None
@@ -89,8 +91,8 @@ FACTS = (
 )
 
 
-def verdict(run: Run, parameters: Parameters) -> str:
-    """What happened, in a sentence."""
+def verdict(run: SceneRun, parameters: Parameters) -> str:
+    """Return the outcome in a sentence."""
     height, plate = run.result["plate_height"], parameters.plate
     if height is None:
         return "Ball, in the dirt"

@@ -23,10 +23,15 @@ class Picture(SideView[Parameters]):
     LENGTHS, SECOND_UNIT, FROM, LEVEL, ASIDE = 1, "ft", "from the plate", 90, 0.4
 
     @cached_property
-    def told(self) -> float:
+    def story_end(self) -> float:
         """A ball that hits the fence is told until then."""
         passed, gap = passing(self.run, self.parameters.fence.distance), self.run.result["over_fence"]
         return passed.t if passed is not None and gap <= 0.0 else self.run.duration
+
+    @property
+    def aims(self) -> list[Box]:
+        fence = self.parameters.fence
+        return [Box(fence.distance - 0.5, 0.0, fence.distance + 0.5, fence.height)]
 
     @property
     def target(self) -> Box:

@@ -11,10 +11,12 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Literal
 
-from sandbox.engine.run import Run
-from sandbox.engine.setup import SOLID_SPHERE, Setup, Surface, Touches
+from sandbox.engine.model.ball import SOLID_SPHERE
+from sandbox.engine.model.setup import Setup, Touches
+from sandbox.engine.model.surface import Surface
 from sandbox.parameters import Group, choice, group, quantity
 from sandbox.physics.coefficients import BASEBALL_LIFT, Coefficient, NathanDrag
+from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.air import Air, Model, Weather
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spin
@@ -30,8 +32,8 @@ class BaseballDrag(Model):
 
     model: Literal["nathan"] = choice(..., "coefficient by its source")
 
-    def coefficient_in(self, air: Air, radius: float) -> Coefficient:
-        return NathanDrag(air.viscosity / (2.0 * radius**2 * air.density * RPM))
+    def coefficient_in(self, air: Air, ball: Sphere) -> Coefficient:
+        return NathanDrag(air.viscosity / (2.0 * ball.radius**2 * air.density * RPM))
 
 
 class Baseball(Sphere, drag=BaseballDrag, lift=BASEBALL_LIFT):
@@ -90,7 +92,7 @@ def build(parameters: Parameters) -> Setup:
 over_fence = at(passing_at(lambda it: it.fence.distance), lambda ball, it: ball.y - it.ball.radius - it.fence.height)
 
 FACTS = (
-    DISTANCE,
+    replace(DISTANCE, label="projected distance"),  # to the ground, as if there were no fence
     Fact("over_fence", "over the fence", "m", over_fence, settled="ground", also="ft"),
     APEX,
     replace(FLIGHT_TIME, key="hang_time", label="hang time"),
@@ -101,8 +103,8 @@ FACTS = (
 )
 
 
-def verdict(run: Run, parameters: Parameters) -> str:
-    """What happened, in a sentence."""
+def verdict(run: SceneRun, parameters: Parameters) -> str:
+    """Return the outcome in a sentence."""
     distance, gap = run.result["distance"], run.result["over_fence"]
     if distance is None:
         return "Did not come down"

@@ -7,10 +7,7 @@ from math import cos, exp, pi, sin, tau
 
 import numpy as np
 
-from sandbox.engine.run import Run
-from sandbox.picture.palette import mix, palette, scene_colours
-from sandbox.picture.places import Post, Shape, Thing
-from sandbox.picture.views import Eye, Painter
+from sandbox.kit import Eye, Painter, Post, SceneRun, Shape, Thing, mix, palette, scene_colours
 
 from .scene import Parameters, on_floor
 
@@ -26,7 +23,7 @@ SWING, SETTLE, SETTLED = 11.0, 3.0, 5.0
 
 
 def stand(parameters: Parameters) -> list[Thing]:
-    """What carries the board: a mast that leans towards the ring, on a heavy foot."""
+    """The support of the board: a mast that leans towards the ring, on a heavy foot."""
     _, bottom, back, top = parameters.board
     foot, head, height = back + 1.45, back + 0.95, top - bottom
     up = bottom + 0.30 * height
@@ -65,7 +62,7 @@ class HangingNet:
     """The net of one run, at any time of it. It is drawn apart from the physics: it yields to the ball and swings after
     it."""
 
-    def __init__(self, run: Run, parameters: Parameters):
+    def __init__(self, run: SceneRun, parameters: Parameters):
         hoop = parameters.hoop
         self.run, self.wide, self.length = run, hoop.inner_diameter / 2 + hoop.tube_radius, parameters.net.length
         (self.middle, self.top), self.radius = hoop.middle, run.setup.balls[0].radius
@@ -107,7 +104,7 @@ class HangingNet:
         return np.stack([points[:, :-1], points[:, 1:]], axis=2)[seen[:, :-1] | seen[:, 1:]]
 
     def _shape(self, down: np.ndarray, t: float) -> tuple[np.ndarray, np.ndarray]:
-        """How far the net is displaced and how wide it is, in m, at shares ``down`` of its length below the ring."""
+        """The displacement and the width of the net, in m, at shares ``down`` of its length below the ring."""
         wide = self.wide * (1 - (1 - NARROW) * down**0.7)
         if not self._moves(t):
             return 0.0 * down, wide

@@ -9,15 +9,31 @@ from math import cos, radians, sin
 import numpy as np
 import pygame
 
-from sandbox.picture.lettering import Labels
-from sandbox.picture.marks import draw_trace, mark_impacts
-from sandbox.picture.painter import around_corners
-from sandbox.picture.palette import mix, palette, scene_colours
+from sandbox.kit import (
+    Box,
+    Camera,
+    Eye,
+    Hall,
+    Labels,
+    Length,
+    Look,
+    Painter,
+    Person,
+    Place,
+    Sheet,
+    SideView,
+    around_corners,
+    boards,
+    courts,
+    draw_trace,
+    mark_impacts,
+    metres,
+    mix,
+    palette,
+    scene_colours,
+    seams,
+)
 from sandbox.picture.path import Mark
-from sandbox.picture.places import Hall, Person, boards
-from sandbox.picture.places.courts import basketball_key, basketball_lines
-from sandbox.picture.views import Box, Camera, Eye, Length, Look, Painter, Place, Sheet, SideView, seams
-from sandbox.sport.amounts import metres
 
 from . import hoop
 from .scene import Parameters, entry, on_floor
@@ -27,6 +43,8 @@ BALL, FLOOR = COLOURS["ball"], COLOURS["floor"]
 
 #: How far behind the board the stand reaches, and before the release the thrower, in m.
 STAND, THROWER = 2.5, 0.7
+#: A net hangs so far below the ring, in m.
+NET = 0.45
 #: The lens shows so much of the world, in m, on so many px (of 720 rows); its middle lies so far from the ring's, in m.
 SHOWN, SIDE, OFF_MIDDLE = 1.22, 286, (-0.02, 0.08)
 #: There is no lens if the whole would have to be drawn smaller than this for it, or if it were no larger than this.
@@ -43,8 +61,8 @@ class Picture(SideView[Parameters]):
     LEVEL, ASIDE = 128, 0.25
 
     @cached_property
-    def told(self) -> float:
-        """When the ball is on the floor."""
+    def story_end(self) -> float:
+        """The time in s at which the ball is on the floor."""
         return on_floor(self.run)
 
     @property
@@ -54,7 +72,7 @@ class Picture(SideView[Parameters]):
     @cached_property
     def span(self) -> float:
         """Most of the way to the floor, whether the ring is touched or not: balls are as close in all shots."""
-        return 0.8 * self.told
+        return 0.8 * self.story_end
 
     @property
     def moment(self) -> float:
@@ -83,8 +101,8 @@ class Picture(SideView[Parameters]):
     @cached_property
     def place(self) -> Place:
         face = self.parameters.board[0]
-        lines = basketball_lines(face, self.ring[0])
-        ground = boards(FLOOR, areas=[(basketball_key(face), FLOOR["key"])], lines=lines)
+        lines = courts.basketball_lines(face, self.ring[0])
+        ground = boards(FLOOR, areas=[(courts.basketball_key(face), FLOOR["key"])], lines=lines)
         things = [*hoop.stand(self.parameters), *hoop.hoop(self.parameters), *self.thrower]
         return Place(Hall(**COLOURS["hall"]), ground, things)
 
@@ -96,8 +114,15 @@ class Picture(SideView[Parameters]):
         super().before(painter, camera, t)
 
     @property
-    def company(self) -> Box:
+    def must_be_visible(self) -> Box:
         return Box(-THROWER if self.thrower else 0.0, 0.0, 0.0, 0.0)
+
+    @property
+    def aims(self) -> list[Box]:
+        """Ring, net and board."""
+        (x, y), (_, bottom, back, top) = self.ring, self.parameters.board
+        half = 0.5 * self.parameters.hoop.inner_diameter + 2.0 * self.parameters.hoop.tube_radius
+        return [Box(x - half, y - NET, back, y + 0.05), Box(x, bottom, back, top)]
 
     @property
     def target(self) -> Box:
@@ -118,7 +143,7 @@ class Picture(SideView[Parameters]):
 
     @cached_property
     def lens(self) -> pygame.Rect:
-        """Where it is, in px."""
+        """Its rectangle, in px."""
         side, frame = round(SIDE * self.unit), self.sheet.frame
         return pygame.Rect(frame.right - side, frame.top, side, side)
 
@@ -129,7 +154,7 @@ class Picture(SideView[Parameters]):
         return Camera((at[0], at[1]), self.lens.center, self.lens.width / SHOWN)
 
     def _away(self, points: np.ndarray) -> np.ndarray:
-        """How far points are from the ring, as shares of half of what the lens shows."""
+        """The distances of points from the ring, as shares of half of what the lens shows."""
         return np.abs(points - self.ring).max(axis=1) / (SHOWN / 2)
 
     @cached_property

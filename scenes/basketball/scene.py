@@ -20,22 +20,54 @@ from dataclasses import dataclass
 from math import inf
 from typing import Any
 
-from sandbox.engine.run import Event, Run
-from sandbox.engine.setup import Circle, Patch, Segment, Setup, Surface, Vector
-from sandbox.errors import RequestError
-from sandbox.parameters import Group, group, quantity, switch
-from sandbox.physics.elementwise import anywhere, choose, least, smooth
-from sandbox.physics.integrators import State
-from sandbox.sport.amounts import roughly
-from sandbox.sport.controls import Controls, Handle, Spin, Spread
-from sandbox.sport.facts import ENDED, Fact, once
-from sandbox.sport.flight import Flight
-from sandbox.sport.readings import LAUNCH, Moment, Passes, apex, at, down_to
-from sandbox.sport.solids import Extent, Solid, below, check_apart, disc, level, rectangle
+from sandbox.kit import (
+    ENDED,
+    LAUNCH,
+    Circle,
+    Controls,
+    Event,
+    Extent,
+    Fact,
+    Flight,
+    ForceRegion,
+    Group,
+    Handle,
+    Moment,
+    Passes,
+    RequestError,
+    Run,
+    SceneRun,
+    Segment,
+    Setup,
+    Solid,
+    Spin,
+    Spread,
+    State,
+    Surface,
+    Vector,
+    anywhere,
+    apex,
+    at,
+    below,
+    check_apart,
+    disc,
+    down_to,
+    group,
+    level,
+    maximum,
+    minimum,
+    once,
+    quantity,
+    rectangle,
+    roughly,
+    smooth,
+    switch,
+    where,
+)
 
 
 class Release(Group):
-    """Where the ball leaves the hand."""
+    """The place where the ball leaves the hand."""
 
     height: float = quantity(..., "m", 0, 100, "of the ball's centre above the floor")
 
@@ -92,6 +124,11 @@ class Parameters(Flight):
     floor: Solid = group(..., "the floor")
 
     @property
+    def held(self) -> Any:
+        """Height in m of the ball's centre at the release: no lower than where the ball lies on the floor."""
+        return maximum(self.release.height, self.ball.radius)
+
+    @property
     def board(self) -> tuple[float, float, float, float]:
         """Left (the face), bottom, right and top of the board, in m."""
         (_, (inner, _)), board = self.hoop.across(), self.backboard
@@ -103,7 +140,7 @@ CONTROLS = Controls(
     spins=(Spin("launch.spin", 20.0),),
     sliders=("launch.speed", "launch.angle", "launch.spin", "release.height", "hoop.distance", "air.wind", "gravity"),
     handles=(
-        Handle("hoop.distance", "hoop.height", goal=True),
+        Handle("hoop.distance", "hoop.height", goal=True, with_y=("backboard.bottom", "backboard.top")),
         Handle(y="release.height"),
         Handle("backboard.gap", "backboard.top", at=lambda parameters: parameters.board[::3]),
     ),
@@ -142,18 +179,18 @@ class NetDrag:
     length: float  # m
 
     @property
-    def patches(self) -> list[Patch]:
-        """Where it acts, and, inside, where it does so fully."""
+    def force_regions(self) -> list[ForceRegion]:
+        """The region where it acts, and, inside, the one where it does so fully."""
         (x, y), aside, bottom, edge = self.middle, self.half_width, self.middle[1] - self.length, self.EDGE
         return [
-            Patch(x - aside - edge, bottom, x + aside + edge, y, step=0.02),
-            Patch(x - aside, bottom + edge, x + aside, y - edge, step=0.02),
+            ForceRegion(x - aside - edge, bottom, x + aside + edge, y, step=0.02),
+            ForceRegion(x - aside, bottom + edge, x + aside, y - edge, step=0.02),
         ]
 
     def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
         x, y = position
         depth = self.middle[1] - y
-        below, beside = least(depth, self.length - depth), self.half_width - abs(x - self.middle[0])
+        below, beside = minimum(depth, self.length - depth), self.half_width - abs(x - self.middle[0])
         if not anywhere((below > 0.0) & (beside > -self.EDGE)):
             return 0.0, 0.0
         hold = smooth(below / self.EDGE) * smooth(1.0 + beside / self.EDGE)
@@ -165,12 +202,13 @@ def build(parameters: Parameters) -> Setup:
     """Ball, ring, board and floor. Raises RequestError if they overlap."""
     hoop, net, mass = parameters.hoop, parameters.net, parameters.ball.mass
     drag = [NetDrag(mass, net.damping, hoop.middle, 0.5 * hoop.inner_diameter, net.length)] if net.slows else []
-    shot = parameters.launched((0.0, parameters.release.height), *drag)
-    return Setup([shot], court(parameters), LONGEST, is_tired, patches=[patch for it in drag for patch in it.patches])
+    shot = parameters.launched((0.0, parameters.held), *drag)
+    regions = [region for it in drag for region in it.force_regions]
+    return Setup([shot], court(parameters), LONGEST, is_tired, force_regions=regions)
 
 
 def is_tired(event: Event) -> bool:
-    """Whether the ball hardly bounces any more."""
+    """True if the ball hardly bounces any more."""
     return event.partner == "floor" and event.speed <= TIRED
 
 
@@ -183,7 +221,7 @@ def court(parameters: Parameters) -> list[Surface]:
     ring = ("hoop.distance", "hoop.height", "hoop.tube_radius")
     tubes = [disc("the ring", ring, *rim, hoop.tube_radius) for rim in (front, back)]
     glass = Extent("the board", ("backboard.gap", "backboard.bottom", "backboard.top"), *parameters.board)
-    ball = disc("the ball", ("release.height", "ball.radius"), 0.0, parameters.release.height, parameters.ball.radius)
+    ball = disc("the ball", ("release.height", "ball.radius"), 0.0, parameters.held, parameters.ball.radius)
     for others in ((tubes[0], glass), (tubes[1], glass), (tubes[0], below("the floor"))):
         check_apart(parameters, ball, *others)
     return [
@@ -215,7 +253,7 @@ def out(run: Run, parameters: Parameters) -> float | None:
 
 @once
 def made(run: Run, parameters: Parameters) -> bool:
-    """Whether it had come down through the ring."""
+    """True if it had come down through the ring."""
     left = out(run, parameters)
     if left is None:
         return False
@@ -224,7 +262,7 @@ def made(run: Run, parameters: Parameters) -> bool:
 
 
 def inside(state: State, parameters: Parameters) -> bool:
-    """Whether the ball's centre is between the inner edges, seen from above."""
+    """True if the ball's centre is between the inner edges, seen from above."""
     return abs(state[0] - parameters.hoop.distance) < 0.5 * parameters.hoop.inner_diameter
 
 
@@ -236,7 +274,7 @@ def entry(run: Run, parameters: Parameters) -> Moment | None:
 
 
 def beyond_middle(ball: Moment, it: Parameters) -> float:
-    """How far in m beyond the middle of the ring the ball is."""
+    """The distance in m of the ball beyond the middle of the ring."""
     return ball.x - it.hoop.distance
 
 
@@ -262,7 +300,7 @@ class Decided(Passes):
     needed: float = 0.0  # E / m to get out, in J/kg
 
     def stays(self, state: Any) -> Any:
-        """Whether it is between ring and board, and stays there."""
+        """True if it is between ring and board, and stays there."""
         (x, y, vx, vy, spin), (left, right, bottom), (gravity, gyration) = state, self.pocket, self.factors
         energy = gravity * y + 0.5 * (vx * vx + vy * vy + gyration * spin * spin)
         return (x > left) & (x < right) & (y > bottom) & (energy < self.needed)
@@ -275,8 +313,8 @@ def decided(parameters: Parameters) -> Decided:
     """When the shot is decided. In a wind, or with a way out below the board, no ball stays."""
     ball, hoop, (back, level), wind = parameters.ball, parameters.hoop, parameters.hoop.rims[1], parameters.air.wind
     face, bottom, _, top = parameters.board
-    barrier = parameters.gravity * (least(level + hoop.tube_radius, top) + ball.radius)
-    needed = choose((wind[0] == 0.0) & (wind[1] == 0.0) & (bottom <= level), barrier, -inf)
+    barrier = parameters.gravity * (minimum(level + hoop.tube_radius, top) + ball.radius)
+    needed = where((wind[0] == 0.0) & (wind[1] == 0.0) & (bottom <= level), barrier, -inf)
     factors = parameters.gravity, ball.inertia_factor * ball.radius**2
     return Decided("floor", 1, *hoop.across(ball.radius), (back, face, level), factors, needed)
 
@@ -295,7 +333,7 @@ FACTS = (
     Fact("entry_angle", "entry angle", "deg", at(entry, "descent"), decided),
     Fact("entry_speed", "entry speed", "m/s", at(entry, "speed"), decided),
     Fact("entry_offset", "from centre", "m", at(entry, beyond_middle), decided, sides=("short", "long")),
-    Fact("apex", "apex above hand", "m", lambda run, it: apex(run, it) - it.release.height, decided),
+    Fact("apex", "apex above hand", "m", lambda run, it: apex(run, it) - it.held, decided),
     Fact("flight_time", "flight time", "s", at(entry, "t"), decided),
     *LAUNCH,
     Fact("touches", "touches", "", touches, decided),
@@ -303,8 +341,8 @@ FACTS = (
 )
 
 
-def verdict(run: Run, parameters: Parameters) -> str:
-    """What happened, in a sentence."""
+def verdict(run: SceneRun, parameters: Parameters) -> str:
+    """Return the outcome in a sentence."""
     result = run.result
     if result["made"]:
         how = {"swish": "nothing but net", "rim": "off the rim", "bank": "off the board"}

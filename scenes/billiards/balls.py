@@ -1,4 +1,4 @@
-"""How the balls look: colours, stripes, numbers and dots."""
+"""Looks of the balls: colours, stripes, numbers and dots."""
 
 from __future__ import annotations
 
@@ -8,9 +8,7 @@ from math import cos, dist, radians, sin
 
 import numpy as np
 
-from sandbox.picture.lettering import stamp
-from sandbox.picture.palette import Colour, mix, scene_colours
-from sandbox.picture.views import Look, Mark, near, turned
+from sandbox.kit import Colour, Look, Mark, mix, near, scene_colours, text_mask, turned
 
 COLOURS = scene_colours(__file__)
 
@@ -32,7 +30,7 @@ def look(name: str) -> Look:
         dot = COLOURS["mark"] if colour == ivory else mix(colour, (255, 255, 255), 0.30)
         return Look(colour, Mark(dot, near(np.concatenate([np.eye(3), -np.eye(3)]), radians(DOT))), gloss=GLOSS)
     sides = [Mark(ivory, lambda at: abs(at[..., 1]) > sin(radians(STRIPE)))] if striped(name) else []
-    number = Mark(ivory, _disc), Mark(COLOURS["numeral"], lambda at: _figure(at, stamp(name)))
+    number = Mark(ivory, _disc), Mark(COLOURS["numeral"], lambda at: _figure(at, text_mask(name)))
     return Look(colour, *sides, *number, gloss=GLOSS)
 
 
@@ -41,7 +39,7 @@ def _in_pool(name: str) -> bool:
 
 
 def striped(name: str) -> bool:
-    """Whether a ball is striped: a coloured band between white sides."""
+    """True if a ball is striped: a coloured band between white sides."""
     return _in_pool(name) and int(name) > 8
 
 

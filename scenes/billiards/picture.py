@@ -8,10 +8,9 @@ from math import floor
 import numpy as np
 import pygame
 
-from sandbox.picture.palette import Colour, mix, palette, scene_colours
+from sandbox.kit import AboveView, Area, Camera, Colour, Entry, Look, Painter, Sheet, mix, nice, palette, scene_colours
 from sandbox.picture.places.plan import Ground, Line, Plan, Point, Spot, arc
 from sandbox.picture.places.table import Lamp, Pocket, Rails, Room, around, cushions, sights
-from sandbox.picture.views import AboveView, Area, Camera, Entry, Look, Painter, Sheet, nice
 from sandbox.sport.sliding import met
 
 from . import balls
@@ -55,7 +54,7 @@ class Picture(AboveView[Parameters]):
     @cached_property
     def outer(self) -> Point:
         """Half the length and half the width of the table with its rails, in m."""
-        (x, y), holes = self.bed, self.run.setup.catches
+        (x, y), holes = self.bed, self.run.setup.traps
         reach = [max(abs(h.center[0]) - x, abs(h.center[1]) - y) + h.radius + ROUND_POCKETS for h in holes]
         rail = max([self.parameters.table.cushion_width + WOOD, *reach])
         return x + rail, y + rail
@@ -73,9 +72,9 @@ class Picture(AboveView[Parameters]):
             Rails(back, outer, COLOURS["wood"], COLOURS["lip"]),
             *(Ground(around(half), colour) for half, colour in beds),
             *(_snooker_markings(*bed) if snooker else _spots(*((share * bed[0], 0.0) for share in SPOTS))),
-            *(Pocket(h.center, h.radius, beds, COLOURS["leather"], COLOURS["pocket"]) for h in setup.catches),
+            *(Pocket(h.center, h.radius, beds, COLOURS["leather"], COLOURS["pocket"]) for h in setup.traps),
             *cushions(setup.surfaces, back, COLOURS["cushion"]),
-            *(() if snooker else sights(bed, middle, COLOURS["sight"], bool(setup.catches))),
+            *(() if snooker else sights(bed, middle, COLOURS["sight"], bool(setup.traps))),
             Line(((head, -0.5 * PLATE_LENGTH), (head, 0.5 * PLATE_LENGTH)), PLATE, COLOURS["plate"]),
             Lamp(bed, outer),
         )
@@ -153,7 +152,7 @@ class Picture(AboveView[Parameters]):
         centre = frame.right - radius, bottom - radius
         self._tip(painter, centre, radius)
         sheet.write("tip", "small", (centre[0], frame.top + small), CARD["quiet"], "midbottom")
-        end = self.told if t is None else t
+        end = self.story_end if t is None else t
         potted = [event.ball for event in self.run.events if event.kind == "caught" and event.t <= end]
         if not potted:
             return pygame.Rect(centre[0] - radius, frame.top, 2 * radius, bottom - frame.top)
@@ -191,8 +190,8 @@ class Picture(AboveView[Parameters]):
         return told[0].upper() + told[1:], ""
 
     def position(self, t: float) -> list[Entry]:
-        """How many balls are moving, and how many cushions the struck one has met."""
-        moving = sum(any(self.run.state(name, t)[2:4]) for name in self.present(t))
+        """The number of balls that move, and of cushions that the struck one has met."""
+        moving = sum(t < self.caught[name] and any(self.run.state(name, t)[2:4]) for name in self.balls)
         rails = sum(name.endswith(" cushion") for name, event in met(self.run, self.ball) if event.t <= t)
         return [("moving", str(moving)), ("cushions", str(rails))]
 

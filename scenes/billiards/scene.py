@@ -19,29 +19,51 @@ from itertools import combinations
 from math import asin, atan2, cos, degrees, dist, hypot, pi, sin, sqrt
 from typing import Any, Literal
 
-from sandbox.engine.run import Run
-from sandbox.engine.setup import Always, Ball, Bounce, ContactModel, Setup, Vector
-from sandbox.engine.touch import Obstacle, touched
-from sandbox.engine.track import Pressing
-from sandbox.errors import RequestError
-from sandbox.parameters import Group, SceneParameters, choice, either, group, groups, quantity, word
-from sandbox.physics.cloth import Cloth
+from sandbox.engine.contact.touch import Obstacle, touched
+from sandbox.kit import (
+    ENDED,
+    Ball,
+    Bounce,
+    Cloth,
+    ConstantBounce,
+    ContactModel,
+    Controls,
+    Directed,
+    Fact,
+    Goal,
+    Group,
+    Handle,
+    Moment,
+    RequestError,
+    Run,
+    SceneParameters,
+    SceneRun,
+    Setup,
+    Solid,
+    Spin,
+    Spread,
+    Vector,
+    at,
+    choice,
+    group,
+    groups,
+    once,
+    one_of,
+    quantity,
+    roughly,
+    text,
+    travelled,
+)
 from sandbox.physics.throw import friction_by_speed
-from sandbox.sport.amounts import roughly
-from sandbox.sport.controls import Controls, Goal, Handle, Spin, Spread
-from sandbox.sport.facts import ENDED, Fact, once
-from sandbox.sport.flight import Directed
-from sandbox.sport.readings import Moment, at, travelled
 from sandbox.sport.sliding import REST_TIME, left, meetings, met, taken
-from sandbox.sport.solids import Solid
 
-from .table import AnyTable, catches, check, cushions, on_bed
+from .table import AnyTable, check, cushions, on_bed, traps
 
 
 class Spot(Group):
     """A ball and its position; the table's centre is the origin, x runs along its length."""
 
-    name: str = word("name of the ball")
+    name: str = text("name of the ball")
     x: float = quantity(0.0, "m", -10, 10, "along the table")
     y: float = quantity(0.0, "m", -10, 10, "across the table")
 
@@ -49,7 +71,7 @@ class Spot(Group):
 class Cue(Directed):
     """The stroke, with a level cue."""
 
-    ball: str = word("name of the ball that is struck")
+    ball: str = text("name of the ball that is struck")
     speed: float = quantity(..., "m/s", 0, 30, "speed of the ball after the stroke")
     angle: float = quantity(..., "deg", -360, 360, "direction, from +x counter-clockwise")
     follow: float = quantity(..., "", -0.5, 0.5, "tip above the ball's centre in radii; 0.4 rolls at once")
@@ -109,7 +131,7 @@ class Parameters(SceneParameters):
     rack_seed: float = quantity(..., "", 0, 1e9, "which of the random racks")
     balls: list[Spot] = groups(..., "balls placed one by one, in addition to the rack")
     cue: Cue = group(..., "the stroke")
-    table: AnyTable = either(..., "the table", by="kind")
+    table: AnyTable = one_of(..., "the table", by="kind")
     ball: BallParameters = group(..., "the balls")
     cloth: ClothParameters = group(..., "the cloth")
     cushion: Cushion = group(..., "the cushions")
@@ -166,14 +188,14 @@ def build(parameters: Parameters) -> Setup:
     balls = {name: Ball(name, ball.mass, ball.radius, place) for name, place in spots.items()}
     cue = balls[parameters.cue.ball]
     balls[cue.name] = replace(cue, velocity=velocity, spin=spin, rolling_spin=rolling_spin)
-    alike = Always(Bounce(ball.restitution, ball.friction or 0.0))
+    alike = ConstantBounce(Bounce(ball.restitution, ball.friction or 0.0))
     return Setup(
         list(balls.values()),
         surfaces,
         duration=LONGEST,
         between_balls=SlowerThrowsMore(ball.restitution) if ball.friction is None else alike,
         plane=Cloth(cloth.sliding_friction, cloth.rolling_friction, cloth.spinning_friction, parameters.gravity),
-        catches=catches(table),
+        traps=traps(table),
         contact=ContactModel(parameters.contact.model, parameters.contact.stiffness),
     )
 
@@ -198,14 +220,14 @@ def goals(parameters: Parameters) -> list[Goal]:
         half = degrees(asin(min(1.0, seen)))  # as far to either side as the ball is touched
         ranges[name] = {"cue.angle": (way - half, way + half)}
     found = [Goal(f"ball {name}", {"pockets": name}, spots[name], ranges[name]) for name in spots]
-    for hole in catches(table):
+    for hole in traps(table):
         near = sorted(spots, key=lambda name: dist(spots[name], hole.center))[:TRIED]
         found += [Goal(hole.name, {"pockets": hole.name}, hole.center, ranges[name]) for name in near]
     return found
 
 
 def laid_out(parameters: Parameters) -> dict[str, Vector]:
-    """Where each ball lies at the start, in m: those listed, those racked, and with a rack a cue ball, a
+    """The position of each ball at the start, in m: those listed, those racked, and with a rack a cue ball, a
     little to the left of the head spot.
 
     Raises RequestError for a name given twice and for a struck ball that is not there.
@@ -254,7 +276,7 @@ def check_spots(spots: Mapping[str, Vector], parameters: Parameters, obstacles: 
         gap, cushion = min(((at.gap, wall.surface.name) for wall, at in touched(obstacles, *place)), default=(0.0, ""))
         if gap < -ROUNDING:
             raise RequestError(f"{where} overlaps the {cushion} by {-1000.0 * gap:.3g} mm: its radius is {radius:g} m")
-        for hole in catches(parameters.table):
+        for hole in traps(parameters.table):
             if dist(place, hole.center) < hole.radius:
                 raise RequestError(f"{where} is over the hole of the {hole.name}")
     for (name, a), (other, b) in combinations(spots.items(), 2):
@@ -286,7 +308,7 @@ def struck(parameters: Parameters) -> tuple[Vector, float, Vector]:
 
 
 def touches(run: Run, parameters: Parameters) -> list[str]:
-    """What the struck ball met, in order: other balls, cushions and jaws, and the pocket it fell into."""
+    """The things that the struck ball met, in order: other balls, cushions and jaws, and the pocket it fell into."""
     return [name for name, _ in met(run, parameters.cue.ball)]
 
 
@@ -306,7 +328,7 @@ def point(run: Run, parameters: Parameters) -> int | None:
     """A carom's point, on a table without pockets: how many cushions the struck ball met before the last of the other
     balls, of which there must be two at least; None where it did not meet them all."""
     missing, cushions = others(run, parameters), 0
-    if run.setup.catches or len(missing) < 2:
+    if run.setup.traps or len(missing) < 2:
         return None
     for name in touches(run, parameters):
         missing.discard(name)
@@ -330,7 +352,7 @@ def leaving(run: Run, parameters: Parameters) -> dict[str, tuple[Moment, Moment]
     for event in meetings(run):
         for name in {event.ball, event.partner} & (run.arcs.keys() - ways.keys()):
             arc = next((arc for arc in run.arcs[name] if arc.t1 > event.t), run.arcs[name][-1])
-            t = arc.contact.end if isinstance(arc.contact, Pressing) else event.t
+            _, t = arc.contact_span or (0.0, event.t)
             ball, (wx, wy) = Moment(t, *run.state(name, t)), run.rolling_spin(name, t)
             rolling = (5.0 * ball.vx + 2.0 * radius * wy) / 7.0, (5.0 * ball.vy - 2.0 * radius * wx) / 7.0
             ways[name] = ball, ball._replace(vx=rolling[0], vy=rolling[1])
@@ -343,7 +365,7 @@ def of_leaving(when: int, what: str) -> Callable[[Run, Parameters], dict[str, fl
 
 
 def tip(run: Run, parameters: Parameters) -> str:
-    """Where the tip hits the ball, in radii from its centre."""
+    """The place where the tip hits the ball, in radii from its centre."""
     cue = parameters.cue
     offsets = (cue.follow, ("draw", "follow")), (cue.english, ("left", "right"))
     return ", ".join(f"{abs(off):.2g} {words[off > 0]}" for off, words in offsets if off) or "centre"
@@ -373,8 +395,8 @@ FACTS = (
 )
 
 
-def verdict(run: Run, parameters: Parameters) -> str:
-    """What happened, in a sentence."""
+def verdict(run: SceneRun, parameters: Parameters) -> str:
+    """Return the outcome in a sentence."""
     result, cue = run.result, parameters.cue.ball
     potted = [name for name in result["potted"] if name != cue]
     if result["scratch"]:
@@ -387,7 +409,7 @@ def verdict(run: Run, parameters: Parameters) -> str:
         return "Hits no ball"
     if run.ended == "duration":
         return f"Still rolling after {run.duration:.0f} s"
-    if not run.setup.catches:
+    if not run.setup.traps:
         return _carom(run, parameters)
     if len(others(run, parameters)) > 5:
         return f"Break at {parameters.cue.speed:.1f} m/s, nothing potted"
@@ -396,7 +418,7 @@ def verdict(run: Run, parameters: Parameters) -> str:
     return f"Nothing potted, the {farthest} rolls {roughly(ways[farthest])}"
 
 
-def _carom(run: Run, parameters: Parameters) -> str:
+def _carom(run: SceneRun, parameters: Parameters) -> str:
     """On a table without pockets: whether the struck ball met all others, after how many cushions."""
     cushions = run.result["point"]
     if cushions is not None:
@@ -411,7 +433,7 @@ def _named(names: list[str]) -> str:
     return " and ".join([", ".join(called[:-1]), called[-1]] if len(called) > 1 else called)
 
 
-def from_rest(run: Run, parameters: Parameters) -> dict[str, Any]:
+def from_rest(run: SceneRun, parameters: Parameters) -> dict[str, Any]:
     """Positions of the balls for the next shot: a cleared table is racked, a potted cue ball spotted."""
     spots: dict[str, Vector] = {name: (x, y) for name, (x, y) in run.result["positions"].items()}
     cue = parameters.cue.ball

@@ -24,9 +24,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from pydantic import create_model
 
-from sandbox.engine.setup import Catch, Segment, Surface
-from sandbox.errors import RequestError
-from sandbox.parameters import Group, choice, quantity, switch
+from sandbox.kit import Group, RequestError, Segment, Surface, Trap, choice, quantity, switch
 from sandbox.toml import read_toml
 
 
@@ -90,7 +88,7 @@ class Pocket(NamedTuple):
 
     @property
     def lost(self) -> float:
-        """How much of a nose the pocket takes, from the middle of a side pocket or from the corner of the noses."""
+        """The length of a nose that the pocket takes: from a side pocket's middle, or from the corner of the noses."""
         return self.tangent + (self.mouth / sqrt(2.0) if self.name == "corner" else 0.5 * self.mouth)
 
     def jaw(self, nose: float, lost: float, forward: float) -> Segment:
@@ -146,7 +144,7 @@ def _said(pocket: Pocket, key: str, wrong: str, bound: str) -> str:
 
 
 def on_bed(table: Table, x: float, y: float) -> bool:
-    """Whether a point (m) lies inside the noses or in the mouth of a pocket, up to the middle of its hole."""
+    """True if a point (m) lies inside the noses or in the mouth of a pocket, up to the middle of its hole."""
     x, y = abs(x) - 0.5 * table.length, abs(y) - 0.5 * table.width  # beyond the noses
     if max(x, y) <= 0.0:
         return True
@@ -195,7 +193,7 @@ def _swapped(shape: Segment) -> Segment:
     return Segment(shape.a[::-1], shape.b[::-1], shape.radius)
 
 
-def catches(table: Table) -> list[Catch]:
+def traps(table: Table) -> list[Trap]:
     """The holes."""
     if not table.pockets:
         return []
@@ -205,7 +203,7 @@ def catches(table: Table) -> list[Catch]:
     x, y, aside = 0.5 * table.length + out, 0.5 * table.width + out, 0.5 * table.width + side.shelf + side.hole_radius
     holes = (("head corner", -x, y, corner), ("side", 0.0, aside, side), ("foot corner", x, y, corner))
     return [
-        Catch(f"{flank} {name} pocket", (across, sy * up), pocket.hole_radius)
+        Trap(f"{flank} {name} pocket", (across, sy * up), pocket.hole_radius)
         for name, across, up, pocket in holes
         for sy, flank in ((1.0, "left"), (-1.0, "right"))
     ]

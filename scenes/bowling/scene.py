@@ -9,13 +9,16 @@ from __future__ import annotations
 
 from math import cos, dist, sin
 
-from sandbox.engine.run import Run
-from sandbox.engine.setup import Ball, Segment, Setup, Surface
+from sandbox.engine.model.ball import Ball
+from sandbox.engine.model.setup import Setup
+from sandbox.engine.model.surface import Segment, Surface
+from sandbox.engine.paths.run import Run
 from sandbox.errors import RequestError
-from sandbox.parameters import Group, group, groups, quantity, word
+from sandbox.parameters import Group, group, groups, quantity, text
 from sandbox.physics.cloth import Cloth
 from sandbox.physics.ice import Glide
 from sandbox.physics.plane import Strips
+from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact
 from sandbox.sport.flight import DEGREE
@@ -57,7 +60,7 @@ class BowlingBall(Group):
 class Pins(Body):
     """The pins, all alike."""
 
-    standing: str = word("the numbers of those that stand", may_be_empty=True)
+    standing: str = text("the numbers of those that stand", may_be_empty=True)
     sliding: float = quantity(..., "", 0, 2, "friction of pin and deck")
     tips: float = quantity(..., "m", 0, 0.1, "a pin that is pushed further than this falls")
 
@@ -104,7 +107,7 @@ def build(parameters: Parameters) -> Setup:
         between_balls=pin.bounce,
         plane=Glide(pin.sliding, pin.sliding, it.gravity, "deck"),
         planes=[("ball", Strips([end for end, _ in oiled], lane))],
-        catches=[*beside("gutter", LANE, -1.0, HEAD + PIT, only=["ball"]), pit],
+        traps=[*beside("gutter", LANE, -1.0, HEAD + PIT, only=["ball"]), pit],
     )
 
 
@@ -142,8 +145,8 @@ FACTS = (
 )
 
 
-def verdict(run: Run, parameters: Parameters) -> str:
-    """What happened, in a sentence."""
+def verdict(run: SceneRun, parameters: Parameters) -> str:
+    """Return the outcome in a sentence."""
     leaves, pins = run.result["leaves"], run.result["pins"]
     if not pins:
         return "Gutter ball" if "ball" in taken(run) and taken(run)["ball"] == "gutter" else "No pin falls"

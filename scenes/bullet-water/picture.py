@@ -50,7 +50,7 @@ class Picture(SideView[Parameters]):
         return Place(Landscape(**COLOURS["landscape"]), lake, [Post(ends, 0.012, COLOURS["barrel"])])
 
     def annotate(self, sheet: Sheet, camera: Camera) -> None:
-        """How deep it is; where a speed has halved, and where the bullet is harmless."""
+        """Mark depths, where a speed has halved, and where the bullet is harmless."""
         deepest = -float(self.points[:, 1].min())
         if deepest > 0.0:
             step = nice(deepest / MARKS)

@@ -12,11 +12,13 @@ from __future__ import annotations
 from bisect import bisect_left
 from math import dist, log, pi
 
-from sandbox.engine.run import Run
-from sandbox.engine.setup import Ball, Force, Patch, Setup
+from sandbox.engine.model.ball import Ball, Force
+from sandbox.engine.model.setup import ForceRegion, Setup
+from sandbox.engine.paths.run import Run
 from sandbox.parameters import Group, SceneParameters, group, quantity
 from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity, Inside
+from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.air import Weather
 from sandbox.sport.amounts import metres
 from sandbox.sport.controls import Controls, Handle, Spread
@@ -57,6 +59,7 @@ class Parameters(SceneParameters):
 
 
 CONTROLS = Controls(
+    softest=0.3,
     strongest=1000.0,
     handles=(Handle(y="launch.height"),),
     sliders=("bullet.mass", "bullet.radius", "water.coefficient", "launch.height", "harmless"),
@@ -83,8 +86,8 @@ def build(parameters: Parameters) -> Setup:
         Inside(dry, surface, (0.0, -1.0), bullet.radius, "drag of air") for dry in bullet.drag_in(parameters.air)
     ]
     fired = Ball("ball", bullet.mass, bullet.radius, (0.0, launch.height), launch.velocity, forces=forces)
-    skin = Patch(-1e4, -bullet.radius, 1e4, bullet.radius, 0.5 * bullet.radius / launch.speed)  # of the water
-    return Setup([fired], duration=parameters.duration, patches=[skin])
+    skin = ForceRegion(-1e4, -bullet.radius, 1e4, bullet.radius, 0.5 * bullet.radius / launch.speed)  # of the water
+    return Setup([fired], duration=parameters.duration, force_regions=[skin])
 
 
 def entry(run: Run, parameters: Parameters) -> Moment | None:
@@ -124,8 +127,8 @@ FACTS = (
 )
 
 
-def verdict(run: Run, parameters: Parameters) -> str:
-    """What happened, in a sentence."""
+def verdict(run: SceneRun, parameters: Parameters) -> str:
+    """Return the outcome in a sentence."""
     way, depth = run.result["penetration"], run.result["depth"]
     if way is None:
         return "Does not get into the water" if run.result["entry_speed"] is None else "Still fast at the end"

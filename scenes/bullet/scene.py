@@ -14,14 +14,17 @@ from math import atan2, degrees
 from typing import Literal
 
 from sandbox.engine import simulate
-from sandbox.engine.accuracy import LEVELS
-from sandbox.engine.run import Run
-from sandbox.engine.setup import Ball, Force, Segment, Setup, Surface, Touches
+from sandbox.engine.model.accuracy import LEVELS
+from sandbox.engine.model.ball import Ball, Force
+from sandbox.engine.model.setup import Setup, Touches
+from sandbox.engine.model.surface import Segment, Surface
+from sandbox.engine.paths.run import Run
 from sandbox.errors import RequestError
 from sandbox.parameters import Group, SceneParameters, choice, group, quantity
 from sandbox.physics.ballistics import BulletDrag, speed_of_sound
 from sandbox.physics.elementwise import cos, sin
 from sandbox.physics.forces import Gravity
+from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.air import Weather, wind_in
 from sandbox.sport.amounts import amount, metres
 from sandbox.sport.controls import Controls, Handle, Spread
@@ -96,6 +99,7 @@ class Parameters(SceneParameters):
 
 
 CONTROLS = Controls(
+    softest=0.3,
     strongest=1000.0,
     also={"zero.distance": 0.0},
     sliders=("bullet.coefficient", "zero.distance", "range.distance", "air.wind", "air.elevation", "air.temperature"),
@@ -174,8 +178,8 @@ FACTS = (
 )
 
 
-def verdict(run: Run, parameters: Parameters) -> str:
-    """What happened, in a sentence."""
+def verdict(run: SceneRun, parameters: Parameters) -> str:
+    """Return the outcome in a sentence."""
     height, distance = run.result["height"], metres(parameters.range.distance)
     if height is None:
         return f"Does not reach {distance}"

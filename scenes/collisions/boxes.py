@@ -1,4 +1,4 @@
-"""What is not round on the bench, and what a strip that separates two outlines says of them."""
+"""Bodies other than balls on the bench, and the strip that separates the outlines of two."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from itertools import combinations
 from math import radians
 from typing import Literal, NamedTuple
 
-from sandbox.engine.meeting import Meeting, meeting, surface_met
-from sandbox.engine.run import Run
-from sandbox.engine.setup import Body, Force, Vector
-from sandbox.engine.shapes import Ellipse, Polygon, Shape, box, capsule
-from sandbox.engine.touch import Obstacle
-from sandbox.parameters import Group, choice, quantity, word
+from sandbox.engine.contact.manifold import ContactManifold, meeting, surface_met
+from sandbox.engine.contact.touch import Obstacle
+from sandbox.engine.model.ball import Body, Force
+from sandbox.engine.model.shapes import Ellipse, Polygon, Shape, Vector, box, capsule
+from sandbox.engine.paths.run import Run
+from sandbox.parameters import Group, choice, quantity, text
 
 #: Heights above the lane and diameters of a bowling pin, as shares of its height of 15 in (USBC); the neck is filled.
 PIN = ((0.0, 0.150), (0.05, 0.1885), (0.15, 0.2604), (0.225, 0.3007), (0.3, 0.3177), (0.9, 0.1698), (0.98, 0.093))
@@ -24,9 +24,9 @@ TOUCH = 1e-5
 
 
 class Moving(Group):
-    """What the bench has in common."""
+    """Shared by balls and boxes on the bench."""
 
-    name: str = word("its name")
+    name: str = text("its name")
     x: float = quantity(0.0, "m", -50, 50, "of its centre of mass, to the right")
     y: float = quantity(0.0, "m", -50, 50, "of its centre of mass, upward, or across a level bench")
     vx: float | None = quantity(None, "m/s", -50, 50, "along x; if vx and vy are left out, 0 or that of the launch")
@@ -75,9 +75,9 @@ def body_of(it: Box, velocity: Vector, forces: Sequence[Force]) -> Body:
 
 
 class Strip(NamedTuple):
-    """What lies between two outlines."""
+    """The gap between two outlines."""
 
-    met: Meeting
+    met: ContactManifold
     why: str
 
 
@@ -87,20 +87,20 @@ def strip(run: Run, t: float) -> Strip | None:
     found = [
         (meeting(a, here, b, at, TOUCH), a.name, b.name)
         for (a, here), (b, at) in combinations(there, 2)
-        if a.turns or b.turns
+        if a.rotates or b.rotates
     ] or [
         (surface_met(body, state, (obstacle, obstacle.near(*state[:2])), TOUCH), body.name, obstacle.surface.name)
         for body, state in there
         for obstacle in (Obstacle(surface, body.radius) for surface in run.setup.surfaces)
-        if body.turns
+        if body.rotates
     ]
     if not found:
         return None
     met, one, other = min(found, key=lambda pair: pair[0].gap)
     if met.gap > TOUCH:
-        why = f"apart: a strip {_length(met.gap)} wide lies between them"
+        why = f"{_length(met.gap)} apart"
     else:
-        why = f"in touch {'along a side' if len(met.points) == 2 else 'at a point'}: no strip lies between them"
+        why = f"in touch {'along a side' if len(met.points) == 2 else 'at a point'}"
     return Strip(met, f"{one} and {other} are {why}")
 
 

@@ -11,7 +11,8 @@ from math import cos, sin
 import numpy as np
 import pygame
 
-from sandbox.engine.setup import Body, Segment
+from sandbox.engine.model.ball import Body
+from sandbox.engine.model.surface import Segment
 from sandbox.picture.palette import Colour, palette, scene_colours
 from sandbox.picture.places.plan import Plan
 from sandbox.picture.places.things import unit_of
@@ -26,6 +27,8 @@ SPOTS = near(np.array(list(product((-1.0, 1.0), repeat=3))) / 3**0.5, 0.25)  # s
 LOOKS = [Look(colour, Mark(COLOURS["spot"], SPOTS), gloss=0.7) for colour in COLOURS["balls"]]
 #: The share of the width that bars take, the rows of letters that two take with their title; px of the longest arrow.
 BARS, BLOCK, LONGEST = 0.27, 3.75, 90.0
+#: Under them the blow is drawn by itself if there is room for so many px.
+LEAST_BESIDE = 120.0
 
 
 @dataclass(frozen=True)
@@ -87,32 +90,69 @@ class Picture(AboveView[Parameters]):
 
     @property
     def strings(self) -> Sequence[tuple[str, tuple[float, float]]]:
-        """Of a cradle."""
+        """The strings of a cradle."""
         up = self.parameters.strings
         return [(name, (x, up)) for name, x in zip(self.balls, hangs(self.parameters), strict=True)] if up else ()
 
     @property
     def moment(self) -> float:
-        return self.told
+        return self.story_end
 
     def annotate(self, sheet: Sheet, camera: Camera) -> None:
+        """The blow, in its place or, where what moves lies over that in the end, beside it."""
+        if self.met is None:
+            return
+        board = self._sums(sheet, self.met)
+        if not self._covered(self.met, camera):
+            self._blow(sheet.painter, camera, self.met)
+            return
+        top, right = board.bottom + 2 * sheet.gap, sheet.frame.right
+        rect = pygame.Rect(board.left, top, right + sheet.gap - board.left, round(self.card_row) - 6 * sheet.gap - top)
+        if rect.height < LEAST_BESIDE * self.unit:
+            return
+        sheet.painter.panel(rect, CARD["background"], CARD["opacity"], 10 * self.unit)
+        title = sheet.write(
+            f"the blow after {self.clock(self.met.t)}",
+            "small",
+            (rect.right - sheet.gap, rect.top + sheet.gap),
+            CARD["quiet"],
+            "topright",
+        )
+        inner = pygame.Rect(rect.left, title.bottom, rect.width, rect.bottom - title.bottom).inflate(-2 * sheet.gap, 0)
+        sheet.surface.set_clip(inner)
+        self._blow(sheet.painter, self._beside(self.met, inner), self.met)
+        sheet.surface.set_clip(None)
+
+    def _beside(self, met: Blow, rect: pygame.Rect) -> Camera:
+        """Shows all whose velocity the blow changes, with room for the arrows, in a part of the picture (px)."""
+        pair = [(np.array(met.before[name][:2]), self.radii[name]) for name in self._changed(met)]
+        low, high = np.min([at - r for at, r in pair], axis=0), np.max([at + r for at, r in pair], axis=0)
+        arrows = 1.5 * LONGEST * self.unit
+        scale = min((rect.width - arrows) / (high[0] - low[0]), (rect.height - arrows) / (high[1] - low[1]))
+        x, y = (low + high) / 2
+        return Camera((float(x), float(y)), rect.center, max(float(scale), 1e-9))
+
+    def _covered(self, met: Blow, camera: Camera) -> bool:
+        """True if in the end anything lies over where the pair met, of more than one pair."""
+        ends = {name: self.run.state(name, self.story_end)[:2] for name in self.balls}
+        return len(self.balls) > 2 and any(
+            np.hypot(*np.subtract(ends[name], met.before[one][:2])) < self.radii[name] + self.radii[one]
+            for one in met.pair
+            for name in self.balls
+        )
+
+    def _blow(self, painter: Painter, camera: Camera, met: Blow) -> None:
         """The line of action, along the normal where they touch, and the velocities that the blow changes, before
         (pale) and after it."""
-        met = self.met
-        if met is None:
-            return
-        self._sums(sheet, met)
-        painter, unit = sheet.painter, self.unit
+        unit = self.unit
         touching = met.touching(met.before)
         point, normal = np.mean(touching.points, axis=0), np.array(touching.normal)
         a, b = (point + np.dot(met.before[name][:2] - point, normal) * normal for name in met.pair)
         line = [camera.pixel(*(at + way * (b - a))) for at, way in ((a, -1.2), (b, 1.2))]
         painter.dashes(line, 1.6 * unit, CARD["accent"], 7 * unit, 5 * unit)
-        speeds = {name: [np.array(states[name][2:4]) for states in (met.before, met.after)] for name in self.balls}
-        fastest = max(np.hypot(*velocity) for both in speeds.values() for velocity in both)
-        for name, (before, after) in speeds.items():
-            if np.hypot(*(after - before)) < 0.01 * fastest:
-                continue
+        changed = self._changed(met)
+        fastest = max(np.hypot(*velocity) for both in changed.values() for velocity in both)
+        for name, (before, after) in changed.items():
             x, y = at = camera.pixel(*met.before[name][:2])
             self._outlined(painter, camera, name, met)
             for velocity, colour, width in ((before, COLOURS["before"], 3.0), (after, CARD["text"], 4.0)):
@@ -120,8 +160,14 @@ class Picture(AboveView[Parameters]):
                 if np.hypot(along, up) > 6 * unit:
                     painter.arrow(at, (x + along, y - up), width * unit, colour)
 
+    def _changed(self, met: Blow) -> dict[str, list[np.ndarray]]:
+        """The velocities in m/s before and after the blow of all that it changes."""
+        speeds = {name: [np.array(states[name][2:4]) for states in (met.before, met.after)] for name in self.balls}
+        fastest = max(np.hypot(*velocity) for both in speeds.values() for velocity in both)
+        return {name: both for name, both in speeds.items() if np.hypot(*(both[1] - both[0])) >= 0.01 * fastest}
+
     def _outlined(self, painter: Painter, camera: Camera, name: str, met: Blow) -> None:
-        """Where a ball or body was at the blow."""
+        """Draw the outline of a ball or body at the blow."""
         (x, y, *_, angle), body = met.before[name], next(ball for ball in self.run.setup.balls if ball.name == name)
         if not isinstance(body, Body):
             painter.ring(camera.pixel(x, y), body.radius * camera.scale, 1.5 * self.unit, self.colour_of(name))
@@ -132,10 +178,12 @@ class Picture(AboveView[Parameters]):
         painter.line(corners, 1.5 * self.unit, self.colour_of(name))
 
     def before(self, painter: Painter, camera: Camera, t: float) -> None:
-        """Where not all is round: the strip that separates the two nearest to each other, or where they touch, and
-        why."""
+        """Draw, where not all is round, the strip between the two that are nearest, or where they touch, and why."""
         if (between := strip(self.run, t)) is None:
             return
+        painter.surface.set_clip(
+            pygame.Rect(0, self.sheet.top_row, self.size[0], round(self.card_row) - self.sheet.top_row)
+        )
         (gap, (nx, ny), points, _), unit, far = between.met, self.unit, 0.35 * self.size[1] / camera.scale
         for x, y in points:
             pair = [(x + half * nx, y + half * ny) for half in (0.5 * gap, -0.5 * gap)]
@@ -146,6 +194,7 @@ class Picture(AboveView[Parameters]):
                 painter.line([camera.pixel(*place) for place in pair], 2 * unit, CARD["accent"])
             for place in pair:
                 painter.disc(camera.pixel(*place), 3.5 * unit, CARD["accent"])
+        painter.surface.set_clip(None)
         spot = self.sheet.frame.right, self.card_row - 2 * self.sheet.gap, -1.0, -1.0
         self.sheet.chip(between.why, [spot])
 
@@ -156,8 +205,8 @@ class Picture(AboveView[Parameters]):
             self._sums(self.sheet, met)
         return picture
 
-    def _sums(self, sheet: Sheet, met: Blow) -> None:
-        """The sums that have to stay."""
+    def _sums(self, sheet: Sheet, met: Blow) -> pygame.Rect:
+        """The sums that have to stay, and where they are written."""
         small, right, room = sheet.lettering.height("small"), sheet.frame.right, BARS * self.size[0]
         sums = {what: [shares(self.run, states, what) for states in (met.before, met.after)] for what in AMOUNTS}
         sums["energy"][1].append(max(0.0, sum(sums["energy"][0]) - sum(sums["energy"][1])))  # what is lost
@@ -170,11 +219,13 @@ class Picture(AboveView[Parameters]):
         shown = shown[: 1 + int(max(0.0, self.card_row - top - 2 * small) / (BLOCK * small))]
         tall = len(shown) * BLOCK * small
         board = pygame.Rect(round(right - room), round(top - 1.3 * small), round(room), round(tall + 0.2 * small))
-        sheet.painter.panel(board.inflate(2 * sheet.gap, 0), CARD["background"], CARD["opacity"], 10 * self.unit)
+        board = board.inflate(2 * sheet.gap, 0)
+        sheet.painter.panel(board, CARD["background"], CARD["opacity"], 10 * self.unit)
         for i, what in enumerate(shown):
             unit, total = AMOUNTS[what][0], sum(sums[what][0])
             words = signed(f"{total if abs(total) > 1e-4 * largest[what] else 0.0:.3g}")
             self._bars(sheet, top + i * BLOCK * small, f"{what}: {words} {unit}", sums[what])
+        return board
 
     def _bars(self, sheet: Sheet, top: float, title: str, sums: Sequence[Sequence[float]]) -> None:
         """Two bars of shares in the balls' colours, negative ones to the left, with a tick at their sum; what is lost

@@ -14,15 +14,17 @@ from itertools import accumulate, pairwise
 from math import cos, hypot, pi, sin
 from typing import Any, Literal, NamedTuple
 
-from sandbox.engine.meeting import Meeting, meeting
-from sandbox.engine.run import Run
-from sandbox.engine.setup import Ball, ContactModel, Force, Setup, Vector, kinetic
-from sandbox.engine.track import Pressing
+from sandbox.engine.contact.manifold import ContactManifold, meeting
+from sandbox.engine.model.ball import Ball, Force, kinetic
+from sandbox.engine.model.setup import ContactModel, Setup
+from sandbox.engine.model.shapes import Vector
+from sandbox.engine.paths.run import Run
 from sandbox.errors import RequestError
-from sandbox.parameters import SceneParameters, choice, group, groups, quantity, word
+from sandbox.parameters import SceneParameters, choice, group, groups, quantity, text
 from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity
 from sandbox.physics.integrators import State
+from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.air import Air, wind_in
 from sandbox.sport.controls import Controls, Handle
 from sandbox.sport.facts import ENDED, Fact, once
@@ -45,20 +47,20 @@ class Body(Moving):
 class Launch(Directed):
     """The ball that is played."""
 
-    ball: str = word("its name; without a ball of that name none is launched", may_be_empty=True)
+    ball: str = text("its name; without a ball of that name none is launched", may_be_empty=True)
     speed: float = quantity(..., "m/s", 0, 50, "speed")
     angle: float = quantity(..., "deg", -180, 180, "direction, from +x counter-clockwise")
 
 
 class Contact(Solid):
-    """How two balls meet: restitution 1 is elastic, friction 0 smooth."""
+    """The contact of two balls: restitution 1 is elastic, friction 0 smooth."""
 
     model: Literal["auto", "rigid", "hertz"] = choice(..., "contact mechanics where it matters, never, or always")
     stiffness: float = quantity(..., "N/m^1.5", 1e3, 1e12, "of a pair of balls")
 
 
 class Floor(Solid):
-    """What lies below."""
+    """The floor."""
 
     shape: Literal["none", "flat", "bowl"] = choice(..., "a level bench needs none; a floor or a bowl at y = 0")
     radius: float = quantity(..., "m", 0.01, 50, "of the bowl")
@@ -68,6 +70,7 @@ class Floor(Solid):
 class Parameters(SceneParameters):
     """All parameters of a collision."""
 
+    TOGETHER = ("balls", "boxes")
     balls: list[Body] = groups(..., "the balls")
     boxes: list[Box] = groups(..., "what is not round: boxes, ellipses, capsules, bowling pins")
     launch: Launch = group(..., "the ball that is played")
@@ -104,7 +107,7 @@ class String:
 
 
 def hangs(it: Parameters) -> list[float]:
-    """Where the balls of a cradle hang along x, in m: in touch, the last where it begins."""
+    """The places along x where the balls of a cradle hang, in m: in touch, the last where it begins."""
     radii = [body.radius for body in reversed(it.balls)]
     return [*accumulate((-a - b for a, b in pairwise(radii)), initial=it.balls[-1].x)][::-1]
 
@@ -124,7 +127,10 @@ def build(it: Parameters) -> Setup:
         if it.air.density:
             air = it.air.density, Constant(SPHERE_DRAG), wind_in(it.air)
             forces.append(Drag(body.radius, *air, viscosity=it.air.viscosity))
-        start = (body.x, body.y), _velocity(body, launch), body.spin
+        velocity = _velocity(body, launch)
+        if it.strings:
+            velocity = _on_string(body, hung, velocity, it)
+        start = (body.x, body.y), velocity, body.spin
         balls.append(Ball(body.name, body.mass, body.radius, *start, forces=forces))
     for box in it.boxes:
         weight_of_box = [Gravity(box.mass, it.gravity)] if it.gravity else []
@@ -148,6 +154,24 @@ def _velocity(it: Moving, launch: Launch) -> Vector:
     return it.vx or 0.0, it.vy or 0.0
 
 
+def _on_string(body: Body, hung: float, velocity: Vector, it: Parameters) -> Vector:
+    """The velocity in m/s that a string leaves a ball: along x, of a launch the part along it. Raises RequestError for
+    a ball above or below the others, one that is thrown up or down, and one that would swing over its string's end."""
+    level, who = it.balls[-1].y, f"ball {body.name!r} hangs on a string"
+    if body.y != level:
+        raise RequestError(f"{who}: y = {body.y:g} m must be {level:g} m, that of the others; to lift it, move x")
+    if body.vy:
+        raise RequestError(f"{who}: vy = {body.vy:g} m/s must be 0: it moves along x")
+    aside, speed = abs(body.x - hung), abs(velocity[0])
+    rise = 0.5 * (aside * aside / it.strings + (speed * speed / it.gravity if it.gravity else 0.0))
+    if rise > 0.5 * it.strings:
+        raise RequestError(
+            f"{who} of {it.strings:g} m: {aside:.3g} m aside with {speed:.3g} m/s it swings over the string's end; "
+            f"at most {(it.gravity * it.strings) ** 0.5:.3g} m/s where it hangs, or {it.strings:g} m aside at rest"
+        )
+    return velocity[0], 0.0
+
+
 States = dict[str, State]
 
 
@@ -160,8 +184,8 @@ class Blow(NamedTuple):
     t: float  # s
     run: Run
 
-    def touching(self, states: States) -> Meeting:
-        """How the two touch, with the speeds that they have in these states."""
+    def touching(self, states: States) -> ContactManifold:
+        """The contact of the two, with the speeds that they have in these states."""
         (one, here), (other, there) = (
             (ball, (*self.before[ball.name][:2], *states[ball.name][2:]))
             for name in self.pair
@@ -177,8 +201,8 @@ def blow(run: Run, parameters: Parameters) -> Blow | None:
     event = next((e for e in run.events if e.kind == "impact" and e.partner in run.arcs), None)
     if event is None:
         return None
-    pressed = {arc.contact for arcs in run.arcs.values() for arc in arcs if isinstance(arc.contact, Pressing)}
-    end = max((contact.end for contact in pressed if contact.start <= event.t <= contact.end), default=event.t)
+    spans = {arc.contact_span for arcs in run.arcs.values() for arc in arcs if arc.contact_span is not None}
+    end = max((end for start, end in spans if start <= event.t <= end), default=event.t)
     before = {name: path.before(event.t).state(event.t) for name, path in run.arcs.items()}
     pair = sorted((event.ball, event.partner), key=lambda name: before[name][0])
     return Blow(pair, before, {name: path.at(end).state(end) for name, path in run.arcs.items()}, event.t, run)
@@ -193,12 +217,12 @@ AMOUNTS: dict[str, tuple[str, Callable[[Ball, State], float]]] = {
 
 
 def shares(run: Run, states: States, what: str) -> list[float]:
-    """How much each ball has of one of these amounts."""
+    """The share of each ball in one of these amounts."""
     return [AMOUNTS[what][1](ball, states[ball.name]) for ball in run.setup.balls]
 
 
 def _lost(run: Run, parameters: Parameters) -> float | None:
-    """How much of the energy before the blow is lost in it, in %."""
+    """The share of the energy before the blow that is lost in it, in %."""
     if (met := blow(run, parameters)) is None:
         return None
     had, has = (sum(shares(run, states, "energy")) for states in (met.before, met.after))
@@ -206,7 +230,7 @@ def _lost(run: Run, parameters: Parameters) -> float | None:
 
 
 def _falls(run: Run, parameters: Parameters) -> int | None:
-    """How often something strikes the floor, where no two meet."""
+    """The number of impacts on the floor, where no two balls meet."""
     return None if blow(run, parameters) else sum(event.kind == "impact" for event in run.events)
 
 
@@ -247,13 +271,14 @@ FACTS = (
 )
 
 
-def verdict(run: Run, parameters: Parameters) -> str:
-    """What happened, in a sentence."""
+def verdict(run: SceneRun, parameters: Parameters) -> str:
+    """Return the outcome in a sentence."""
     said = run.result
     if said["lost"] is None:
         falls = said["falls"]
         rest = ", and comes to rest" if falls and said["ended"] == "rest" else ""
         return f"Strikes the floor {falls} times{rest}" if falls > 1 else "No two balls meet"
-    loss = "nothing is lost" if said["lost"] < 0.05 else f"{said['lost']:.0f} % lost"
-    rest = ", all come to rest" if said["ended"] == "rest" else ""
-    return f"{said['approach']:.2f} m/s together, {said['separation']:.2f} apart; {loss}{rest}"
+    loss = "nothing" if said["lost"] < 0.05 else f"{said['lost']:.0f} %"
+    several = sum(event.kind == "impact" for event in run.events) > 1
+    when = ", later all of it" if said["ended"] == "rest" else " in the first hit" if several else ""
+    return f"{said['approach']:.2f} m/s together, {said['separation']:.2f} apart; {loss} lost{when}"

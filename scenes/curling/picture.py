@@ -28,6 +28,11 @@ class Picture(LongView[Parameters]):
     lines = {"hog line": HOG, "tee line": 0.0}
 
     @property
+    def aims(self) -> list[Box]:
+        """The middle of the house."""
+        return [Box(-RINGS[2], -RINGS[2], RINGS[2], RINGS[2])]
+
+    @property
     def whole(self) -> Box:
         side = 0.5 * self.parameters.width + BOARD
         return Box(RELEASE - SPARE, -side, BACK + SPARE, side)
@@ -59,7 +64,7 @@ class Picture(LongView[Parameters]):
         return self.TRACE if name == DELIVERED else COLOURS[team_of(name, self.parameters)]
 
     def behind(self, painter: Painter, camera: Camera, t: float) -> None:
-        """Where it is swept: in front of the stone."""
+        """Draw where it is swept: in front of the stone."""
         sweep, points = self.parameters.sweep, self.path.points
         swept = points[(points[:, 0] > sweep.start) & (points[:, 0] < sweep.end)]
         if len(swept) > 1:

@@ -12,11 +12,13 @@ from dataclasses import replace
 from math import hypot
 from typing import Any, Literal
 
-from sandbox.engine.run import Run
-from sandbox.engine.setup import Setup, Vector
+from sandbox.engine.model.setup import Setup
+from sandbox.engine.model.shapes import Vector
+from sandbox.engine.paths.run import Run
 from sandbox.parameters import Group, choice, group, groups, quantity
 from sandbox.physics.ice import CurlingIce
 from sandbox.physics.plane import Strips
+from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact
@@ -85,7 +87,7 @@ def build(parameters: Parameters) -> Setup:
     own = [(DELIVERED, Strips((sweep.start, sweep.end), (ice, swept, ice)))] if sweep.end > sweep.start else []
     sides = beside("side line", side, RELEASE - 1.0, BACK + 1.0, -stone.radius)
     back = beyond("back line", (BACK, -side), (BACK, side), stone.radius)
-    return Setup(balls, duration=LONGEST, between_balls=stone.bounce, plane=ice, planes=own, catches=[*sides, back])
+    return Setup(balls, duration=LONGEST, between_balls=stone.bounce, plane=ice, planes=own, traps=[*sides, back])
 
 
 def _ice(parameters: Parameters) -> CurlingIce:
@@ -98,7 +100,7 @@ def team_of(name: str, parameters: Parameters) -> str:
 
 
 def _lie(run: Run, parameters: Parameters) -> dict[str, Vector]:
-    """Where the stones lie that are in play, in m; not the delivered one short of the hog line, unless it met one."""
+    """The positions of the stones in play, in m; not the delivered one short of the hog line, unless it met one."""
     places, met = left(run), any(event.kind == "impact" for event in run.events)
     if end_of(run, DELIVERED)[0] < HOG + parameters.stone.radius and not met:
         places.pop(DELIVERED, None)
@@ -135,8 +137,8 @@ FACTS = (
 )
 
 
-def verdict(run: Run, parameters: Parameters) -> str:
-    """What happened, in a sentence."""
+def verdict(run: SceneRun, parameters: Parameters) -> str:
+    """Return the outcome in a sentence."""
     (team, points), line = _score(run, parameters), taken(run).get(DELIVERED)
     gone = [name for name in run.result["removed"] if name != DELIVERED]
     said = "stays" if gone else f"lies {roughly(run.result['to_tee'] or 0.0)} from the tee"

@@ -28,8 +28,13 @@ class Picture(SideView[Parameters]):
         return tall * self.size[0] / (rows.base - rows.top)
 
     @property
-    def company(self) -> Box:
+    def must_be_visible(self) -> Box:
         return Box(-2.0, 0.0, 0.0, 2.2)
+
+    @property
+    def aims(self) -> list[Box]:
+        goal = self.parameters.goal
+        return [Box(goal.distance - 1.5, 0.0, goal.distance + 2.0, goal.height + UPRIGHT)] if goal.present else []
 
     @property
     def target(self) -> Box | None:

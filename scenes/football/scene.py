@@ -14,19 +14,23 @@ from statistics import NormalDist, pstdev
 from typing import Any, Literal
 
 from sandbox.engine import simulate
-from sandbox.engine.accuracy import LEVELS
-from sandbox.engine.run import Event, Run
-from sandbox.engine.setup import Body, Circle, Setup, Surface
-from sandbox.engine.shapes import Ellipse
+from sandbox.engine.model.accuracy import LEVELS
+from sandbox.engine.model.ball import Body
+from sandbox.engine.model.setup import Setup
+from sandbox.engine.model.shapes import Ellipse
+from sandbox.engine.model.surface import Circle, Surface
+from sandbox.engine.paths.run import Event, Run
 from sandbox.parameters import Group, SceneParameters, choice, group, quantity, switch
+from sandbox.physics.elementwise import maximum
 from sandbox.physics.forces import Gravity
 from sandbox.physics.spheroid import DragByAngle, Follows
+from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.air import Air, wind_in
 from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact
 from sandbox.sport.flight import DEGREE, RPM, Directed
 from sandbox.sport.readings import LAUNCH, apex, at, landing, passing
-from sandbox.sport.solids import Solid, below, check_apart, disc, level
+from sandbox.sport.solids import Solid, level
 
 LONGEST, YARD = 15.0, 0.9144  # s, after which a run is ended; m
 
@@ -40,7 +44,7 @@ class Launch(Directed):
     speed: float = quantity(..., "m/s", 0, 60, "ball speed")
     angle: float = quantity(..., "deg", -90, 180, "direction above the horizontal")
     spin: float = quantity(..., "rpm", -1200, 1200, "end over end, backward positive; none as a spiral")
-    height: float = quantity(..., "m", 0.1, 3, "of the ball's centre above the grass")
+    height: float = quantity(..., "m", 0, 3, "of the ball's centre above the grass")
     nose: float = quantity(..., "deg", -180, 180, "of the long axis above the horizontal, at the start")
     turns: Literal["end-over-end", "spiral"] = choice(..., "how it turns; a spiral keeps its nose in its path")
 
@@ -98,11 +102,9 @@ LANDINGS, ROUGH = 12, replace(LEVELS["fast"], tolerance=1.0)
 
 
 def build(it: Parameters) -> Setup:
-    """The ball as an ellipse, the grass and, if there is a goal, its bar. RequestError for a ball in the grass."""
+    """The ball as an ellipse, the grass and, if there is a goal, its bar."""
     ball, launch, spiral = it.ball, it.launch, it.launch.turns == "spiral"
     half, round_half, angle = ball.length / 2, ball.width / 2, DEGREE * (launch.angle if spiral else launch.nose)
-    keys = "launch.height", "ball.length", "ball.width"
-    check_apart(it, disc("the ball", keys, 0.0, launch.height, ball.reach(angle)), below("the ground"))
     inertia = ball.mass * (half**2 + round_half**2) / 3.0  # about, of a thin shell: 5/3 of the solid's; assumed
     forces: list[Any] = [Gravity(ball.mass, it.gravity)] if it.gravity else []
     if it.air.density:
@@ -110,7 +112,7 @@ def build(it: Parameters) -> Setup:
         forces.append(DragByAngle(it.air.density, area, ball.nose_drag, ball.side_drag, wind_in(it.air), spiral))
     kicked = Body(
         "ball",
-        position=(0.0, launch.height),
+        position=(0.0, maximum(launch.height, ball.reach(angle))),  # no lower than where it lies on the grass
         velocity=launch.velocity,
         spin=0.0 if spiral else launch.spin * RPM,
         angle=angle,
@@ -128,12 +130,12 @@ def build(it: Parameters) -> Setup:
 
 
 def bounces_no_more(event: Event) -> bool:
-    """Whether the ball lies: from here on it would rock and roll."""
+    """True if the ball lies: from here on it would rock and roll."""
     return event.kind == "contact" and event.partner == "ground"
 
 
 def over(run: Run, parameters: Parameters) -> float | None:
-    """How far in m the ball's centre passes over the bar, before it has come down; None without a goal."""
+    """The height in m at which the ball's centre passes over the bar, before it has come down; None without a goal."""
     if not parameters.goal.present:
         return None
     passed, down = passing(run, parameters.goal.distance), landing(run, parameters)
@@ -154,7 +156,7 @@ def _bounced(run: Run, parameters: Parameters) -> float | None:
 
 
 def _spread(run: Run, parameters: Parameters) -> float | None:
-    """How much the bounces of a kick without a goal differ, in m, as a standard deviation: of landings that differ in
+    """The standard deviation in m of the bounces of a kick without a goal: of landings that differ in
     the angle of the nose alone. End over end no kicker controls it; a spiral's is his to a few degrees."""
     down = landing(run, parameters)
     if down is None or parameters.goal.present:
@@ -189,8 +191,8 @@ FACTS = (
 )
 
 
-def verdict(run: Run, parameters: Parameters) -> str:
-    """What happened, in a sentence."""
+def verdict(run: SceneRun, parameters: Parameters) -> str:
+    """Return the outcome in a sentence."""
     said, spread = run.result, run.result["bounce_spread"]
     if said["good"]:
         return f"Good, from {parameters.goal.distance / YARD:.0f} yd, {said['over']:.1f} m over the bar"

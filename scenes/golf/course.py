@@ -6,9 +6,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import Literal
 
-from sandbox.engine.setup import Bounce, Segment, Surface, Vector
-from sandbox.errors import RequestError
-from sandbox.parameters import Group, choice, group, groups, quantity, vectors
+from sandbox.kit import Bounce, Group, RequestError, Segment, Surface, Vector, choice, group, groups, quantity, vectors
 from sandbox.physics.turf import penner_bounce, stimp_resistance
 
 #: The course extends this far in m, behind and beyond: farther than a shot gets.
@@ -24,7 +22,7 @@ CUP = (0.0, 0.4, 0.1)
 
 
 class Grass(Group):
-    """How a ball bounces on a kind of ground."""
+    """The bounce of a ball on a kind of ground."""
 
     bounce: float = quantity(..., "", 0, 2, "restitution over that of Penner's green")
     friction: float = quantity(..., "", 0, 10, "friction of ball and ground")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cached_property
 from math import pi, sin
 from typing import Any
@@ -9,11 +10,32 @@ from typing import Any
 import numpy as np
 import pygame
 
-from sandbox.engine.setup import Segment
-from sandbox.picture.palette import Colour, mix, palette, scene_colours
-from sandbox.picture.places import Ground, Landscape, Line, Stripes
-from sandbox.picture.views import Box, Camera, Eye, Length, Look, Mark, Painter, Sheet, SideRows, SideView, dimples
-from sandbox.sport.amounts import metres, nice, twice
+from sandbox.kit import (
+    Box,
+    Camera,
+    Colour,
+    Eye,
+    Ground,
+    Landscape,
+    Length,
+    Line,
+    Look,
+    Mark,
+    Painter,
+    Segment,
+    Sheet,
+    SideRows,
+    SideView,
+    Stripes,
+    Thing,
+    dimples,
+    metres,
+    mix,
+    nice,
+    palette,
+    scene_colours,
+    twice,
+)
 
 from .scene import Parameters
 
@@ -71,7 +93,7 @@ class Picture(SideView[Parameters]):
 
     @property
     def pin(self) -> float:
-        """Where it is, in m."""
+        """The pin's place, in m."""
         return self.parameters.pin.distance
 
     @property
@@ -115,7 +137,7 @@ class Picture(SideView[Parameters]):
     def backdrop(self, painter: Painter, camera: Camera) -> None:
         """Landscape, field and ground."""
         scale = camera.scale if camera == self.camera else self.home.scale
-        eye, (width, height), turf = self.eye(camera), self.size, self.colours["turf"]
+        eye, (width, height), turf = self.seen_from(camera), self.size, self.colours["turf"]
         low, high = camera.world(0, 0)[0], camera.world(width, 0)[0]
         outline = camera.pixels(self.profile(low, high))
         deepest = min(height, max(round(eye.base), round(outline[:, 1].max())))
@@ -135,7 +157,7 @@ class Picture(SideView[Parameters]):
         self._hole(painter, eye)
 
     def _field(self, eye: Eye, stripe: float) -> Ground:
-        """What is behind the line of play: rough along the horizon, in front of it fairway, green and bunkers."""
+        """The ground behind the line of play: rough along the horizon, in front of it fairway, green and bunkers."""
         far, close, turf = eye.depth(FAR), eye.depth(2.0), self.colours["turf"]
         areas: list[tuple[Line, Colour]] = []
         for name, shape in self.pieces:
@@ -172,10 +194,13 @@ class Picture(SideView[Parameters]):
             painter.surface.fill(HOLE["liner"], liner)
             painter.surface.fill(dark, (liner.left + thin, liner.top, liner.width - 2 * thin, liner.height - thin))
 
+    def kept_clear(self, camera: Camera, t: float) -> list[pygame.Rect]:
+        return [*super().kept_clear(camera, t), self.flag_box(camera)]
+
     def flag_box(self, camera: Camera) -> pygame.Rect:
         """The place that the flag takes; it is drawn larger where it would be too small to see."""
         (x, ground), unit = camera.pixel(self.pin, self.cup.top), self.unit
-        tall, cloth = min(max(FLAGSTICK * camera.scale, 66 * unit), 190 * unit), 30 * unit
+        tall, cloth = min(max(FLAGSTICK * camera.scale, 66 * unit), 120 * unit), 30 * unit
         return pygame.Rect(round(x - cloth), round(ground - tall), round(2 * cloth), round(tall))
 
     def behind(self, painter: Painter, camera: Camera, t: float) -> None:
@@ -191,11 +216,13 @@ class Picture(SideView[Parameters]):
         edges = np.concatenate([wave + 9 * unit * share, (wave + (19 - 9 * share) * unit)[::-1]])
         painter.polygon(np.column_stack([[*along, *along[::-1]], edges]), HOLE["flag"])
 
-    def before(self, painter: Painter, camera: Camera, t: float) -> None:
+    @property
+    def standing(self) -> Sequence[Thing]:
         """Nothing: the ball is in front of all of the course."""
+        return ()
 
     def landmarks(self, sheet: Sheet, camera: Camera) -> None:
-        """How far the pin is."""
+        """Write how far the pin is."""
         flag = self.flag_box(camera)
         if flag.colliderect(sheet.surface.get_rect()):
             sheet.labels.take(flag.inflate(0, 2 * sheet.gap))
@@ -204,6 +231,18 @@ class Picture(SideView[Parameters]):
             sheet.label(text, "small", spots, sheet.ink, bold=True)
 
     # The poster
+
+    @property
+    def sky(self) -> float:
+        return min(super().sky, self.flag_box(self.camera).top - 36 * self.unit)
+
+    def closeups_of(self) -> list[Box]:
+        """The cup, as a putt comes to it."""
+        cup = self.cup
+        wide = cup.right - cup.left
+        if wide * self.camera.scale < LEAST_CUP * self.unit:
+            return []
+        return [Box(cup.left - 4 * wide, cup.bottom - 0.2 * wide, cup.right + 2 * wide, cup.top + 0.8 * wide)]
 
     def annotate(self, sheet: Sheet, camera: Camera) -> None:
         """The apex, with a dashed line down to the ground, and where carry ends in the air."""
@@ -234,7 +273,7 @@ class Picture(SideView[Parameters]):
 
     @property
     def _ends_high(self) -> bool:
-        """Whether the ball is seen to be above lower ground where its carry ends."""
+        """True if the ball is seen to be above lower ground where its carry ends."""
         carry, camera = self.run.result["carry"], self.camera
         if carry is None:
             return False

@@ -17,18 +17,44 @@ from functools import partial
 from math import hypot, inf, radians
 from typing import Literal
 
-from sandbox.engine.run import Run
-from sandbox.engine.setup import SOLID_SPHERE, Ball, Bounds, Setup, Touches
-from sandbox.errors import RequestError
-from sandbox.parameters import Group, choice, either, group, quantity
+from sandbox.kit import (
+    GOLF_DRAG,
+    GOLF_LIFT,
+    LAUNCH,
+    LAUNCH_SPIN,
+    SOLID_SPHERE,
+    Air,
+    Ball,
+    Bounds,
+    ConstantDrag,
+    Controls,
+    Fact,
+    Flight,
+    Goal,
+    Group,
+    Handle,
+    Moment,
+    NoForce,
+    OutdoorAir,
+    RequestError,
+    Run,
+    SceneRun,
+    Setup,
+    Sphere,
+    Spin,
+    Spread,
+    Touches,
+    at,
+    choice,
+    down_to,
+    group,
+    height_on,
+    once,
+    one_of,
+    quantity,
+    roughly,
+)
 from sandbox.physics.club import Head, strike
-from sandbox.physics.coefficients import GOLF_DRAG, GOLF_LIFT
-from sandbox.sport.air import Air, ConstantDrag, NoForce, OutdoorAir
-from sandbox.sport.amounts import roughly
-from sandbox.sport.controls import Controls, Goal, Handle, Spin, Spread
-from sandbox.sport.facts import Fact, once
-from sandbox.sport.flight import Flight, Sphere, height_on
-from sandbox.sport.readings import LAUNCH, LAUNCH_SPIN, Moment, at, down_to
 
 from .course import FAR, Ground, Pin, surfaces
 
@@ -59,7 +85,7 @@ class GolfBall(Sphere, drag=GOLF_DRAG, lift=GOLF_LIFT):
 
     INERTIA = SOLID_SPHERE
     spin_decay: float = quantity(..., "", 0, 0.01, "k of dw/dt = -k |u| w / r, in air of 1.204 kg/m^3")
-    drag: DimpledDrag | NoForce = either(..., "drag of the air")
+    drag: DimpledDrag | NoForce = one_of(..., "drag of the air")
 
     def decay_in(self, air: Air) -> float:
         """Thinner air slows the spin less, in proportion."""
@@ -77,6 +103,8 @@ class Parameters(Flight):
     pin: Pin = group(..., "the flag and its cup")
 
 
+#: Slowest and fastest putt that is tried, in m/s.
+PUTTS = 0.1, 8.0
 CONTROLS = Controls(
     strongest=100.0,
     spins=(Spin("launch.spin", 100.0),),
@@ -124,11 +152,11 @@ def struck(club: Club, ball: Ball) -> Ball:
 
 def goals(parameters: Parameters) -> list[Goal]:
     """The cup for a putt, which may be hit at several speeds; else where the ball lands, by speed or by angle."""
-    pin, speed = parameters.pin.distance, parameters.launch.speed
+    pin = parameters.pin.distance
     place = parameters.ground.point(pin)
     if parameters.launch.angle < 3.0:
-        return [Goal("the cup", {"holed": True}, place, {"launch.speed": (0.2 * speed, 3.0 * speed)})]
-    ways = {"launch.speed": (0.2 * speed, min(2.0 * speed, CONTROLS.strongest)), "launch.angle": (5.0, 80.0)}
+        return [Goal("the cup", {"holed": True}, place, {"launch.speed": PUTTS})]
+    ways = {"launch.speed": (PUTTS[0], CONTROLS.strongest), "launch.angle": (5.0, 80.0)}
     return [Goal("a landing at the pin", {"carry": pin}, place, {key: ends}) for key, ends in ways.items()]
 
 
@@ -139,7 +167,7 @@ def landing(run: Run, parameters: Parameters) -> Moment | None:
 
 
 def flew(run: Run, parameters: Parameters) -> bool:
-    """Whether the ball flew: a putt does not."""
+    """True if the ball flew: a putt does not."""
     landed = landing(run, parameters)
     return landed is not None and landed.t > 0.02
 
@@ -158,7 +186,7 @@ def smash_factor(run: Run, parameters: Parameters) -> float | None:
 
 
 def compared_with_tour(run: Run, parameters: Parameters) -> str | None:
-    """How fast the ball of a driver is compared with those of tour players, which the model does not quite meet."""
+    """The speed of a driver's ball compared with those of tour players, which the model does not quite meet."""
     smash = smash_factor(run, parameters)
     if smash is None or parameters.club.depth == 0.0:  # an iron's centre of mass is in its face
         return None
@@ -168,12 +196,12 @@ def compared_with_tour(run: Run, parameters: Parameters) -> str | None:
 
 
 def total(run: Run, parameters: Parameters) -> float:
-    """Where the ball lies in the end, in m."""
+    """The final position of the ball, in m."""
     return run.state("ball", run.duration)[0]
 
 
 def comes_back(run: Run, parameters: Parameters) -> float | None:
-    """How far in m the ball ends short of the farthest place that it reached: spun back, or rolled back down."""
+    """The distance in m from the farthest place that the ball reached to its end: spun back, or rolled back down."""
     end = total(run, parameters)
     way = 1.0 if end >= 0.0 else -1.0
     back = max(way * state[0] for _, state in run.ends("ball")) - way * end  # it turns within 1 cm of an arc's end
@@ -181,7 +209,7 @@ def comes_back(run: Run, parameters: Parameters) -> float | None:
 
 
 def holed(run: Run, parameters: Parameters) -> bool:
-    """Whether the ball lies in the cup."""
+    """True if the ball lies in the cup."""
     (x, y), pin = run.state("ball", run.duration)[:2], parameters.pin
     return abs(x - pin.distance) < 0.5 * pin.cup_width and y < parameters.ground.height(pin.distance)
 
@@ -212,8 +240,8 @@ FACTS = (
 )
 
 
-def verdict(run: Run, parameters: Parameters) -> str:
-    """What happened, in a sentence."""
+def verdict(run: SceneRun, parameters: Parameters) -> str:
+    """Return the outcome in a sentence."""
     result, pin = run.result, parameters.pin.distance
     carry, total = result["carry"], result["total"]
     if result["holed"]:

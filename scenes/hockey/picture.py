@@ -14,7 +14,7 @@ import numpy as np
 from sandbox.picture.palette import Colour, scene_colours
 from sandbox.picture.places import Shape, goal
 from sandbox.picture.places.plan import Ground, Kit, Line, Person, Plan, Point, Spot, Worn, arc
-from sandbox.picture.views import AboveView, Box, Camera, Look, Mark, Painter, near
+from sandbox.picture.views import AboveView, Area, Box, Camera, Look, Mark, Painter, near
 
 from .scene import Parameters, Rink, decided
 
@@ -29,6 +29,9 @@ SPOT, WIDE, THIN, DEPTH = 0.3, 0.3, 0.05, 1.0
 #: How thick the boards are, as a share of the rink's width; how far the hall goes on; a post's radius; a goal's height;
 #: between the holes of an air table.
 BOARDS, FAR, POST, HEIGHT, HOLES = 0.025, 200.0, 0.03, 1.22, 0.075
+
+#: The picture shows so much ice around the puck's path, and whoever is so near to it, in m.
+AROUND, WITH = 3.0, 4.0
 
 BOTH = (-1, 1)
 
@@ -46,17 +49,46 @@ class Picture(AboveView[Parameters]):
         return [ball.name for ball in self.run.setup.balls if self.table or ball.name == "puck"]
 
     @cached_property
-    def told(self) -> float:
+    def story_end(self) -> float:
         return min(self.run.duration, decided(self.run, self.parameters)[0] + 0.5)
+
+    @property
+    def aims(self) -> list[Box]:
+        """The goals, or the slots of a table."""
+        rink = self.parameters.rink
+        end, half, deep = rink.line, 0.5 * rink.goal_width, DEPTH if rink.goal_line else 0.02 * rink.length
+        return [Box(end, -half, end + deep, half), Box(-end - deep, -half, -end, half)]
 
     @cached_property
     def seen(self) -> np.ndarray:
+        """All of a table; of the ice what the puck crosses, with whoever it comes near."""
         rink = self.parameters.rink
-        return 0.51 * np.array([(-rink.length, -rink.width), (rink.length, rink.width)])
+        whole = 0.51 * np.array([(-rink.length, -rink.width), (rink.length, rink.width)])
+        if self.table:
+            return whole
+        spots = [*self.points, *(self.run.state(ball.name, self.story_end)[:2] for ball in self.run.setup.balls)]
+        close = np.array([spot for spot in spots if np.hypot(*(self.points - spot).T).min() < WITH])
+        return np.clip([close.min(axis=0) - AROUND, close.max(axis=0) + AROUND], *whole)
 
     @cached_property
     def plan(self) -> Plan:
         return air_table(self.parameters.rink) if self.table else ice_rink(self.parameters.rink)
+
+    @property
+    def area(self) -> Area:
+        area = super().area
+        return area if self.table else area._replace(bottom=area.bottom - 12 * self.unit)
+
+    def backdrop(self, painter: Painter, camera: Camera) -> None:
+        """The ice as through a window, so that text stands on dark ground."""
+        super().backdrop(painter, camera)
+        frame, area, (width, height) = self.sheet.frame, self.area, self.size
+        top, bottom = round(area.top - 8 * self.unit), round(area.bottom + 8 * self.unit)
+        for left, high, right, low in (
+            *((0, 0, width, top), (0, bottom, width, height)),
+            *((0, top, frame.left, bottom), (frame.right, top, width, bottom)),
+        ):
+            painter.surface.fill(COLOURS["hall"], (left, high, right - left, low - high))
 
     def look_of(self, name: str) -> Look:
         return LOOKS["mallet" if name != "puck" else "air_puck" if self.table else "puck"]

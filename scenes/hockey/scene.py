@@ -12,10 +12,13 @@ from __future__ import annotations
 from itertools import pairwise
 from typing import Literal
 
-from sandbox.engine.run import Run
-from sandbox.engine.setup import Catch, Circle, Segment, Setup, Surface, Touches, Vector
+from sandbox.engine.model.setup import Setup, Touches
+from sandbox.engine.model.shapes import Vector
+from sandbox.engine.model.surface import Circle, Segment, Surface, Trap
+from sandbox.engine.paths.run import Run
 from sandbox.parameters import Group, choice, group, groups, quantity
 from sandbox.physics.ice import Glide
+from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact
@@ -44,7 +47,7 @@ class Rink(Group):
 
     @property
     def line(self) -> float:
-        """Where the goal line is, from the middle, in m."""
+        """The distance of the goal line from the middle, in m."""
         return 0.5 * self.length - self.goal_line
 
     @property
@@ -94,7 +97,7 @@ def build(parameters: Parameters) -> Setup:
         corners = [(x, half + POST), (back, half + POST), (back, -half - POST), (x, -half - POST)]
         surfaces += [puck.surface("post", Circle(post, POST)) for post in (corners[0], corners[3])]
         surfaces += [Surface("net", Segment(*ends), 0.1, 0.5) for ends in pairwise(corners)]
-    goal = Catch("goal", (inside, POST - half), POST, (inside, half - POST), ["puck"])
+    goal = Trap("goal", (inside, POST - half), POST, (inside, half - POST), ["puck"])
     bodies = [puck.at("puck", (it.launch.x, it.launch.aside), it.launch.velocity, it.launch.turning)]
     bodies += [it.player.at(f"{who.role} {i}", (who.x, who.y), (who.vx, who.vy)) for i, who in enumerate(it.players, 1)]
     check_inside(bodies, rink.length, rink.width, rink.corner)
@@ -111,7 +114,7 @@ def build(parameters: Parameters) -> Setup:
 
 
 def touches(run: Run, parameters: Parameters) -> list[str]:
-    """What the puck meets, in order."""
+    """The things that the puck meets, in order."""
     return [what for what, _ in met(run, "puck")]
 
 
@@ -143,8 +146,8 @@ FACTS = (
 )
 
 
-def verdict(run: Run, parameters: Parameters) -> str:
-    """What happened, in a sentence."""
+def verdict(run: SceneRun, parameters: Parameters) -> str:
+    """Return the outcome in a sentence."""
     said, off = run.result["verdict"], ", off the boards" if run.result["boards"] else ""
     if said in ("goal", "received"):
         return f"{said.capitalize()} at {run.result['speed']:.1f} m/s{off}"

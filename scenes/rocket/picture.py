@@ -29,10 +29,10 @@ FLAME = Silhouette(BODY["hull"], *zip(FLAMES, BODY["flame"], strict=True))
 class Picture(SideView[Parameters]):
     LOOK, THING = ROCKET, "rocket"
     TRACE, EARLIER, ON_DARK = COLOURS["trace"], COLOURS["earlier"], False
-    LENGTHS, SECOND_UNIT, LEVEL, ASIDE, HEADROOM = 1, "ft", 70, 0.4, 44
+    LENGTHS, SECOND_UNIT, LEVEL, ASIDE, HEADROOM, STRETCHES = 1, "ft", 70, 0.4, 44, 5.0
 
     @property
-    def company(self) -> Box:
+    def must_be_visible(self) -> Box:
         return Box(-1.0, 0.0, 1.0, self.parameters.launch.rail + 0.5)
 
     @cached_property
@@ -65,7 +65,7 @@ class Picture(SideView[Parameters]):
         return metres(self.run.state(self.ball, t)[1]), "above the ground"
 
     def annotate(self, sheet: Sheet, camera: Camera) -> None:
-        """Where the motor has burnt out, and how high the rocket came."""
+        """Mark where the motor has burnt out, and how high the rocket came."""
         (t, top), over = self.run.highest(self.ball), burnout(self.run, self.parameters)
         if over is not None:
             self.point_out(sheet, camera, (over.x, over.y), f"burnout {amount(over.speed, 'm/s')}")

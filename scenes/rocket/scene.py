@@ -11,13 +11,16 @@ from __future__ import annotations
 from itertools import pairwise
 from math import hypot
 
-from sandbox.engine.run import Run
-from sandbox.engine.setup import Ball, Force, Segment, Setup, Surface, Touches
+from sandbox.engine.model.ball import Ball, Force
+from sandbox.engine.model.setup import Setup, Touches
+from sandbox.engine.model.surface import Segment, Surface
+from sandbox.engine.paths.run import Run
 from sandbox.errors import RequestError
 from sandbox.parameters import Group, SceneParameters, group, quantity, vectors
-from sandbox.physics.elementwise import anywhere, choose, cos, sin
+from sandbox.physics.elementwise import anywhere, cos, sin, where
 from sandbox.physics.forces import Gravity, Thinning
 from sandbox.physics.rocket import Motor, Thrust
+from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.air import Air, NoForce, wind_in
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spread
@@ -65,6 +68,7 @@ class Parameters(SceneParameters):
 CONTROLS = Controls(
     ball="rocket",
     speed="motor.strength",
+    softest=0.5,
     strongest=2.0,
     handles=(Handle(y="launch.height"),),
     sliders=("motor.propellant", "ball.mass", "ball.drag.coefficient", "launch.rail", "air.wind", "gravity"),
@@ -94,12 +98,12 @@ def build(parameters: Parameters) -> Setup:
     weight = Gravity(rocket.mass, parameters.gravity, motor)
     forces: list[Force] = [weight, *map(Thinning, forces_in_flight(rocket, parameters.air)), thrust]
     flying = Ball("rocket", rocket.mass, rocket.radius, start, launch.velocity, forces=forces, loss=motor)
-    side = choose(launch.angle <= 90.0, rocket.radius, -rocket.radius)
+    side = where(launch.angle <= 90.0, rocket.radius, -rocket.radius)
     reach = -0.05, launch.rail  # m; it slides back until its thrust exceeds its weight
     foot, tip = ((side * ey + along * ex, launch.height - side * ex + along * ey) for along in reach)
     rail = Surface("rail", Segment(foot, tip), 0.0, 0.0)
     ground = Surface("ground", level(), 0.0, 0.5)
-    return Setup([flying], [ground, rail], parameters.duration, Touches("ground"), breaks=motor.times)
+    return Setup([flying], [ground, rail], parameters.duration, Touches("ground"), discontinuities=motor.times)
 
 
 def top_speed(run: Run, parameters: Parameters) -> float:
@@ -127,7 +131,7 @@ FACTS = (
 )
 
 
-def verdict(run: Run, parameters: Parameters) -> str:
-    """What happened, in a sentence."""
+def verdict(run: SceneRun, parameters: Parameters) -> str:
+    """Return the outcome in a sentence."""
     high, far = roughly(run.result["apex"]), roughly(abs(run.result["distance"]))
     return f"{high} high, {'down ' * (run.ended == 'until')}{far} away after {run.duration:.1f} s"

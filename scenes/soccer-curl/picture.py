@@ -29,6 +29,8 @@ BOARD, BOARD_LENGTH, FAR = 0.4, 6.0, 1000.0
 HEIGHT, BEHIND, ROOM, ASIDE = 2.44, 0.75, 1.3, 0.4
 #: The poster follows a ball that was stopped for so long, in s.
 AFTERMATH = 0.6
+#: And one that has passed the goal line for so long, in s.
+BEYOND = 0.2
 
 
 class Picture(AboveView[Parameters]):
@@ -43,13 +45,18 @@ class Picture(AboveView[Parameters]):
         return ["ball"]
 
     @cached_property
-    def told(self) -> float:
-        touched, end = first_touch(self.run), self.run.duration
-        return end if self.run.result["goal"] or touched is None else min(end, touched.t + AFTERMATH)
+    def story_end(self) -> float:
+        """A ball that passes the goal is followed little farther."""
+        end, passed = self.run.duration, self.run.result["flight_time"]
+        if self.run.result["goal"]:
+            return end
+        touched = first_touch(self.run)
+        ends = [touched.t + AFTERMATH] if touched else []
+        return min([end, *ends, *([passed + BEYOND] if passed is not None else [])])
 
     @property
     def moment(self) -> float:
-        """When the ball is at the goal line or touched."""
+        """The time in s at which the ball is at the goal line or touched."""
         t = self.run.result["flight_time"]
         return self.run.duration if t is None else t
 
@@ -83,6 +90,12 @@ class Picture(AboveView[Parameters]):
             plan.Person((0.0, 0.0), self.parameters.launch.angle, KICKER, behind=BEHIND),
         )
 
+    @property
+    def aims(self) -> list[Box]:
+        goal = self.parameters.goal
+        aside = goal.width / 2 + goal.post_radius
+        return [Box(goal.distance, goal.offset - aside, goal.distance + goal.depth, goal.offset + aside)]
+
     @cached_property
     def seen(self) -> np.ndarray:
         """The paths, the kicker, the goal, and where the straight line meets the goal line."""
@@ -92,7 +105,7 @@ class Picture(AboveView[Parameters]):
         return np.concatenate([self.points, corners, [self.straight] if self.straight else np.empty((0, 2))])
 
     def behind(self, painter: Painter, camera: Camera, t: float) -> None:
-        """Where the ball would have gone without spin, and the keeper."""
+        """Draw where the ball would have gone without spin, and the keeper."""
         straight = [camera.pixel(0.0, 0.0), camera.pixel(*self._without_spin(t))]
         if dist(*straight) > 20 * self.unit:
             faint = mix(COLOURS["straight"], COLOURS["grass"][0], 0.4)
@@ -115,7 +128,7 @@ class Picture(AboveView[Parameters]):
 
     @cached_property
     def straight(self) -> tuple[float, float] | None:
-        """Where the straight line of the launch meets the goal line, in m; None where the ball does not get there."""
+        """The point in m where the launch's straight line meets the goal line; None if the ball does not come there."""
         angle, line = self.parameters.launch.angle, self.parameters.goal.distance
         if abs(angle) >= 89.0 or self.run.result["deviation"] is None:
             return None
@@ -129,7 +142,7 @@ class Picture(AboveView[Parameters]):
         return far * cos(angle), far * sin(angle)
 
     def annotate(self, sheet: Sheet, camera: Camera) -> None:
-        """How far from its straight line the ball comes to the goal line."""
+        """Mark how far from its straight line the ball comes to the goal line."""
         unit, accent, keeper = self.unit, CARD["accent"], self.parameters.keeper
         if keeper.present:
             at = camera.pixel(*self.run.state("keeper", self.moment)[:2])
@@ -159,7 +172,7 @@ class Picture(AboveView[Parameters]):
         return metres(abs(away)), "to the goal line" if away >= 0 else "behind the goal line"
 
     def position(self, t: float) -> list[Entry]:
-        """How far the ball is off its straight line."""
+        """The ball's distance from its straight line."""
         (x, y, *_), angle = self.run.state("ball", t), radians(self.parameters.launch.angle)
         aside = float(y * cos(angle) - x * sin(angle))
         return [("off the straight", f"{metres(abs(aside))} {SIDES[aside >= 0.0]}" if abs(aside) >= 0.005 else "–")]

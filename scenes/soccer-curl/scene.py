@@ -15,9 +15,13 @@ from dataclasses import replace
 from itertools import pairwise
 from math import cos, inf, radians, tan
 
-from sandbox.engine.run import Event, Run
-from sandbox.engine.setup import Ball, Circle, Segment, Setup, Surface, Vector
+from sandbox.engine.model.ball import Ball
+from sandbox.engine.model.setup import Setup
+from sandbox.engine.model.shapes import Vector
+from sandbox.engine.model.surface import Circle, Segment, Surface
+from sandbox.engine.paths.run import Event, Run
 from sandbox.parameters import SceneParameters, group, quantity, switch
+from sandbox.scene.scene_run import SceneRun
 from sandbox.sport import flight
 from sandbox.sport.air import Air
 from sandbox.sport.amounts import roughly
@@ -86,7 +90,7 @@ class Parameters(SceneParameters):
 
     @property
     def stand(self) -> Vector:
-        """Where the keeper stands at the kick, in m."""
+        """The place of the keeper at the kick, in m."""
         return self.goal.distance - self.keeper.distance, self.goal.offset + self.keeper.offset
 
 
@@ -141,7 +145,7 @@ def build(parameters: Parameters) -> Setup:
 
 
 def is_over(event: Event) -> bool:
-    """Whether the ball is in the net, or out."""
+    """True if the ball is in the net, or out."""
     return event.ball == "ball" and event.partner in ("net", "boards")
 
 
@@ -154,7 +158,7 @@ def at_goal(run: Run, parameters: Parameters) -> Moment | None:
 
 @once
 def scored(run: Run, parameters: Parameters) -> bool:
-    """Whether the ball was in the goal, between the posts."""
+    """True if the ball was in the goal, between the posts."""
     goal = parameters.goal
     entries = goal.entries(run, parameters.ball.radius)
     return any(abs(state[1] - goal.offset) < 0.5 * goal.width for _, state in entries)
@@ -205,8 +209,8 @@ FACTS = (
 )
 
 
-def verdict(run: Run, parameters: Parameters) -> str:
-    """What happened, in a sentence."""
+def verdict(run: SceneRun, parameters: Parameters) -> str:
+    """Return the outcome in a sentence."""
     said, bend, inside = (run.result[key] for key in ("verdict", "deviation", "inside_post"))
     if said == "goal":
         if inside is None:
@@ -215,6 +219,6 @@ def verdict(run: Run, parameters: Parameters) -> str:
             return f"Goal, bent {roughly(abs(bend))} to the {SIDES[bend > 0.0]}"
         return f"Goal, {roughly(max(0.0, inside))} inside the post"
     if said == "wide" and inside is not None:
-        return f"Wide by {roughly(max(0.0, -inside - parameters.ball.radius))}"
+        return f"Wide by {roughly(max(0.0, -inside))}"
     ways = {"saved": "Saved by the keeper", "post": "Off the post", "wall": "Into the wall"}
     return ways.get(said, "Wide of the goal" if said == "wide" else "Short of the goal line")

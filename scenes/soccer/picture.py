@@ -7,12 +7,26 @@ from itertools import pairwise
 
 import numpy as np
 
-from sandbox.engine.setup import Segment
-from sandbox.picture.palette import mix, scene_colours
-from sandbox.picture.places import Person, Shape, Stands, goal, turf
-from sandbox.picture.places.courts import PITCH_WIDTH, pitch_lines
-from sandbox.picture.views import Box, Camera, Length, Look, Place, Sheet, SideView, patches
-from sandbox.sport.amounts import metres
+from sandbox.kit import (
+    Box,
+    Camera,
+    Length,
+    Look,
+    Person,
+    Place,
+    Segment,
+    Shape,
+    Sheet,
+    SideView,
+    Stands,
+    courts,
+    goal,
+    metres,
+    mix,
+    patches,
+    scene_colours,
+    turf,
+)
 
 from .scene import Parameters, scored
 
@@ -25,6 +39,8 @@ STRIPE, LINE = 5.5, 0.12
 KICKER, LEAST_TOP = 1.5, 2.7
 #: The goal, whose near post is in the plane of play, is so wide (Laws of the Game, law 1), and boards so long, in m.
 GOAL_WIDTH, BOARD = 7.32, 8.0
+#: Boards are drawn if the ball comes so near to them, in m.
+NEARBY = 20.0
 #: How much smaller things look at the boards on the far side.
 FAR = 0.38
 #: Players of the wall stand so far apart, in m; they are this tall unless they jump or the wall is low.
@@ -43,7 +59,7 @@ class Picture(SideView[Parameters]):
     FROM = "from the kick"
 
     @cached_property
-    def told(self) -> float:
+    def story_end(self) -> float:
         """A ball in the goal has come to the ground, any other has stopped."""
         run, goal = self.run, scored(self.run, self.parameters)
         down = (event.t for event in run.events if event.kind == "impact" and event.partner == "ground")
@@ -54,8 +70,13 @@ class Picture(SideView[Parameters]):
         return (self.parameters.goal.distance, 0.0), "the goal"
 
     @property
-    def company(self) -> Box:
+    def must_be_visible(self) -> Box:
         return Box(-KICKER, 0.0, 0.0, LEAST_TOP)
+
+    @property
+    def aims(self) -> list[Box]:
+        goal = self.parameters.goal
+        return [Box(goal.distance, 0.0, goal.distance + goal.depth, goal.height)] if goal.present else []
 
     @property
     def target(self) -> Box:
@@ -65,23 +86,32 @@ class Picture(SideView[Parameters]):
     @cached_property
     def place(self) -> Place:
         mouth, wall = self.parameters.goal, self.parameters.wall
-        lines = pitch_lines(mouth.distance, GOAL_WIDTH / 2)
+        lines = courts.pitch_lines(mouth.distance, GOAL_WIDTH / 2)
         ground = turf(PITCH, STRIPE, 6, LINE, start=mouth.distance, lines=lines, far=FAR, haze=PITCH["far"])
         size = mouth.distance, mouth.depth, mouth.height, GOAL_WIDTH, mouth.post_radius
         standing = [
             *(goal(*size, **COLOURS["goal"]) if mouth.present else ()),
             *(self._wall() if wall.present else ()),
-            Person(-0.62, 1.82, COLOURS["kicker"], "kicking"),
+            Person(-0.62, 1.82, COLOURS["kicker"], "kicking", near=self._comes_back),
         ]
         return Place(Stands(**COLOURS["stands"]), ground, [*self._boards(), *standing])
 
+    @property
+    def _comes_back(self) -> bool:
+        """True if the ball goes behind the kicker, who then stands before its path."""
+        return bool(self.path.points[:, 0].min() < -1.0)
+
     def _boards(self) -> list[Shape]:
-        """Advertising boards across the pitch, where a ball is out of play."""
-        shapes = (surface.shape for surface in self.run.setup.surfaces if surface.name == "boards")
-        edges = np.arange((GOAL_WIDTH + PITCH_WIDTH) / 2, -BOARD, -BOARD).clip(0.0).tolist()
+        """Advertising boards across the pitch, where a ball is out of play, if it comes near them."""
+        far = self.points[:, 0].max()
+        boards = (surface.shape for surface in self.run.setup.surfaces if surface.name == "boards")
+        shapes = [shape for shape in boards if isinstance(shape, Segment) and shape.a[0] < far + NEARBY]
+        drawn = (1.0 / FAR - 1.0) * self.size[0] / self.camera.scale  # to the boards on the far side
+        across = max((GOAL_WIDTH + courts.PITCH_WIDTH) / 2, drawn)
+        edges = np.arange(across, -BOARD, -BOARD).clip(0.0).tolist()
         return [
             Shape([(*low, near), (*low, far), (*top, far), (*top, near)], mix(BOARDS[i * 3 % 4], PITCH["far"], 0.25))
-            for low, top in ((shape.a, shape.b) for shape in shapes if isinstance(shape, Segment))
+            for low, top in ((shape.a, shape.b) for shape in shapes)
             for i, (far, near) in enumerate(pairwise(edges))
         ]
 
@@ -101,7 +131,7 @@ class Picture(SideView[Parameters]):
         return [Length(f"{name} {metres(far)}", 0.0, far) for name, present, far in things if present]
 
     def annotate(self, sheet: Sheet, camera: Camera) -> None:
-        """How far the ball passes over the heads and under or over the bar."""
+        """Mark how far the ball passes over the heads and under or over the bar."""
         wall, goal, result = self.parameters.wall, self.parameters.goal, self.run.result
         over, under = result["over_wall"], result["under_bar"]
         if over is not None and over > 0.0:

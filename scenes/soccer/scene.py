@@ -16,18 +16,45 @@ from dataclasses import dataclass
 from itertools import pairwise
 from math import inf
 
-from sandbox.engine.run import Event, Run
-from sandbox.engine.setup import Circle, Segment, Setup, Surface, Vector
-from sandbox.parameters import group, quantity, switch
-from sandbox.physics.coefficients import SOCCER_DRAG, SOCCER_LIFT
-from sandbox.physics.integrators import State
-from sandbox.sport.air import OutdoorAir
-from sandbox.sport.amounts import roughly
-from sandbox.sport.controls import Controls, Handle, Spin, Spread
-from sandbox.sport.facts import ENDED, Fact, once
-from sandbox.sport.flight import Flight, Sphere
-from sandbox.sport.readings import LAUNCH, Moment, Passes, apex, at, first_touch, passing_at
-from sandbox.sport.solids import Extent, Solid, check_apart, disc, level
+from sandbox.kit import (
+    ENDED,
+    LAUNCH,
+    SOCCER_DRAG,
+    SOCCER_LIFT,
+    Circle,
+    Controls,
+    Event,
+    Extent,
+    Fact,
+    Flight,
+    Handle,
+    Moment,
+    OutdoorAir,
+    Passes,
+    Run,
+    SceneRun,
+    Segment,
+    Setup,
+    Solid,
+    Sphere,
+    Spin,
+    Spread,
+    State,
+    Surface,
+    Vector,
+    apex,
+    at,
+    check_apart,
+    disc,
+    first_touch,
+    group,
+    level,
+    once,
+    passing_at,
+    quantity,
+    roughly,
+    switch,
+)
 
 SPREAD = (Spread("launch.speed", 0.02), Spread("launch.angle", least=1.0), Spread("launch.spin", 0.1))  # assumed
 
@@ -66,7 +93,7 @@ class Goal(Solid):
         return [Surface("net", Segment(*ends), self.net_restitution, self.net_friction) for ends in pairwise(corners)]
 
     def over_line(self, radius: float) -> float:
-        """Where in m a ball of that radius is, the whole of which is over the whole of the line, as in the Laws."""
+        """The place in m of a ball of that radius the whole of which is over the whole of the line, as in the Laws."""
         return self.distance + self.post_radius + radius
 
     def entries(self, run: Run, radius: float) -> Iterator[tuple[float, State]]:
@@ -186,7 +213,7 @@ def flight_time(run: Run, parameters: Parameters) -> float | None:
 
 
 def carry(run: Run, parameters: Parameters) -> float | None:
-    """Where the ball first comes down on the grass; None where something else was in the way."""
+    """The place where the ball first comes down on the grass; None where something else was in the way."""
     touched = first_touch(run)
     return touched.x if touched is not None and touched.partner == "ground" else None
 
@@ -230,8 +257,8 @@ FACTS = (
 )
 
 
-def verdict(run: Run, parameters: Parameters) -> str:
-    """What happened, in a sentence."""
+def verdict(run: SceneRun, parameters: Parameters) -> str:
+    """Return the outcome in a sentence."""
     result, goal = run.result, parameters.goal
     if result["verdict"] == "goal":
         under = result["under_bar"]

@@ -27,9 +27,16 @@ class Picture(NetView[Parameters]):
     LENGTHS, SECOND_UNIT, FROM = 0, "ft", "from the racket"
 
     @property
+    def aims(self) -> list[Box]:
+        """The net, and the ground beyond it."""
+        middle, high = 0.5 * self.parameters.court.length, self.parameters.net.height
+        return [Box(middle - 0.1, 0.0, middle + 0.1, high), Box(middle, -0.05, 2.0 * middle, 0.05)]
+
+    @property
     def target(self) -> Box:
         end, left = self.parameters.court.length, self.parameters.release.place - 0.7
-        return Box(min(-0.3 - 0.04 * end, left), 0.0, 0.3 + 1.1 * end, 2.0 - self.parameters.court.table)
+        right = max(0.3 + 1.1 * end, float(self.path.points[-1, 0]) + 0.6 * TALL)
+        return Box(min(-0.3 - 0.04 * end, left), 0.0, right, 2.0 - self.parameters.court.table)
 
     def look_of(self, name: str) -> Look:
         return LOOKS[self.parameters.court.table > 0.0]
@@ -42,7 +49,7 @@ class Picture(NetView[Parameters]):
         return replace(eye, level=eye.level - self.parameters.court.table * camera.scale)  # sees the table from above
 
     @cached_property
-    def told(self) -> float:
+    def story_end(self) -> float:
         return taken(self.run, self.parameters)
 
     @cached_property
@@ -52,7 +59,8 @@ class Picture(NetView[Parameters]):
         strokes = STROKES[on_table]
         stroke = min(strokes, key=lambda name: abs(high - pose_of(name).holds[1] * TALL))
         player = Person.holding((release.place, high), stroke, COLOURS["player"], TALL, 1.6)
-        other = Person(1.1 * end + 0.5, TALL, COLOURS["opponent"], strokes[0], z=0.5 * TABLE_WIDTH, facing=-1)
+        awaits = max(1.1 * end + 0.5, float(self.path.points[-1, 0]) + pose_of(strokes[0]).holds[0] * TALL)
+        other = Person(awaits, TALL, COLOURS["opponent"], strokes[0], facing=-1)
         hung = 0.5 * end, net.height - net.depth, net.height
         if on_table:
             ground = Ground(Planks(TABLE["wood"]), TABLE["soil"], edges=[(TABLE["edge"], 4)], far=0.5)

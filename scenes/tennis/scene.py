@@ -9,11 +9,12 @@ from __future__ import annotations
 
 from typing import Literal
 
-from sandbox.engine.run import Run
-from sandbox.engine.setup import Segment, Setup, Surface
+from sandbox.engine.model.setup import Setup
+from sandbox.engine.model.surface import Segment, Surface
 from sandbox.parameters import choice, group, quantity
 from sandbox.physics.coefficients import TENNIS_DRAG, TENNIS_LIFT
 from sandbox.physics.swing import RUBBER, STRINGS
+from sandbox.scene.scene_run import SceneRun
 from sandbox.sport import net_game
 from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED
@@ -93,7 +94,7 @@ def build(parameters: Parameters) -> Setup:
 FACTS = (*net_game.FACTS, *net_game.BOUNCE_FACTS, *LAUNCH, ENDED)
 
 
-def verdict(run: Run, parameters: Parameters) -> str:
-    """What happened, in a sentence."""
+def verdict(run: SceneRun, parameters: Parameters) -> str:
+    """Return the outcome in a sentence."""
     said = net_game.verdict(run, parameters)
     return f"Fault: {said[0].lower()}{said[1:]}" if parameters.shot == "serve" and not run.result["in"] else said

@@ -22,6 +22,11 @@ class Picture(SideView[Parameters]):
     LENGTHS, SECOND_UNIT, FROM = 1, "ft", "from the board"
 
     @property
+    def aims(self) -> list[Box]:
+        """The mark."""
+        return [Box(self.parameters.record - 0.1, 0.0, self.parameters.record + 0.4, 0.9)]
+
+    @property
     def target(self) -> Box:
         return Box(-CIRCLE - 0.3, 0.0, self.parameters.record + 1.5, 2.5)
 

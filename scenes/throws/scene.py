@@ -1,24 +1,32 @@
 """Throws from the side: the shot, how far it goes, and the angle that would have been best.
 
-Models: gravity; drag of a sphere; a release above the ground. Without air the best angle has a closed form.
+Models: gravity; drag of a sphere; a release above the ground. The best angle in the air is searched; without air it
+has a closed form.
 Leaves out: everything sideways; that people throw faster at flatter angles, which is why they choose 37 to 38 deg and
 not the best angle for one speed (Lenz & Rappl 2010, arXiv:1007.3689); discus and javelin, which fly like wings.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
-from math import atan2, degrees, hypot, sqrt
+from math import atan2, cos, degrees, hypot, radians, sin, sqrt
 
-from sandbox.engine.run import Run
-from sandbox.engine.setup import SOLID_SPHERE, Setup, Surface, Touches
+from sandbox.engine import simulate
+from sandbox.engine.model.accuracy import Accuracy
+from sandbox.engine.model.ball import SOLID_SPHERE
+from sandbox.engine.model.setup import Setup, Touches
+from sandbox.engine.model.surface import Surface
+from sandbox.engine.paths.run import Run
 from sandbox.parameters import group, quantity
+from sandbox.physics.forces import Gravity
+from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.air import NoForce
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spread
 from sandbox.sport.facts import ENDED, Fact
 from sandbox.sport.flight import Flight, Release, Sphere
-from sandbox.sport.readings import APEX, BALL_SPEED, DISTANCE, FLIGHT_TIME, LANDING_ANGLE, LAUNCH_ANGLE
+from sandbox.sport.readings import APEX, BALL_SPEED, DISTANCE, FLIGHT_TIME, LANDING_ANGLE, LAUNCH_ANGLE, before
 from sandbox.sport.solids import level
 
 
@@ -46,6 +54,11 @@ CONTROLS = Controls(
 )
 
 
+#: Angles in deg: between the first throws of a search for the best angle, the accuracy of that, the steepest throw; and
+#: the most throws.
+STEP, FINE, STEEPEST, MOST_THROWS = 5.0, 0.03, 89.0, 30
+
+
 def build(parameters: Parameters) -> Setup:
     """The shot over level ground; its distance is that of its centre at height 0, so the ground lies a radius lower."""
     thrown = parameters.launched((parameters.release.place, parameters.release.height))
@@ -53,14 +66,48 @@ def build(parameters: Parameters) -> Setup:
     return Setup([thrown], [ground], 60.0, Touches("ground"))
 
 
-def best_angle(run: Run, parameters: Parameters) -> float:
-    """Angle in deg at which this speed goes farthest from this height, without air: tan = v / (v^2 + 2 g h)^(1/2)."""
-    speed = hypot(*run.setup.balls[0].velocity)
-    return degrees(atan2(speed, sqrt(speed**2 + 2.0 * parameters.gravity * parameters.release.height)))
+def best_angle(run: Run, parameters: Parameters) -> float | None:
+    """Angle in deg at which this speed goes farthest from this height: without air tan = v / (v^2 + 2 g h)^(1/2), else
+    searched by throws at other angles. None if nothing brings the shot down."""
+    ball, gravity = run.setup.balls[0], parameters.gravity
+    speed = hypot(*ball.velocity)
+    if gravity == 0.0 or speed == 0.0:
+        return None
+    vacuum = degrees(atan2(speed, sqrt(speed**2 + 2.0 * gravity * parameters.release.height)))
+    if all(isinstance(force, Gravity) for force in ball.forces):
+        return vacuum
+    return farthest(lambda angle: _distance_at(angle, run.setup, speed, run.accuracy), vacuum)
+
+
+def _distance_at(angle: float, setup: Setup, speed: float, accuracy: Accuracy) -> float:
+    """The distance in m of a throw at this angle in deg."""
+    velocity = speed * cos(radians(angle)), speed * sin(radians(angle))
+    run = simulate(replace(setup, balls=[replace(setup.balls[0], velocity=velocity)]), accuracy)
+    return before(run, run.duration).x
+
+
+def farthest(distance: Callable[[float], float], angle: float) -> float | None:
+    """The angle in deg at which a distance is greatest, from a first guess on: the vertex of the parabola through the
+    best three angles so far, until it is within FINE of one of them."""
+    known = {each: distance(each) for each in (angle - 2.0 * STEP, angle - STEP, angle)}
+    for _ in range(MOST_THROWS):
+        (a, at_a), (b, at_b), (c, at_c) = sorted(sorted(known.items(), key=lambda each: -each[1])[:3])
+        rise, drop = at_b - at_a, at_b - at_c
+        bend = (b - a) * drop + (c - b) * rise
+        top = max(known, key=lambda each: known[each])
+        if bend > 0.0:
+            vertex = b - 0.5 * ((b - a) ** 2 * drop - (c - b) ** 2 * rise) / bend
+        else:  # a slope that is not yet bent downwards
+            vertex = top + (STEP if at_c > at_a else -STEP)
+        vertex = min(max(vertex, top - 2.0 * STEP, -STEEPEST), top + 2.0 * STEP, STEEPEST)
+        if min(abs(vertex - each) for each in known) < FINE:
+            return vertex
+        known[vertex] = distance(vertex)
+    return None
 
 
 def vacuum_distance(run: Run, parameters: Parameters) -> float | None:
-    """How far in m the shot would go without air: a parabola."""
+    """The distance in m that the shot would go without air: a parabola."""
     (x, y), (vx, vy), gravity = run.setup.balls[0].position, run.setup.balls[0].velocity, parameters.gravity
     return x + vx * (vy + sqrt(vy * vy + 2.0 * gravity * y)) / gravity if gravity > 0.0 else None
 
@@ -81,8 +128,8 @@ FACTS = (
 )
 
 
-def verdict(run: Run, parameters: Parameters) -> str:
-    """What happened, in a sentence."""
+def verdict(run: SceneRun, parameters: Parameters) -> str:
+    """Return the outcome in a sentence."""
     distance, record = run.result["distance"], parameters.record
     if distance is None:
         return "Did not come down"

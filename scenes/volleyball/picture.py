@@ -13,7 +13,11 @@ from .scene import Parameters
 COLOURS = scene_colours(__file__)
 FLOOR = COLOURS["floor"]
 WIDE, ATTACK = 9.0, 3.0  # m: the court's width, and the attack line from the net (FIVB, rule 1)
-PLAYERS = ((4.2, 2.0), (6.0, 4.5), (4.2, 7.0))  # m, beyond the net and behind the plane of play
+PLAYERS = (
+    (1.4, 2.0),
+    (2.9, 4.5),
+    (4.6, 7.0),
+)  # m, beyond the net, where balls are over their heads, and behind the plane
 
 
 class Picture(NetView[Parameters]):
@@ -22,12 +26,18 @@ class Picture(NetView[Parameters]):
     LENGTHS, SECOND_UNIT = 0, "ft"
 
     @property
+    def aims(self) -> list[Box]:
+        """The net, and the ground beyond it."""
+        middle, high = 0.5 * self.parameters.court.length, self.parameters.net.height
+        return [Box(middle - 0.1, 0.0, middle + 0.1, high), Box(middle, -0.05, 2.0 * middle, 0.05)]
+
+    @property
     def target(self) -> Box:
         return Box(-1.0, 0.0, self.parameters.court.length + 1.0, 1.4 * self.parameters.net.height)
 
     @cached_property
     def place(self) -> Place:
-        """What the ball flies through: parts in m, x along the court, z across it, the farthest first."""
+        """The place: parts in m, x along the court, z across it, the farthest first."""
         court, launch, top = self.parameters.court, self.parameters.launch, self.parameters.net.height
         end, net, low = court.length, 0.5 * court.length, top - self.parameters.net.depth
         lines = [[(x, 0.0), (x, WIDE)] for x in (0.0, net - ATTACK, net, net + ATTACK, end)]

@@ -9,10 +9,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from sandbox.engine.setup import Setup, Surface
+from sandbox.engine.model.setup import Setup
+from sandbox.engine.model.surface import Surface
 from sandbox.errors import RequestError
 from sandbox.parameters import group, quantity
-from sandbox.physics.elementwise import clip, exp, most
+from sandbox.physics.elementwise import clip, exp, maximum
 from sandbox.sport import net_game
 from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED
@@ -38,7 +39,7 @@ class Hit(Launch):
     """The ball as it leaves the hand."""
 
     place: float = quantity(..., "m", -20, 30, "from the player's own end line towards the net")
-    height: float = quantity(..., "m", 0.2, 10, "of the ball's centre above the floor")
+    height: float = quantity(..., "m", 0, 10, "of the ball's centre above the floor")
 
 
 class Parameters(net_game.NetGame):
@@ -61,7 +62,7 @@ CONTROLS = Controls(
 def build(parameters: Parameters) -> Setup:
     """Ball, net and floor, where the run ends. Raises RequestError if the ball begins in the net."""
     launch, ball, middle = parameters.launch, parameters.ball, parameters.middle
-    start = most(launch.height, ball.radius)
+    start = maximum(launch.height, ball.radius)
     if abs(launch.place - middle) <= ball.radius + 0.01 and start - ball.radius < parameters.net.height:
         raise RequestError(f"launch.place = {launch.place:g} m puts the ball on the net, at {middle:g} m: move it away")
     floor = Surface("floor", level(), parameters.court.restitution, parameters.court.friction)

@@ -9,11 +9,11 @@ from math import hypot, log, pi, sqrt
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from sandbox.engine.clusters import Body
+from sandbox.engine.impact.cluster_parts import ClusterBall
 
 
 def by_contact_law(
-    bodies: Sequence[Body],
+    bodies: Sequence[ClusterBall],
     times: Sequence[float],
     stiffness: float,
     restitution: float = 1.0,
@@ -28,7 +28,7 @@ def by_contact_law(
     """
     mass, radius, inertia = np.array([body[:3] for body in bodies]).T
     start = np.array([(*body.position, *body.velocity, 0.0, *body.spin) for body in bodies])
-    push = np.array([body.push for body in bodies])
+    push = np.array([body.acceleration for body in bodies])
     i, j = np.array(list(combinations(range(len(bodies)), 2))).T
     fading = log(restitution)
     reduced = mass[i] * mass[j] / (mass[i] + mass[j])

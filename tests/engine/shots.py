@@ -6,7 +6,9 @@ from math import cos, pi, radians, sin
 
 import numpy as np
 
-from sandbox.engine.setup import HOLLOW_SPHERE, Ball, Circle, Segment, Setup, Surface
+from sandbox.engine.model.ball import HOLLOW_SPHERE, Ball
+from sandbox.engine.model.setup import Setup
+from sandbox.engine.model.surface import Circle, Segment, Surface
 from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity, Magnus
 from tests.engine.reference import Bar, Disc

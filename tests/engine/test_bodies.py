@@ -12,17 +12,20 @@ from typing import Any, NamedTuple
 import numpy as np
 import pytest
 
-from sandbox.engine import simulate, turning_touch
-from sandbox.engine.accuracy import LEVELS
-from sandbox.engine.arc import Arc, through
-from sandbox.engine.lasting import SLIDING
+from sandbox.engine import simulate
+from sandbox.engine.contact import turning_touch
+from sandbox.engine.contact.manifold import meeting
+from sandbox.engine.contact.turning_touch import Mover, first_touch, pose_of
 from sandbox.engine.ledger import ledger
-from sandbox.engine.meeting import meeting
-from sandbox.engine.nearest import Pose, nearest
-from sandbox.engine.run import Run
-from sandbox.engine.setup import Always, Ball, Body, Bounce, ContactModel, Segment, Setup, Surface, kinetic
-from sandbox.engine.shapes import Ellipse, Polygon, Shape, box, capsule, disc, regular
-from sandbox.engine.turning_touch import Mover, first_touch, pose_of
+from sandbox.engine.model.accuracy import LEVELS
+from sandbox.engine.model.ball import Ball, Body, kinetic
+from sandbox.engine.model.nearest import Pose, nearest
+from sandbox.engine.model.setup import ContactModel, Setup
+from sandbox.engine.model.shapes import Ellipse, Polygon, Shape, box, capsule, disc, regular
+from sandbox.engine.model.surface import Bounce, ConstantBounce, Segment, Surface
+from sandbox.engine.motion.sustained_contact import SLIDING
+from sandbox.engine.paths.arc import Arc, hermite_arc
+from sandbox.engine.paths.run import Run
 from sandbox.errors import RequestError, RunError
 from sandbox.physics.forces import Gravity
 from sandbox.physics.ice import Glide
@@ -196,7 +199,7 @@ def swinging(rng: random.Random, way: float, h: float) -> Arc:
     ax, ay, turning = rng.uniform(-5.0, 5.0), rng.uniform(-10.0, 10.0), rng.uniform(-30.0, 30.0)
     end = (x + h * vx + h * h * ax / 2, y + h * vy + h * h * ay / 2, vx + h * ax, vy + h * ay, spin + h * turning)
     start, end = (x, y, vx, vy, spin, angle), (*end, angle + h * spin + h * h * turning / 2)
-    return through(0.0, h, start, (ax, ay, turning), end, (ax, ay, turning))
+    return hermite_arc(0.0, h, start, (ax, ay, turning), end, (ax, ay, turning))
 
 
 def test_no_touch_of_spinning_outlines_is_missed():
@@ -222,7 +225,7 @@ def test_the_spin_of_a_disc_costs_nothing_where_it_moves_in_touch_with_a_body(mo
     monkeypatch.setattr(turning_touch, "nearest", lambda *where: asked.append(where) or nearest(*where))
     start = [(-0.2, 0.1, 1.5, 0.0, 0.0, 0.0), (-1e-7, 0.1, 1.5, 0.0, -20.0)]
     ends = [(state[0] + 1.5 * 0.1, *state[1:]) for state in start]
-    arcs = [through(0.0, 0.1, *pair, (0.0,) * 3) for pair in zip(start, [(0.0,) * 3] * 2, ends, strict=True)]
+    arcs = [hermite_arc(0.0, 0.1, *pair, (0.0,) * 3) for pair in zip(start, [(0.0,) * 3] * 2, ends, strict=True)]
     assert first_touch(Mover(box(0.2, 0.2), arcs[0]), Mover(disc(0.1), arcs[1]), 0.0, 0.1) is None
     assert len(asked) < 10
 
@@ -248,7 +251,7 @@ def test_a_rod_struck_off_its_centre(restitution: float):
     mass, rod_mass, length, d, v = 0.3, 1.2, 1.0, 0.35, 4.0
     rod = Body("rod", position=(0.0, 0.0), shape=box(0.02, length), mass=rod_mass)
     ball = Ball("ball", mass, 0.05, (-1.0, d), (v, 0.0))
-    law = Always(Bounce(restitution, 0.0))
+    law = ConstantBounce(Bounce(restitution, 0.0))
     run = run_of([ball, rod], 0.3, between_balls=law)
     push = (1.0 + restitution) * v / (1.0 / mass + 1.0 / rod_mass + d * d / rod.inertia)
     assert run.events[0].t == pytest.approx((1.0 - 0.05 - 0.01) / v, abs=1e-10)
@@ -587,7 +590,7 @@ def test_a_domino_tips_and_strikes_its_neighbour():
         )
         for name, x in (("first", 0.0), ("second", width + gap))
     )
-    run = run_of([first, second], 0.2, floor(0.0, 1.0), between_balls=Always(Bounce(0.3, 0.0)))
+    run = run_of([first, second], 0.2, floor(0.0, 1.0), between_balls=ConstantBounce(Bounce(0.3, 0.0)))
     hit = next(event for event in run.events if {event.ball, event.partner} == {"first", "second"})
     tilt = math.asin(gap / tall)
     drop = tall / 2 - (math.hypot(width, tall) / 2) * math.cos(tilt + math.atan2(-width, tall))
@@ -651,7 +654,7 @@ def test_it_makes_no_difference_which_way_is_down(name: str, turn: float, method
             start = {"position": way(*ball.position), "velocity": way(*ball.velocity), **angle}
             balls.append(replace(ball, forces=forces, **start))
         ground = Surface("ground", Segment(way(-5.0, 0.0), way(5.0, 0.0)), restitution, friction)
-        law = Always(Bounce(restitution, friction))
+        law = ConstantBounce(Bounce(restitution, friction))
         return simulate(Setup(balls, [ground], 1.5, between_balls=law), replace(LEVELS["balanced"], method=method))
 
     balls, friction, restitution = GROUNDED[name]
@@ -698,7 +701,7 @@ def test_random_pairs_neither_tunnel_nor_gain_energy_nor_stall(seed: int):
         bodies.append(Body(name, *(place, *start), angle=turned, shape=shape, mass=mass, forces=forces))
     restitution, friction = rng.choice((0.0, 0.3, 0.7, 1.0)), rng.choice((0.0, 0.1, 0.5, 1.5))
     wall = Surface("wall", Segment((-4.0, 0.0), (-4.0, 50.0)), restitution, friction)
-    law = Always(Bounce(restitution, friction))
+    law = ConstantBounce(Bounce(restitution, friction))
     run = run_of(bodies, 2.5, [*floor(restitution, friction), wall], between_balls=law)
 
     assert run.numerics.impacts < 100
@@ -715,16 +718,11 @@ def test_random_pairs_neither_tunnel_nor_gain_energy_nor_stall(seed: int):
         assert all(pose.y > 0.0 and pose.x > -4.0 for pose in poses)
 
 
-@pytest.mark.parametrize(("thickness", "heavier", "refused"), [(2e-5, 10.0, False), (4e-5, 50.0, True)])
-def test_a_sheet_under_a_crate_does_not_fall_through_the_floor(thickness: float, heavier: float, refused: bool):
-    """In steps of 1.4 ms, which are short for what is larger, both did. Where shorter ones do not help either it
-    is an error."""
+@pytest.mark.parametrize(("thickness", "heavier"), [(2e-5, 10.0), (4e-5, 50.0)])
+def test_a_sheet_under_a_crate_does_not_fall_through_the_floor(thickness: float, heavier: float):
+    """In steps of 1.4 ms, which are short for what is larger, both did."""
     sheet = thrown(box(2e-3, thickness), mass=1e-3, position=(0.0, 1.4e-3), angle=0.9, spin=1.0)
     crate = thrown(box(2e-3, 2e-3), mass=1e-3 * heavier, position=(6e-4, 4.4e-3), angle=0.3)
     bodies = [replace(sheet, name="sheet"), replace(crate, name="crate")]
-    if refused:
-        with pytest.raises(RunError, match="'sheet': it is so thin that others pressed it through 'floor'"):
-            run_of(bodies, 0.15, floor(0.5, 0.5))
-    else:
-        run = run_of(bodies, 0.15, floor(0.5, 0.5))
-        assert min(run.state(name, run.duration)[1] for name in run.arcs) > 0.4 * thickness
+    run = run_of(bodies, 0.15, floor(0.5, 0.5))
+    assert min(run.state(name, run.duration)[1] for name in run.arcs) > 0.4 * thickness

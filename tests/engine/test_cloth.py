@@ -10,10 +10,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from sandbox.engine import simulate
-from sandbox.engine.accuracy import LEVELS, resolve
 from sandbox.engine.ledger import ledger
-from sandbox.engine.on_plane import slowest_hop
-from sandbox.engine.setup import Ball, Bounce, Catch, ContactModel, Segment, Setup, Surface, kinetic
+from sandbox.engine.model.accuracy import LEVELS, resolve
+from sandbox.engine.model.ball import Ball, kinetic
+from sandbox.engine.model.setup import ContactModel, Setup
+from sandbox.engine.model.surface import Bounce, Segment, Surface, Trap
+from sandbox.engine.motion.on_plane import slowest_hop
 from sandbox.physics.cloth import Cloth
 
 R, M = 0.028575, 0.170097
@@ -175,8 +177,8 @@ def test_a_ball_goes_where_it_goes_whether_its_spin_ends_on_the_way_or_not():
     runs = []
     for spin in (0.0, 4.0):  # rad/s, which ends after 0.4 s
         balls = [replace(rolling(name, places[name], speeds[name]), spin=spin) for name in places]
-        catches = [Catch("pocket", (0.5, 0.35), 0.06)]
-        setup = Setup(balls, [wall], plane=CLOTH, catches=catches, between_balls=of(0.95, 0.0))
+        traps = [Trap("pocket", (0.5, 0.35), 0.06)]
+        setup = Setup(balls, [wall], plane=CLOTH, traps=traps, between_balls=of(0.95, 0.0))
         runs.append(simulate(setup, resolve()))
     plain, spun = ([(e.kind, e.ball, e.partner) for e in run.events] for run in runs)
     assert [e for e in spun if e[0] != "rest"] == [e for e in plain if e[0] != "rest"]
@@ -189,7 +191,7 @@ def test_a_ball_goes_where_it_goes_whether_its_spin_ends_on_the_way_or_not():
 
 
 def test_a_pocket_takes_a_ball_and_the_run_ends_when_the_rest_are_still():
-    setup = Setup([rolling("cue", (0.0, 0.0), (1.0, 0.0))], plane=CLOTH, catches=[Catch("pocket", (0.5, 0.0), 0.06)])
+    setup = Setup([rolling("cue", (0.0, 0.0), (1.0, 0.0))], plane=CLOTH, traps=[Trap("pocket", (0.5, 0.0), 0.06)])
     run = simulate(setup, resolve())
     (event,) = [event for event in run.events if event.kind == "caught"]
     assert (event.partner, event.x) == ("pocket", pytest.approx(0.44, abs=1e-9))
@@ -200,7 +202,7 @@ def test_a_pocket_takes_a_ball_and_the_run_ends_when_the_rest_are_still():
 def test_plain_slides_rolls_and_catches_too():
     """First order: the same within a millimetre at 10,000 steps a second."""
     balls = [ball("cue", (0.0, 0.0), (2.0, 0.0)), ball("1", (0.4, 0.01))]
-    setup = Setup(balls, plane=CLOTH, catches=[Catch("pocket", (0.9, 0.09), 0.06)], between_balls=of(0.95, 0.0))
+    setup = Setup(balls, plane=CLOTH, traps=[Trap("pocket", (0.9, 0.09), 0.06)], between_balls=of(0.95, 0.0))
     exact = simulate(setup, resolve())
     plain = simulate(setup, resolve(method="plain", step=1e-4))
     assert [event.ball for event in plain.events if event.kind == "caught"] == ["1"]

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from sandbox.engine import simulate
-from sandbox.engine.accuracy import resolve
+from sandbox.engine.model.accuracy import resolve
 from tests.engine import shots
 
 ROOT = Path(__file__).parents[2]

@@ -8,10 +8,12 @@ import numpy as np
 import pytest
 
 from sandbox.engine import simulate
-from sandbox.engine.accuracy import resolve
-from sandbox.engine.acting import law_of
-from sandbox.engine.setup import DISC, HOLLOW_SPHERE, SOLID_SPHERE, Ball, Bounce, Circle, Patch, Segment, Setup, Surface
-from sandbox.engine.step_control import allowed
+from sandbox.engine.model.accuracy import resolve
+from sandbox.engine.model.ball import DISC, HOLLOW_SPHERE, SOLID_SPHERE, Ball
+from sandbox.engine.model.setup import ForceRegion, Setup
+from sandbox.engine.model.surface import Bounce, Circle, Segment, Surface
+from sandbox.engine.motion.forces_on_ball import acceleration_function
+from sandbox.engine.motion.step_control import allowed
 from sandbox.physics.air import LogWind, UniformWind
 from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity, Magnus, SpinDecay
@@ -319,7 +321,7 @@ def test_a_ball_is_accelerated_by_the_sum_of_its_forces_and_torques(forces, torq
     share = 0.75 if loss else 1.0
     total = sum(range(forces)) * 7.0 / (2.0 * share), forces * 4.0 / (2.0 * share), sum(n + 9.0 for n in range(torques))
     expected = (*total[:2], total[2] / (0.2 * share))
-    assert law_of(ball)(1.0, (3.0, 5.0, 7.0, 8.0, 9.0)) == pytest.approx(expected, rel=1e-15)
+    assert acceleration_function(ball)(1.0, (3.0, 5.0, 7.0, 8.0, 9.0)) == pytest.approx(expected, rel=1e-15)
 
 
 class Gusty(UniformWind):
@@ -360,8 +362,8 @@ def test_a_flight_does_not_depend_on_whether_its_forces_are_known_to_need_no_pla
 
 def test_a_step_ends_at_the_border_of_a_patch_that_only_its_fall_reaches():
     """From rest a ball falls h in t = (2 h / g)^(1/2), alone and among others."""
-    net = Patch(-1.0, 0.0, 1.0, 1.0, 0.01)
-    setup = Setup([Ball("ball", 1.0, 0.1, (0.0, 2.0))], duration=1.0, patches=[net])
+    net = ForceRegion(-1.0, 0.0, 1.0, 1.0, 0.01)
+    setup = Setup([Ball("ball", 1.0, 0.1, (0.0, 2.0))], duration=1.0, force_regions=[net])
     fallen = sqrt(2.0 * 1.0 / G)
     assert allowed(setup, 0.0, 0.5, (0.0, 2.0, 0.0, 0.0, 0.0), (0.0, -G, 0.0)) == pytest.approx(fallen, rel=1e-12)
     state, acceleration = np.zeros((5, 2)), np.zeros((3, 2))
@@ -377,5 +379,5 @@ def test_a_kind_of_gravity_that_changes_is_asked_anew():
         def __call__(self, t, position, velocity, spin):
             return super().__call__(t, position, velocity, spin) if t > 1.0 else (0.0, 0.0)
 
-    run = fly(Ball("ball", 2.0, 0.1, (0.0, 0.0), forces=[Later(2.0, G)]), 3.0, breaks=[1.0])
+    run = fly(Ball("ball", 2.0, 0.1, (0.0, 0.0), forces=[Later(2.0, G)]), 3.0, discontinuities=[1.0])
     assert run.state("ball", 3.0)[1:4:2] == pytest.approx((-2.0 * G, -2.0 * G), rel=1e-6)

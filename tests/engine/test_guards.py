@@ -12,9 +12,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from sandbox.engine import simulate, simulate_many
-from sandbox.engine.accuracy import LEVELS, resolve
+from sandbox.engine.impact import impacts
 from sandbox.engine.ledger import ledger
-from sandbox.engine.setup import Ball, Bounce, Bounds, Catch, Circle, Segment, Setup, Surface
+from sandbox.engine.model.accuracy import LEVELS, resolve
+from sandbox.engine.model.ball import Ball
+from sandbox.engine.model.setup import Bounds, ContactModel, Setup
+from sandbox.engine.model.surface import Bounce, Circle, Segment, Surface, Trap
 from sandbox.engine.simulation import Simulation
 from sandbox.errors import RequestError, RunError, SandboxError
 from sandbox.physics.cloth import Cloth
@@ -95,7 +98,7 @@ def raised(run):
         lambda three: Ball("cue", 1.0, 0.1, (0.0, 0.0), three),
         lambda three: Segment(three, (0.0, 1.0)),
         lambda three: Circle(three, 1.0),
-        lambda three: Catch("pocket", three, 1.0),
+        lambda three: Trap("pocket", three, 1.0),
     ],
 )
 def test_a_point_has_two_numbers(make):
@@ -248,18 +251,28 @@ def test_a_force_with_a_pole_is_a_named_error():
         simulate(Setup([shot(pole, velocity=(0.0, 0.0))], duration=5.0), resolve())
 
 
-@pytest.mark.parametrize("bounce", [Bounce(nan, 0.1), Bounce(-0.1, 0.1), Bounce(0.5, inf), Bounce(0.5, 0.1, nan)])
-def test_a_law_of_bouncing_that_cannot_be_is_a_named_error(bounce):
+@pytest.mark.parametrize(
+    ("bounce", "words"),
+    [
+        (Bounce(nan, 0.1), "restitution nan: must be from 0 to 1"),
+        (Bounce(-0.1, 0.1), "restitution -0.1: must be from 0 to 1"),
+        (Bounce(1.2, 0.1), "restitution 1.2: must be from 0 to 1"),
+        (Bounce(0.5, inf), "friction inf: must be finite, and not negative"),
+        (Bounce(0.5, -0.1), "friction -0.1: must be finite, and not negative"),
+        (Bounce(0.5, 0.1, nan), "tilt nan: must be finite"),
+        (Bounce(0.5, 0.1, 0.0, 1.5), "tangential 1.5: must be from 0 to 1"),
+    ],
+)
+def test_a_law_of_bouncing_that_cannot_be_is_a_named_error(bounce, words):
     ground = Surface("ground", Segment((-50.0, 0.0), (50.0, 0.0)), 0.5, 0.5, law=lambda normal, along: bounce)
     setup = Setup([shot()], [ground], duration=3.0)
+    said = f"the scene's law for 'ground' returned {words}"
     for accuracy in (resolve(), PLAIN):
-        with pytest.raises(RunError, match=r"Bounce\(restitution=.* off 'ground' is invalid"):
+        with pytest.raises(RunError, match=said):
             simulate(setup, accuracy)
-    assert {str(error) for error in simulate_many([setup] * 30, resolve())} == {
-        f"{bounce} off 'ground' is invalid: check the scene's law for it"
-    }
+    assert {str(error) for error in simulate_many([setup] * 30, resolve())} == {said}
     pair = [Ball("a", 1.0, 0.1, (0.0, 0.0), (1.0, 0.0)), Ball("b", 1.0, 0.1, (1.0, 0.0))]
-    with pytest.raises(RunError, match=r"Bounce.* off '[ab]' is invalid"):
+    with pytest.raises(RunError, match=rf"the scene's law for '[ab]' returned {words}"):
         simulate(Setup(pair, between_balls=lambda normal, slip: bounce), resolve())
 
 
@@ -350,3 +363,24 @@ def test_many_balls_need_memory_by_their_number_not_by_its_square():
 
     needed(2)  # what is made once
     assert needed(400) < 6 * needed(100)
+
+
+def test_an_impact_that_creates_energy_is_an_error_that_names_time_and_bodies(monkeypatch):
+    """Here pymunk's impulses leave three balls twice as fast as they should."""
+    exchange = impacts.after_contacts_at_once
+
+    def too_fast(*given):
+        after, pushes = exchange(*given)
+        return {i: (*state[:2], *(2.0 * speed for speed in state[2:])) for i, state in after.items()}, pushes
+
+    monkeypatch.setattr(impacts, "after_contacts_at_once", too_fast)
+    balls = [
+        Ball("a", 1.0, 0.1, (0.0, 0.1)),
+        Ball("b", 1.0, 0.1, (0.0, -0.1)),
+        Ball("c", 1.0, 0.1, (0.5, 0.0), (-2.0, 0.0)),
+    ]
+    with pytest.raises(
+        RunError, match=r"^t = 0\.\d+ s: .* J appeared from nothing in the impact of 'a', 'b', 'c', whose .* 2 J"
+    ) as said:
+        simulate(Setup(balls, duration=2.0, contact=ContactModel("rigid")), resolve())
+    assert "\n" not in str(said.value)

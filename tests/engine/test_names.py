@@ -7,8 +7,10 @@ from dataclasses import replace
 import pytest
 
 from sandbox.engine import simulate
-from sandbox.engine.accuracy import resolve
-from sandbox.engine.setup import Always, Ball, Bounce, Segment, Setup, Surface, Touches
+from sandbox.engine.model.accuracy import resolve
+from sandbox.engine.model.ball import Ball
+from sandbox.engine.model.setup import Setup, Touches
+from sandbox.engine.model.surface import Bounce, ConstantBounce, Segment, Surface
 from sandbox.physics.forces import Gravity
 
 FLOOR = Surface("floor", Segment((-100.0, 0.0), (100.0, 0.0)), restitution=0.8, friction=0.0)
@@ -24,7 +26,7 @@ def test_a_pair_of_balls_answers_by_its_own_law(method: str, order: tuple[str, s
         Ball("c", 1.0, 0.1, (3.0, 0.0), (0.0, 1.0)),
         Ball("d", 1.0, 0.1, (3.0, 1.0)),
     ]
-    setup = Setup(balls, duration=1.5, pairs=[(*order, Always(Bounce(0.4, 0.0)))])
+    setup = Setup(balls, duration=1.5, pairs=[(*order, ConstantBounce(Bounce(0.4, 0.0)))])
     run = simulate(setup, resolve(method=method, step=1e-3 if method == "plain" else None))
     assert run.state("b", 1.5)[2] == pytest.approx(0.7, abs=1e-6)
     assert run.state("d", 1.5)[3] == pytest.approx(1.0, abs=1e-6)  # all others as between_balls says: elastic

@@ -7,9 +7,11 @@ from math import hypot
 import pytest
 
 from sandbox.engine import plain, simulate
-from sandbox.engine.accuracy import resolve
-from sandbox.engine.run import Run
-from sandbox.engine.setup import Ball, Bounce, Circle, Segment, Setup, Surface
+from sandbox.engine.model.accuracy import resolve
+from sandbox.engine.model.ball import Ball
+from sandbox.engine.model.setup import Setup
+from sandbox.engine.model.surface import Bounce, Circle, Segment, Surface
+from sandbox.engine.paths.run import Run
 from sandbox.errors import RunError
 from sandbox.physics.cloth import Cloth
 from sandbox.physics.forces import Gravity

@@ -8,7 +8,7 @@ from math import hypot
 import pytest
 
 from sandbox.engine import simulate
-from sandbox.engine.accuracy import resolve
+from sandbox.engine.model.accuracy import resolve
 from tests.engine import shots
 from tests.engine.reference import shoot
 

@@ -1,6 +1,7 @@
 """The run record: samples, crossings, angles, events, and the energy ledger."""
 
 import re
+import sys
 from dataclasses import asdict, replace
 from math import cos, pi, sin, sqrt
 
@@ -8,13 +9,17 @@ import numpy as np
 import pytest
 
 import sandbox
-from sandbox.engine import simulate
-from sandbox.engine.accuracy import resolve
-from sandbox.engine.acting import acceleration
-from sandbox.engine.arc import through
+from sandbox.engine import ledger as ledgers
+from sandbox.engine import simulate, simulation
 from sandbox.engine.ledger import ledger, warnings
-from sandbox.engine.run import Numerics
-from sandbox.engine.setup import Ball, Bounce, Segment, Setup, Surface
+from sandbox.engine.model.accuracy import resolve
+from sandbox.engine.model.ball import Ball
+from sandbox.engine.model.setup import Setup
+from sandbox.engine.model.surface import Bounce, Segment, Surface
+from sandbox.engine.motion.forces_on_ball import acceleration_function
+from sandbox.engine.paths.arc import hermite_arc
+from sandbox.engine.paths.phase import Phase
+from sandbox.engine.paths.run import Numerics
 from sandbox.physics.cloth import Cloth
 from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity, Magnus, SpinDecay
@@ -85,7 +90,7 @@ def test_velocity_is_the_slope_of_the_position(bouncing):
 def test_acceleration_along_an_arc_is_that_by_the_forces(bouncing):
     (ball,), arcs = bouncing.setup.balls, bouncing.arcs["ball"]
     for t in (0.1, 0.33, 0.71, 1.5):
-        ax, ay, _ = acceleration(ball, t, bouncing.state("ball", t))
+        ax, ay, _ = acceleration_function(ball)(t, bouncing.state("ball", t))
         assert arcs.at(t).acceleration(t) == pytest.approx((ax, ay), abs=1e-5)
 
 
@@ -104,6 +109,24 @@ def test_crossings_are_exact_and_one_sided():
     assert down == pytest.approx(8 / G + sqrt((8 / G) ** 2 - 4 / G), abs=1e-9)
     assert up == pytest.approx(8 / G - sqrt((8 / G) ** 2 - 4 / G), abs=1e-9)
     assert run.highest("ball")[1][1] == pytest.approx(64 / (2 * G), abs=1e-9)
+
+
+def test_an_arc_tells_its_phase_and_its_surface(bouncing):
+    phases = [arc.phase for arc in bouncing.arcs["ball"]]
+    assert [*dict.fromkeys(phases)] == [Phase.FREE, Phase.ROLLING]
+    assert all((arc.surface is not None) == (arc.phase is not Phase.FREE) for arc in bouncing.arcs["ball"])
+    assert {arc.surface.name for arc in bouncing.arcs["ball"] if arc.surface} == {"floor"}
+
+
+def test_arcs_in_a_cluster_tell_when_the_contact_begins_and_ends():
+    balls = [Ball("cue", 0.17, 0.03, (-0.06, 0.0), (1.0, 0.0)), Ball("1", 0.17, 0.03, (0.0, 0.0)),
+             Ball("2", 0.17, 0.03, (0.06, 0.0))]  # fmt: skip
+    run = simulate(Setup(balls, duration=0.1), resolve())
+    pressed = [arc for path in run.arcs.values() for arc in path if arc.phase is Phase.CLUSTER]
+    assert len({arc.contact_span for arc in pressed}) == 1
+    start, end = pressed[0].contact_span
+    assert start == run.events[0].t < end < start + 1e-3
+    assert all(arc.drift == (0.0, 0.0) and arc.surface is None for arc in pressed)
 
 
 def test_ledger_closes_and_names_every_cause(bouncing):
@@ -226,7 +249,7 @@ def test_a_ball_that_still_rises_is_highest_at_the_end():
 def test_the_velocity_within_a_very_short_arc_is_not_rounding(h: float):
     """Far from the origin (x1 - x0) / h has no digits left."""
     start, end = (1000.0, 0.0, 3.0, 4.0, 0.0), (1000.0 + 3.0 * h, 4.0 * h, 3.0, 4.0, 0.0)
-    arc = through(5.0, h, start, (0.0, 0.0, 0.0), end, (0.0, 0.0, 0.0))
+    arc = hermite_arc(5.0, h, start, (0.0, 0.0, 0.0), end, (0.0, 0.0, 0.0))
     assert arc.state(5.0 + 0.5 * (arc.t1 - 5.0))[2:4] == pytest.approx((3.0, 4.0), abs=1e-9)
 
 
@@ -245,8 +268,31 @@ def test_a_ball_that_nothing_moves_costs_one_step_and_no_more():
     assert set(asdict(Numerics()).values()) == {0}
 
 
+def test_imports_are_no_part_of_a_runs_computing_time(monkeypatch: pytest.MonkeyPatch):
+    """Modules that only some runs need are imported on the way, by the first of them."""
+    clock = [0.0]
+
+    class Slow:
+        def find_spec(self, *args: object) -> None:
+            clock[0] += 100.0
+
+    monkeypatch.setattr(simulation, "perf_counter", lambda: clock[0])
+    monkeypatch.delitem(sys.modules, "sandbox.engine.impact.cluster_search", raising=False)
+    monkeypatch.setattr(sys, "meta_path", [Slow(), *sys.meta_path])
+    balls = [Ball(name, 1.0, 0.1, (x, 0.0), (v, 0.0)) for name, x, v in (("a", 0.0, 1.0), ("b", 1.0, 0.0))]
+    assert simulate(Setup(balls, duration=2.0), resolve()).numerics.wall_s == 0.0
+    assert clock[0] >= 100.0
+
+
 def test_the_place_on_an_arc_is_that_of_its_state():
-    arc = through(1.0, 0.5, (0.0, 2.0, 3.0, 4.0, 5.0), (0.0, -G, 0.0), (1.5, 3.0, 3.0, -1.0, 5.0), (0.0, -G, 0.0))
+    arc = hermite_arc(1.0, 0.5, (0.0, 2.0, 3.0, 4.0, 5.0), (0.0, -G, 0.0), (1.5, 3.0, 3.0, -1.0, 5.0), (0.0, -G, 0.0))
     for t in (1.0, 1.1, 1.37, 1.5):
         assert arc.position(t) == pytest.approx(arc.state(t)[:2])
     assert (arc.position(0.0), arc.position(9.0)) == (arc.state(1.0)[:2], arc.state(1.5)[:2])
+
+
+def test_the_ledgers_quadrature_is_exact_up_to_degree_nine():
+    """Its weights are those of Gauss and Legendre on [0, 1]: the integral of x^n is 1 / (n + 1)."""
+    for degree in range(10):
+        total = sum(weight * node**degree for node, weight in zip(ledgers._NODES, ledgers._WEIGHTS, strict=True))
+        assert total == pytest.approx(1.0 / (degree + 1), rel=1e-13)

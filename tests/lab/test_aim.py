@@ -8,6 +8,7 @@ from math import asin, atan, degrees, hypot, inf, nan, radians, sin, sqrt
 from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
 import pytest
 from PIL import Image
 
@@ -16,7 +17,7 @@ from sandbox.errors import RequestError, RunError
 from sandbox.lab.aim import Target, aim, as_target, parse_target, search
 from sandbox.lab.aim.greatest import peak
 from sandbox.lab.aim.question import GREATEST
-from sandbox.lab.aim.report import as_text
+from sandbox.lab.aim.report import as_json, as_text
 from sandbox.lab.axes import Span, parse_span
 from sandbox.lab.runs import runs
 from sandbox.parameters import walk
@@ -161,7 +162,7 @@ def test_what_holds_or_not_has_intervals():
 
 def test_an_interval_ends_next_to_where_the_target_is_met(tmp_path):
     """Not at a narrow band that the scan does not see, and that is found while an end is looked for."""
-    drop, fine = copy_of(DROP, tmp_path / "drop"), 0.01 / 64
+    drop, fine = copy_of(DROP, tmp_path / "drop"), 1.28 / 2048 / 64
     low, high = 0.5 + 10.75 * fine, 0.7 + 10.25 * fine
     bands = [(low, high), *((at + 10.45 * fine, at + 10.55 * fine) for at in (0.5, 0.7)), (0.903, 0.953)]
     held = f"any(a < it.launch.height < b for a, b in {bands})"
@@ -170,6 +171,32 @@ def test_an_interval_ends_next_to_where_the_target_is_met(tmp_path):
     assert (wide.interval.low, wide.interval.high) == pytest.approx((low, high), abs=1e-6)
     assert wide.values["launch.height"] == pytest.approx(0.5 * (low + high), abs=1e-6)
     assert narrow.values["launch.height"] == pytest.approx(0.928, abs=1e-6)
+
+
+def test_no_gap_of_the_stated_width_is_missed(tmp_path):
+    """Inside an interval, or an interval on its own, with nothing else in the result that changes there."""
+    drop, width = copy_of(DROP, tmp_path / "drop"), 0.00063
+    bands = [(0.2, 0.6), (0.6 + width, 1.0), (1.2, 1.2 + width)]
+    held = f"any(a < it.launch.height < b for a, b in {bands})"
+    change(drop / "scene.py", "FACTS = (", f'FACTS = (Fact("held", "", "", lambda run, it: {held}),')
+    found = aim(drop, {"launch.height": (0.1, 1.38)}, {"held": True})
+    seen = sorted((solution.interval.low, solution.interval.high) for solution in found.solutions)
+    assert seen == [pytest.approx(band, abs=1e-6) for band in bands]
+    assert found.resolution == {"launch.height": pytest.approx(1.28 / 2048)}
+    assert "gaps and intervals narrower than 0.0007 m may be missed" in " ".join(" ".join(as_text(found)).split())
+    assert json.loads(as_json(found))["resolution"] == found.resolution
+
+
+def test_an_interval_of_baskets_holds_no_shot_that_misses():
+    """Shots off the rim alternate between baskets and misses: at 56.23 deg one of the latter, among the former."""
+    found = aim("basketball", {"launch.angle": (35, 70)}, {"made": True})
+    intervals = [solution.interval for solution in found.solutions]
+    angles = np.arange(35.0, 70.0, found.resolution["launch.angle"] / 3)
+    made = [run.result["made"] for run in runs(load("basketball"), ["launch.angle"], angles[:, None], asked=["made"])]
+    told = [any(interval.low < angle < interval.high for interval in intervals) for angle in angles]
+    wrong = np.not_equal(made, told)
+    assert not (wrong[:-2] & wrong[1:-1] & wrong[2:]).any()
+    assert not any(interval.low < 56.23 < interval.high for interval in intervals)
 
 
 def test_what_holds_by_two_parameters_has_regions():
@@ -262,8 +289,8 @@ def test_what_is_named_twice_is_told():
 
 
 def test_a_range_in_which_nothing_runs_is_an_error():
-    with pytest.raises(RunError, match=r"no run in the range could be completed; the first error: .*release\.height"):
-        aim("basketball", {"release.height": (0.0, 0.1)}, {"apex": 3.0})
+    with pytest.raises(RunError, match=r"no run in the range could be completed; the first error: .*wall\.distance"):
+        aim("soccer", {"wall.distance": (0.15, 0.2)}, {"apex": 3.0})
 
 
 def test_the_command(vacuum, tmp_path, capsys):
@@ -301,7 +328,7 @@ def test_intervals_and_pairs_are_told_and_drawn(tmp_path, capsys):
     assert main([*made, "--show", str(tmp_path / "a.png")]) == 0
     out = capsys.readouterr().out
     assert (
-        "most forgiving within this range: launch.height = 2.5275 m, with 2.4 m of room to either side; it continues "
+        "most forgiving within this range: launch.height = 2.5275 m, with a margin of ±2.4 m; it continues "
         "beyond the range on the lower side: widen the range to see its middle"
     ) in " ".join(out.split())
     assert max(map(len, out.splitlines()[:-1])) <= 80  # the last names a file

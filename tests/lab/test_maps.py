@@ -78,6 +78,7 @@ def test_words_over_one_number_are_a_strip_that_fills_the_chart(tmp_path: Path):
     assert (np.asarray(strip.get_array()) == strip.get_array()[0]).all()
     assert len(set(strip.get_array()[0])) == 2
     assert not axes.get_yticks().size
+    assert all(text.get_text().endswith(" %") for text in axes.get_legend().get_texts())
 
 
 def test_a_number_over_numbers_and_words_is_a_curve_for_each_word(tmp_path):

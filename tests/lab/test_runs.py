@@ -7,8 +7,8 @@ import pytest
 
 import sandbox
 from sandbox import parameters as declared
-from sandbox.engine.run import Run
-from sandbox.engine.stacking import FEWEST, agree
+from sandbox.engine.many.stacking import FEWEST, agree
+from sandbox.engine.paths.run import Run
 from sandbox.lab.axes import Varied
 from sandbox.lab.runs import builder, built_at_once, runs
 from sandbox.scene import listings, load

@@ -11,10 +11,12 @@ import pytest
 
 from sandbox.cli import main
 from sandbox.engine import simulate
-from sandbox.engine.accuracy import LEVELS, resolve
-from sandbox.engine.run import Run
-from sandbox.engine.setup import Ball, Body, Circle, Segment, Setup, Surface
-from sandbox.engine.shapes import box
+from sandbox.engine.model.accuracy import LEVELS, resolve
+from sandbox.engine.model.ball import Ball, Body
+from sandbox.engine.model.setup import Setup
+from sandbox.engine.model.shapes import box
+from sandbox.engine.model.surface import Circle, Segment, Surface
+from sandbox.engine.paths.run import Run
 from sandbox.lab import stress as lab
 from sandbox.lab.extremes import Extreme, bare, of_scene
 from sandbox.lab.stress import FAILED, HELD, REFUSED, Outcome, tried
@@ -87,12 +89,12 @@ def dropped(**changes: object) -> Setup:
     return replace(Setup([ball], [floor], duration=1.0), **changes)
 
 
-def test_a_bounce_that_gains_energy_is_seen():
+def test_a_bounce_that_gains_energy_ends_the_run():
     lively = Surface("floor", Segment((-5.0, 0.0), (5.0, 0.0)), 1.0, 0.5)
     object.__setattr__(lively, "restitution", 1.2)
     outcome = one(Extreme("lively", lambda: dropped(surfaces=[lively])), LEVEL_METHOD)
-    assert outcome.outcome == FAILED
-    assert "energy gained" in outcome.message
+    assert outcome.outcome == REFUSED
+    assert "J appeared from nothing in the impact of 'ball', 'floor'" in outcome.message
 
 
 def test_an_exception_of_another_kind_is_a_failure():
@@ -203,3 +205,22 @@ def test_the_command_prints_a_table_with_reasons():
 def test_an_unknown_scene_is_refused(capsys: pytest.CaptureFixture[str]):
     assert main(["stress", "gulf"]) == 2
     assert "did you mean golf" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("integrator", "gained", "outcome"),
+    [
+        ("dormand-prince", 0.9e-3, HELD),
+        ("dormand-prince", 1.1e-3, FAILED),
+        ("rk4", 2.9e-2, HELD),
+        ("rk4", 3.1e-2, FAILED),
+    ],
+)
+def test_energy_may_grow_by_its_bound_and_no_more(
+    monkeypatch: pytest.MonkeyPatch, integrator: str, gained: float, outcome: str
+):
+    """1e-3 with error control, 3e-2 with steps of a fixed length, of the largest energy."""
+    monkeypatch.setattr(lab, "_energy_gained", lambda run: gained)
+    assert (
+        one(BARE["step 1/60 s"] if "step 1/60 s" in BARE else next(iter(BARE.values())), integrator).outcome == outcome
+    )

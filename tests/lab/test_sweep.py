@@ -23,7 +23,7 @@ from PIL import Image
 import sandbox
 from sandbox import resources
 from sandbox.cli import main
-from sandbox.engine.run import Run
+from sandbox.engine.paths.run import Run
 from sandbox.errors import RequestError, RunError
 from sandbox.lab import provenance as provenances
 from sandbox.lab.axes import Span, Values, as_axis, parse_axis
@@ -31,7 +31,7 @@ from sandbox.lab.plan import CHANGED, Plan, records
 from sandbox.lab.provenance import provenance
 from sandbox.lab.row_file import RowFile, cell
 from sandbox.lab.runs import runs
-from sandbox.lab.sweep import RowsInOrder, Written, jobs_that_pay, sweep_to_file, workers
+from sandbox.lab.sweep import RowsInOrder, SweepSummary, sweep_to_file, workers, worthwhile_jobs
 from sandbox.scene import Scene, compare, load, simulate
 from sandbox.scene.modules import read_again
 from sandbox.scene.running import simulate_at
@@ -227,7 +227,7 @@ def test_cells():
 # The file ------------------------------------------------------------------------------------------------------------
 
 
-def swept(plan: Plan, path: Path) -> Written:
+def swept(plan: Plan, path: Path) -> SweepSummary:
     with workers(1) as pool:
         return sweep_to_file(plan, path, pool)
 
@@ -247,7 +247,7 @@ def test_two_processes_write_the_same_file_as_one(drop, tmp_path):
     assert len(table(tmp_path / "two.csv")) == done.points == plan.size
 
 
-def resumed(plan: Plan, path: Path, left: bytes) -> Written:
+def resumed(plan: Plan, path: Path, left: bytes) -> SweepSummary:
     """A sweep into a file in which an interrupted one left this."""
     path.write_bytes(left)
     path.with_name(f"{path.name}.resume").write_text(plan.fingerprint + "\n")
@@ -353,7 +353,7 @@ def test_what_another_sweep_found_is_kept_and_the_same_rows_are_not(drop, tmp_pa
     first, other = grid(drop, "launch.height=0.5:2:3"), grid(drop, "launch.height=0.5:2:4")
     found = whole(first, path)
     again = swept(first, path)
-    assert (again.resumed, again.as_text()) == (3, "3 points, all of them from before: the sweep is complete")
+    assert (again.resumed, again.as_text()) == (3, "3 points, all already in the file: the sweep is complete")
     path.with_name(".rows.csv.complete").unlink()
     assert (swept(first, path).resumed, before.exists()) == (0, False)  # the same rows are not kept twice
     path.write_bytes(found.replace(b"1.25", b"1.35"))  # no longer what the sweep wrote
@@ -480,7 +480,7 @@ def test_few_shots_that_fly_together_do_without_processes(monkeypatch: pytest.Mo
     monkeypatch.setattr("sandbox.lab.sweep.cores", lambda: 4)
     few, many = (grid(load("golf"), f"launch.angle=5:40:{n}") for n in (3, 3000))
     table = grid(load("billiards"), "cue.angle=-5:5:3")  # its balls meet: one shot at a time
-    assert [jobs_that_pay(plan) for plan in (few, many, table)] == [1, 4, 3]
+    assert [worthwhile_jobs(plan) for plan in (few, many, table)] == [1, 4, 3]
 
 
 @pytest.mark.parametrize("jobs", [1, 2])
@@ -505,7 +505,7 @@ def test_ctrl_c_keeps_what_is_done_and_the_same_command_resumes(tmp_path, jobs):
     assert everybody_gone(process.pid)
 
     finished = subprocess.run([*COMMAND, *map(str, command)], capture_output=True, text=True, check=True)
-    assert f"120 points, {kept} of them from before" in finished.stdout
+    assert f"120 points, {kept} already in the file" in finished.stdout
     assert path.read_bytes() == whole(grid(load(scene, one_by_one), "launch.height=0.5:2:120"), tmp_path / "again.csv")
 
 
@@ -684,6 +684,15 @@ def test_a_worker_that_loaded_the_scene_before_a_change_is_refused(tmp_path):
 # The command ---------------------------------------------------------------------------------------------------------
 
 
+def test_the_values_of_a_range_have_no_digits_of_rounding():
+    """-28.8, not -28.799999999999997; what has no short form keeps all its digits."""
+    axis = parse_axis(sandbox.load("golf"), "--over", "launch.angle=-72:72:11")
+    assert [cell(value) for value in axis.values[:5]] == ["-72.0", "-57.6", "-43.2", "-28.8", "-14.4"]
+    assert axis.values[5] == 0.0
+    thirds = parse_axis(sandbox.load("golf"), "--over", "launch.angle=7:8:4")
+    assert thirds.values == tuple(np.linspace(7.0, 8.0, 4))
+
+
 def test_the_command(tmp_path, capsys):
     out, plot = tmp_path / "rows.csv", tmp_path / "map.png"
     over = ["--over", "launch.speed=7:8:4", "--over", "launch.angle=45:60:3"]
@@ -718,12 +727,12 @@ ROWS = ("--over", "launch.speed=1:2:3", "--out", "x.csv")
     [
         (["--over", "launch.speed=1:2:3", "--out", "x.txt"], "must end in .csv"),
         (["--over", "launch.speed=1:2:3", "--out", "no/x.csv"], "there is no folder"),
-        ([*ROWS, "--of", "carry"], "goes with --plot"),
+        ([*ROWS, "--of", "carry"], "requires --plot"),
         ([*ROWS, "--plot", "x.jpg"], "must end in .png"),
         ([*ROWS, "--plot", "x.png", "--of", "aped"], "did you mean apex?"),
         (["--over", "launch.speed=1:2:1", "--out", "x.csv", "--plot", "x.png"], "two values or more"),
         ([*ROWS, "--samples", "0"], "'--samples': 0 is not in the range x>=1"),
-        ([*ROWS, "--seed", "2"], "--seed 2: goes with --samples"),
+        ([*ROWS, "--seed", "2"], "--seed 2: requires --samples"),
         ([*ROWS, "--plot", "x.png", "--of", "xyz"], "refined_steps\n"),
         (["--out", "x.csv"], "--over"),
         (["--over", "launch.speed=1:2:3"], "--out"),

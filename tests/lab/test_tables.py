@@ -78,6 +78,16 @@ def test_a_paragraph_fits():
     assert [line[: len(line) - len(line.lstrip())] for line in lines] == ["  ", "    ", "    "]
 
 
+@pytest.mark.parametrize("room", range(12, 60))
+def test_a_number_and_its_unit_are_on_one_line(room: int, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setenv("COLUMNS", str(room))
+    text = "dropped from 45 m at 3.2 m/s and 12 % of it, off by ± 0.4 mm"
+    for lines in (paragraph(text, ""), table(("", ""), [("", text)], "ll", indent="")):
+        assert " ".join(line.strip() for line in lines) == text
+        for amount in ("45 m", "3.2 m/s", "12 %", "± 0.4 mm"):
+            assert any(amount in line for line in lines)
+
+
 def test_outcomes_of_stress_fit_80_columns():
     outcomes = [
         Outcome("golf", "all numbers at their highest", method, word, "a long message of why " * 5)

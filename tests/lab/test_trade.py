@@ -12,14 +12,15 @@ from PIL import Image
 
 from sandbox.cli import main
 from sandbox.engine import simulate
-from sandbox.engine.accuracy import LEVELS
-from sandbox.engine.setup import Ball, Setup
+from sandbox.engine.model.accuracy import LEVELS
+from sandbox.engine.model.ball import Ball
+from sandbox.engine.model.setup import Setup
 from sandbox.lab import timing, verdicts
 from sandbox.lab import trade as lab
 from sandbox.lab.ablation import Ablated, ablation, variants
 from sandbox.lab.chart import draw_trade
 from sandbox.lab.reference import DIVERGED, REFERENCE, Reference, converge
-from sandbox.lab.tables import length_above
+from sandbox.lab.tables import length_or_below
 from sandbox.lab.verdicts import shot_map, verdict
 from sandbox.new import new_scene
 from sandbox.physics.coefficients import Constant
@@ -52,6 +53,40 @@ def rattle() -> Reference:
 @pytest.fixture(scope="module")
 def basketball(fewer_settings: None) -> lab.Trade:
     return lab.trade(load("basketball", {"net.slows": False}))  # at long steps "plain" falls through the ring with it
+
+
+# Timing --------------------------------------------------------------------------------------------------------------
+
+
+def test_equal_runs_take_equal_time_whichever_is_first(monkeypatch: pytest.MonkeyPatch):
+    """The first run of a setup is slow, and so is the first one after the garbage is collected."""
+    clock, seen, collected = [0.0], set(), [False]
+
+    def run(setup: Setup, accuracy: object) -> None:
+        clock[0] += 1.0 + 100.0 * (id(setup) not in seen) + 10.0 * collected[0]
+        seen.add(id(setup))
+        collected[0] = False
+
+    monkeypatch.setattr(timing, "simulate", run)
+    monkeypatch.setattr(timing, "perf_counter", lambda: clock[0])
+    monkeypatch.setattr(timing.gc, "collect", lambda: collected.__setitem__(0, True))
+    trials = [
+        timing.Timed(Setup([Ball("ball", 1.0, 0.1, (0.0, 0.0))]), LEVELS["balanced"], lambda run: None)
+        for _ in range(3)
+    ]
+    timing.repeat(trials)
+    assert [trial.wall for trial in trials] == [1.0, 1.0, 1.0]
+    assert [len(trial.warm) for trial in trials] == [2, 2, 2]
+
+
+def test_a_saving_below_its_noise_is_a_dash():
+    def saved(saves: float | None, noise: float) -> str:
+        return Ablated("lift", "left out", ("", ""), saves=saves, saves_noise=noise).cells()[-1]
+
+    assert saved(0.12, 0.02) == "12 %"
+    assert saved(-0.12, 0.02) == "-12 %"
+    assert saved(0.44, 0.3) == saved(-1.6, 0.9) == saved(0.005, 0.0) == "-"
+    assert saved(None, 0.0) == ""
 
 
 # The reference -------------------------------------------------------------------------------------------------------
@@ -251,7 +286,7 @@ def test_throw_by_speed_is_tried_as_one_number():
     ("metres", "least", "said"), [(2e-9, 1e-8, "< 10 nm"), (2e-8, 1e-8, "20 nm"), (0.0, 0.0, "0 nm")]
 )
 def test_what_the_reference_cannot_tell_is_less_than_its_error(metres: float, least: float, said: str):
-    assert length_above(metres, least) == said
+    assert length_or_below(metres, least) == said
 
 
 def test_changes_replace_a_model_whole():

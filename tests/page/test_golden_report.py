@@ -45,6 +45,27 @@ def test_failures_are_one_page(pytester, browser, monkeypatch):
     assert browser.complaints() == []
 
 
+def test_what_is_missing_damaged_or_of_another_size_is_on_the_page(pytester, browser, monkeypatch):
+    monkeypatch.delenv("CI", raising=False)
+    pytester.makepyfile(made("13.0", "'red'"))
+    pytester.runpytest("--golden-report", "all.html").assert_outcomes(failed=2)
+    browser.driver.get((pytester.path / "all.html").as_uri())
+    assert browser.text("h1") == ["2 golden failures"]
+    assert all("has no golden picture" in line for line in browser.text("section > p:nth-of-type(2)"))
+    assert browser.text("figcaption") == ["actual", "actual"]
+    assert browser.run("[...document.images].every((image) => image.naturalWidth > 0)")
+    pytester.runpytest("--golden-update")
+    (pytester.path / "golden" / "shot.json").write_text("[]")
+    pytester.makepyfile(made("13.0", "'red'").replace("(64, 36)", "(64, 40)"))
+    pytester.runpytest("--golden-report", "all.html").assert_outcomes(failed=2)
+    browser.driver.get((pytester.path / "all.html").as_uri())
+    said = browser.text("section > p:nth-of-type(2)")
+    assert "it is 64x40, the golden one 64x36" in said[0]
+    assert "is damaged: not a record of a run" in said[1]
+    assert browser.text("figcaption") == ["expected", "actual", "actual"]
+    assert browser.complaints() == []
+
+
 def test_another_name_is_refused(pytester):
     result = pytester.runpytest("--golden-report", "report.txt")
     result.stderr.fnmatch_lines(["*--golden-report report.txt: its name must end in .html*"])

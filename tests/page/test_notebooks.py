@@ -64,12 +64,9 @@ def test_pictures_of_a_run(tmp_path: Path):
     assert (state.x, state.vy) == (state[0], state[3])
 
 
-def test_a_run_without_a_scene_has_no_picture():
-    run = sandbox.simulate("throws")
-    run.scene = None
-    assert run._repr_html_() is None
-    with pytest.raises(RequestError, match="only a run of a scene"):
-        run.poster()
+def test_a_table_as_text_is_in_letters_of_one_width():
+    found = sandbox.aim("throws", {"launch.angle": (20.0, 30.0)}, {"distance": 19.0})._repr_html_()
+    assert '<pre style="font-family: monospace; white-space: pre">' in found
 
 
 def test_html_of_scene_sweep_and_aim(tmp_path: Path):

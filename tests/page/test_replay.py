@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shlex
 import tomllib
+from html import unescape
 from math import hypot
 from pathlib import Path
 
@@ -14,8 +15,10 @@ from selenium.webdriver.common.by import By
 from selenium.webdriver.support.wait import WebDriverWait
 
 import sandbox
+from sandbox.cli import main
 from sandbox.page.parts import save
 from sandbox.page.replay import LAYOUTS, command, page_of
+from sandbox.parameters import parse_assignment
 from sandbox.sport.amounts import amount, shown_in
 from tests.scenes.play import run_of
 
@@ -31,7 +34,8 @@ def pages(tmp_path_factory: pytest.TempPathFactory):
     def page(name: str, *others: str) -> Path:
         file = folder / f"{'-'.join([name, *others]).replace('/', '-')}.html"
         if not file.exists():
-            save(page_of(run_of(name, RUNS.get(name)), {other: run_of(other) for other in others}), file)
+            options = [word for other in others for word in ("--compare", other)]
+            save(page_of(run_of(name, RUNS.get(name)), {other: run_of(other) for other in others}, options), file)
         return file
 
     return page
@@ -181,6 +185,41 @@ def test_a_page_says_how_to_run_it_again():
         said = {key: value if key in ("ball.drag.model", "rack") else tomllib.loads(f"it = {value}")["it"]
                 for key, _, value in settings}  # fmt: skip
         assert sandbox.load(source, said).parameters == scene.parameters
+
+
+def test_the_command_on_a_page_makes_that_page(tmp_path: Path, monkeypatch, capsys):
+    """As pasted, with what it is compared with and the units; the other may be a file of one's own."""
+    monkeypatch.chdir(tmp_path)
+    Path("my shot.toml").write_text('scene = "golf"\nlaunch.angle = 14\n', "utf-8")
+    for others in (["golf/headwind"], ["my shot.toml", "golf/headwind"]):
+        asked = ["run", "golf/driver", "--set", "air.wind=[-3,0]", "--set", "ball.lift.model=usga"]
+        asked += [f"--compare={other}" for other in others]
+        assert main([*asked, "--units", "ft,mph", "--html", "first.html"]) == 0
+        first = Path("first.html").read_text("utf-8")
+        words = shlex.split(unescape(first.partition("<code>")[2].partition("</code>")[0]))
+        assert words[0] == "sandbox"
+        assert main([*words[1:], "--html", "second.html"]) == 0
+        assert Path("second.html").read_text("utf-8") == first
+
+
+def test_the_command_of_a_scene_of_your_own_has_its_changes(tmp_path: Path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert main(["new", "beach"]) == 0
+    scene = sandbox.load("./beach", {"launch.speed": 11.0})
+    words = shlex.split(command(scene))
+    assert words == ["sandbox", "run", "./beach", "--set", "launch.speed=11"]
+    assert sandbox.load(words[2], dict([parse_assignment(words[4])])).parameters == scene.parameters
+
+
+def test_parameters_are_in_the_chosen_units_and_only_those_that_are_set():
+    def parameters(name: str) -> str:
+        return page_of(run_of(name)).partition('<table class="parameters">')[2].partition("</table>")[0]
+
+    assert "null" not in parameters("golf") + parameters("billiards")
+    assert "76.44384 m/s" in parameters("golf")
+    with shown_in("us"):
+        assert ">171 mph<" in parameters("golf")
+        assert " m/s<" not in parameters("soccer")
 
 
 def test_text_of_others_is_text(tmp_path: Path):

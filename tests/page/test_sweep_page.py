@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import shlex
+from html import unescape
 from pathlib import Path
 
 import numpy as np
@@ -47,11 +49,58 @@ def test_the_point_under_the_cursor(browser, tmp_path: Path, capsys):
     assert browser.complaints() == []
 
 
+@pytest.mark.parametrize(
+    "asked",
+    [
+        ["basketball", "--over=launch.speed=6.9:8.5:7", '--over=launch.angle="0.8 rad","0.9 rad"', "--of=entry_angle"],
+        ["throws", "--over=launch.speed=29 mph:31 mph", "--samples=9", "--seed=3", "--check"],
+        ["golf/driver", "--set=air.wind[0]=-3", "--over=ball.drag.model=tour-fit,usga", "--over=launch.angle=9:12:4"],
+    ],
+    ids=lambda asked: asked[0].partition("/")[0],
+)
+def test_the_command_on_a_page_makes_that_page(asked: list[str], tmp_path: Path, monkeypatch):
+    """As pasted: the same rows and the same page."""
+    monkeypatch.chdir(tmp_path)
+    assert main(["sweep", *asked, "--out=first.csv", "--html=first.html"]) == 0
+    page = Path("first.html").read_text("utf-8")
+    words = shlex.split(unescape(page.partition("<code>")[2].partition("</code>")[0]))
+    assert main(words[1:]) == 0
+    assert Path("sweep.html").read_text("utf-8") == page
+    assert Path("sweep.csv").read_text("utf-8") == Path("first.csv").read_text("utf-8")
+
+
+def test_the_ring_is_at_the_shot_of_the_scene_file(browser, tmp_path: Path):
+    """Not at the nearest point of the grid; on a curve, on the curve."""
+    page, out = tmp_path / "map.html", tmp_path / "map.csv"
+    own = sandbox.load("throws").parameters
+    over = {"launch.angle": (20.0, 60.0, 3), "launch.speed": (10.0, 16.0, 2)}
+    for keys in (list(over), list(over)[:1]):
+        asked = [f"--over={key}={low}:{high}:{count}" for key, (low, high, count) in over.items() if key in keys]
+        assert main(["sweep", "throws", *asked, f"--out={out}", f"--html={page}", "--of=distance"]) == 0
+        browser.open(page)
+        rings = browser.run("""(() => {
+          const arcs = [];
+          explorer.ring = (context, place) => arcs.push(place);
+          explorer.map();
+          delete explorer.ring;
+          return arcs.map(([x, y]) => [x, y]);
+        })()""")
+        axes, places = browser.run("[0, 1].map((axis) => [-1, 1].map((value) => explorer.place(axis, value)))"), []
+        for (zero, one), pixel in zip(axes, rings[0], strict=True):
+            places.append(2.0 * (pixel - zero) / (one - zero) - 1.0)
+        assert places[0] == pytest.approx(own.launch.angle)
+        if len(keys) == 2:
+            assert places[1] == pytest.approx(own.launch.speed)
+        else:  # between the points at 20 and 40 or at 40 and 60 deg
+            curve = sandbox.sweep("throws", {"launch.angle": [20.0, 40.0, 60.0]})["distance"]
+            assert places[1] == pytest.approx(np.interp(own.launch.angle, [20.0, 40.0, 60.0], curve))
+
+
 def test_a_curve_and_what_is_too_much(browser, tmp_path: Path, capsys):
     page, out = tmp_path / "curve.html", tmp_path / "curve.csv"
-    asked = ["sweep", "throws", "--set=launch.speed=13.0", "--over=launch.angle=20:60:9"]
+    asked = ["sweep", "throws", "--set=launch.speed=13", "--over=launch.angle=20:60:9"]
     assert main([*asked, f"--out={out}", f"--html={page}"]) == 0
-    said = "sandbox sweep throws --set launch.speed=13.0 --over launch.angle=20:60:9 --out sweep.csv"
+    said = "sandbox sweep throws --set launch.speed=13 --over launch.angle=20:60:9 --out sweep.csv"
     assert said in page.read_text()
     browser.open(page)
     assert browser.run("explorer.data.curves[0].points.length") == 9

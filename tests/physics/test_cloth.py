@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sandbox.physics.cloth import Cloth
-from sandbox.physics.plane import Phase, PlaneState
+from sandbox.physics.plane import PlanePhase, PlaneState
 
 R = 0.028575  # m
 G = 9.81  # m/s^2
@@ -32,7 +32,7 @@ def advance(state: PlaneState, t: float, cloth: Cloth = CLOTH) -> PlaneState:
     raise AssertionError("phases without end")
 
 
-def way(state: PlaneState, cloth: Cloth = CLOTH) -> list[tuple[PlaneState, Phase]]:
+def way(state: PlaneState, cloth: Cloth = CLOTH) -> list[tuple[PlaneState, PlanePhase]]:
     """All phases to rest, each with the state at its beginning."""
     found = []
     while True:

@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 
 from sandbox.engine import simulate
-from sandbox.engine.accuracy import resolve
-from sandbox.engine.setup import Ball, Segment, Setup, Surface
+from sandbox.engine.model.accuracy import resolve
+from sandbox.engine.model.ball import Ball
+from sandbox.engine.model.setup import Setup
+from sandbox.engine.model.surface import Segment, Surface
 from sandbox.physics.cloth import Cloth
 
 RADIUS, NOSE, RESTITUTION, FRICTION = 0.03075, 0.037, 0.88, 0.265  # a carom table's

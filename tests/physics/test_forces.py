@@ -9,7 +9,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from sandbox.engine.acting import cause
+from sandbox.engine.motion.forces_on_ball import cause
 from sandbox.physics.air import LogWind, UniformWind
 from sandbox.physics.coefficients import Constant, spin_ratio_lift, tour_fit_drag, tour_fit_lift
 from sandbox.physics.forces import Drag, Gravity, Inside, Magnus, SpinDecay, Thinning

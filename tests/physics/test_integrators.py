@@ -93,9 +93,21 @@ def test_the_angle_of_a_body_follows_its_spin_as_its_place_follows_its_velocity(
     """What acts along x acts about the axis, too: both go the same way, and so do their errors."""
     law = lambda t, s: (*(2 * (t - 3.0 * s[0] - 0.5 * s[2],)), t - 3.0 * s[5] - 0.5 * s[4])  # noqa: E731
     state = (0.2, 0.2, 1.0, 1.0, 1.0, 0.2)
-    (x, y, vx, vy, spin, angle), _, error = METHODS[name].step_of(law, turns=True)(0.5, state, law(0.5, state), 0.1)
+    (x, y, vx, vy, spin, angle), _, error = METHODS[name].step_of(law, rotates=True)(0.5, state, law(0.5, state), 0.1)
     assert (x, vx) == (y, vy) == (angle, spin) != state[:2]
     assert error is None or (error[0], error[2]) == (error[1], error[3]) == (error[5], error[4]) != (0.0, 0.0)
+
+
+@pytest.mark.parametrize("name", [name for name in METHODS if METHODS[name].by_hand])
+@pytest.mark.parametrize(("law", "more"), [(turning, ()), (swinging, (0.8,))])
+def test_a_step_by_hand_is_the_loop_over_the_table(name, law, more):
+    state, t, dt = (1.0, -0.5, 0.7, 0.3, -2.0, *more), 0.3, 0.2
+    by_hand, by_table = (
+        method.step_of(law, rotates=len(more) > 0)(t, state, law(t, state), dt)
+        for method in (METHODS[name], METHODS[name]._replace(by_hand=None))
+    )
+    for one, other in zip(by_hand, by_table, strict=True):
+        assert one == pytest.approx(other, rel=1e-14, abs=1e-15)
 
 
 @pytest.mark.parametrize("name", [name for name in METHODS if METHODS[name].controls_error])

@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 
 from sandbox.engine import simulate, simulate_many
-from sandbox.engine.accuracy import LEVELS
 from sandbox.engine.ledger import ledger
-from sandbox.engine.setup import Ball, Setup
+from sandbox.engine.model.accuracy import LEVELS
+from sandbox.engine.model.ball import Ball
+from sandbox.engine.model.setup import Setup
 from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity
 from sandbox.physics.rocket import Motor, Thrust
@@ -24,7 +25,7 @@ CURVE = Motor((0.0, 0.1, 0.5, 1.0), (0.0, 30.0, 5.0, 0.0), 0.02)
 def rocket(motor: Motor, *forces, mass: float = 1.0, loses: bool = True) -> Setup:
     thrust = Thrust(motor, (0.0, 0.0), (0.0, 1.0), 1e9)
     ball = Ball("rocket", mass, 0.02, (0.0, 0.0), forces=[thrust, *forces], loss=motor if loses else None)
-    return Setup([ball], duration=2.0, breaks=motor.times)
+    return Setup([ball], duration=2.0, discontinuities=motor.times)
 
 
 @pytest.mark.parametrize("motor", [EVEN, CURVE], ids=["even", "curve"])

@@ -6,7 +6,7 @@ import pytest
 from sandbox.engine.ledger import ledger
 from sandbox.picture import energy_chart as chart
 from sandbox.picture.energy import course
-from sandbox.picture.energy_chart import bands_of, energy_chart, joules
+from sandbox.picture.energy_chart import LEAST_SHARE, bands_of, energy_chart, joules
 from tests.picture.legible import assert_legible
 from tests.scenes.play import run_of
 
@@ -33,6 +33,8 @@ def test_what_there_is_and_what_is_lost_add_up_at_all_times(name):
     spent = course(run_of(name))
     total = sum(spent.has.values()) - sum(spent.work.values())
     assert total == pytest.approx(np.full(len(spent.times), spent.start), rel=2e-6)  # the net takes much in little time
+    bands, _ = bands_of(spent)
+    assert bands[-1].values[-1] == pytest.approx(spent.start, rel=LEAST_SHARE / 2)  # "other" has what is too little
 
 
 @pytest.mark.parametrize("name", ["billiards/bank", "billiards/nine-ball-break", "basketball/rattle"])
@@ -82,6 +84,30 @@ def test_an_impact_takes_its_energy_at_once():
 
 def test_surfaces_that_are_alike_and_pairs_of_balls_stand_together():
     assert set(course(run_of("billiards/nine-ball-break")).taken) >= {"cloth", "cushions", "balls"}
+
+
+def test_what_catches_a_ball_goes_by_its_own_name():
+    taken = course(run_of("bowling")).taken
+    assert taken["pit"][-1] > 50.0  # J
+    assert "pockets" not in taken
+
+
+def test_what_a_conservative_force_stores_is_neither_put_in_nor_lost():
+    """Strings of a cradle: all the energy there is at the start, and most of it again at each turn."""
+    spent = course(run_of("collisions/cradle-5"))
+    stored = spent.has["stored by string"]
+    assert stored[0] == pytest.approx(spent.start)
+    assert max((values.max() for values in spent.put_in.values()), default=0.0) == pytest.approx(0.0, abs=1e-12)
+    total = sum(spent.has.values()) - sum(spent.work.values())
+    assert total == pytest.approx(np.full(len(spent.times), spent.start), rel=1e-4)
+    assert not any("stored" in name for name in course(run_of("basketball")).has)  # a net acts on a part of its way
+
+
+def test_what_the_last_impact_changes_has_a_width():
+    bands, _ = bands_of(chart.held_at_the_end(run_of("volleyball/spike")))
+    floor = next(band for band in bands if band.name == "floor")
+    wide = floor.times[floor.values - floor.foot > 1.0]
+    assert np.ptp(wide) > 0.03 * run_of("volleyball/spike").duration
 
 
 def test_a_caught_ball_takes_its_energy_into_the_pocket():

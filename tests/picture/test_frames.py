@@ -26,6 +26,7 @@ from sandbox.picture.frames import (
     to_image,
 )
 from sandbox.picture.painter import Painter, blank
+from sandbox.picture.sheet import Sheet
 
 ORANGE = (213, 94, 0)
 
@@ -37,6 +38,8 @@ class Run:
 
 class Picture:
     """A ball that goes from left to right over grey; it may fail at a time."""
+
+    slow_motion = 1
 
     def __init__(self, run: Run, fails_at: float = np.inf):
         self.run, self.fails_at = run, fails_at
@@ -96,7 +99,7 @@ class TestPosters:
     def test_what_was_there_stays_when_the_disk_is_full(self, tmp_path, monkeypatch):
         (tmp_path / "poster.png").write_bytes(b"before")
         full = _fails_after(10)
-        monkeypatch.setattr("sandbox.picture.frames.written_whole", full)
+        monkeypatch.setattr("sandbox.picture.frames.atomic_write", full)
         with pytest.raises(OSError, match="No space left"):
             save_png(blank((96, 54)), tmp_path / "poster.png")
         assert (tmp_path / "poster.png").read_bytes() == b"before"
@@ -107,10 +110,10 @@ class TestPosters:
 
 
 def _fails_after(count: int):
-    """``written_whole`` on a disk that has room for so many bytes."""
+    """``atomic_write`` on a disk that has room for so many bytes."""
     from contextlib import contextmanager
 
-    from sandbox.files import written_whole
+    from sandbox.files import atomic_write
 
     class Full:
         def __init__(self, file):
@@ -126,7 +129,7 @@ def _fails_after(count: int):
 
     @contextmanager
     def full(path):
-        with written_whole(path) as file:
+        with atomic_write(path) as file:
             yield Text(file)
 
     return full
@@ -215,6 +218,34 @@ class TestGif:
     def test_no_faster_than_viewers_show(self, tmp_path):
         run = Run(0.5)
         assert save_gif(Picture(run), run, tmp_path / "run.gif", 120) == FASTEST_GIF * 0.5 + 1
+
+
+@pytest.mark.parametrize(
+    ("source", "slower"),
+    [
+        ("volleyball/spike", 4),
+        ("baseball-pitch", 4),
+        ("tennis", 2),
+        ("bullet-water", 16),
+        ("golf", 1),
+        ("basketball", 1),
+    ],
+)
+def test_what_is_over_in_half_a_second_is_in_slow_motion(source, slower):
+    run = sandbox.simulate(source)
+    assert run.scene.picture(run, (320, 180)).slow_motion == slower
+
+
+def test_an_animation_in_slow_motion_lasts_longer_and_says_so(tmp_path, monkeypatch):
+    run = sandbox.simulate("volleyball/spike")
+    picture, notes = run.scene.picture(run, (320, 180)), []
+    headline = Sheet.headline
+    monkeypatch.setattr(Sheet, "headline", lambda self, *said: notes.append(said[1]) or headline(self, *said))
+    count = save_gif(picture, run, tmp_path / "run.gif", 10)
+    _, stays = read(tmp_path / "run.gif")
+    assert count == len(stays) == int(40 * run.duration) + 2
+    assert sum(stays[:-1]) == pytest.approx(4000 * run.duration, abs=20)
+    assert all("slow motion, 4 times slower" in said for said in notes)
 
 
 def test_frames_that_are_alike(tmp_path):

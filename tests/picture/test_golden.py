@@ -294,14 +294,39 @@ class TestRuns:
         pytester.makepyfile(
             """
             from sandbox.engine import simulate
-            from sandbox.engine.accuracy import resolve
-            from sandbox.engine.setup import Ball, Setup
+            from sandbox.engine.model.accuracy import resolve
+            from sandbox.engine.model.ball import Ball
+            from sandbox.engine.model.setup import Setup
 
             def test_it(golden):
                 golden.check("it", simulate(Setup([Ball("ball", 1.0, 0.1, (0.0, 0.0))], duration=1.0), resolve()))
             """
         )
-        again(pytester).stdout.fnmatch_lines(["*only a run of a scene has a picture*"])
+        again(pytester).stdout.fnmatch_lines(
+            ["*only a run of a scene, a pygame surface or a Pillow image can be checked, not Run:*"]
+        )
+
+    def test_the_tolerance_is_that_of_the_check(self, scene_project, monkeypatch):
+        test = scene_project.path / "test_it.py"
+        told = "*it: the run differs from its golden run by less than the tolerance of 0.01: *"
+        test.write_text(test.read_text().replace('"{}"))))', '"{}")))), tolerance=0.01'))
+        self.changed(scene_project, monkeypatch, '{"gravity": 9.811}').assert_outcomes(passed=1)
+        picture = scene_project.path / "drop" / "picture.py"
+        shows = "surface.fill((9, 9, 9), (2, 2, 9, 9)); return surface"
+        picture.write_text(picture.read_text().replace("return surface", shows))
+        again(scene_project).stdout.fnmatch_lines([told])
+        monkeypatch.setenv("CHANGES", '{"gravity": 10.5}')
+        again(scene_project).stdout.fnmatch_lines(["*the physics changed*"])
+
+    def test_a_size_of_its_own_and_the_picture_only(self, scene_project, monkeypatch):
+        test = scene_project.path / "test_it.py"
+        test.write_text(test.read_text().replace('"{}"))))', '"{}")))), size=(320, 180), picture_only=True'))
+        again(scene_project, "--golden-update").assert_outcomes(passed=1)
+        assert [file.name for file in (scene_project.path / "golden").iterdir()] == ["it.png"]
+        with Image.open(scene_project.path / "golden" / "it.png") as picture:
+            assert picture.size == (320, 180)
+        monkeypatch.setenv("CHANGES", '{"gravity": 9.8101}')  # no pixel shows it
+        again(scene_project).assert_outcomes(passed=1)
 
 
 def test_a_chaotic_run_is_kept_until_it_diverges(pytester, monkeypatch):
@@ -430,6 +455,42 @@ class TestThePlugin:
         result.assert_outcomes(failed=4)
         said = [f"*it: until = {until}: must be a time greater than 0 s" for until in (-1, 0.0, "nan", "inf")]
         result.stdout.fnmatch_lines(said)
+
+    @pytest.mark.parametrize(
+        ("checked", "said"),
+        [
+            ('"../it", image', "'../it': the name of a golden picture is that of a file*"),
+            (
+                '"it", np.asarray(image)',
+                "it: only a run of a scene, a pygame surface or a Pillow image can be checked, not ndarray:*",
+            ),
+            ('"it", image, size=(3, 2)', "it: size = (3, 2): must be between *"),
+            ('"it", image, tolerance=0.0', "it: tolerance = 0.0: must be greater than 0, in s, m, m/s and rad/s"),
+        ],
+    )
+    def test_what_cannot_be_checked_is_said_in_a_line(self, project, checked: str, said: str):
+        test = project.path / "test_it.py"
+        text = test.read_text().replace("import os", "import os\nimport numpy as np")
+        image = 'Image.new("RGB", (40, 30), os.environ.get("COLOUR", "white"))'
+        test.write_text(text.replace(f'"it", {image}', checked.replace("image", image)))
+        result = run(project, "--golden-update")
+        result.assert_outcomes(failed=1)
+        result.stdout.fnmatch_lines([said])
+        assert not list(project.path.rglob("*.png"))
+
+    def test_golden_files_that_no_test_uses_are_listed(self, project):
+        run(project, "--golden-update")
+        folder = project.path / "golden"
+        for name in ("it.json", "old.png", "notes.txt"):
+            (folder / name).write_text("")
+        result = run(project, "--golden-unused")
+        result.assert_outcomes(passed=1)
+        result.stdout.fnmatch_lines(
+            ["*golden files that no test has used*", str(folder / "it.json"), str(folder / "old.png")]
+        )
+        result.stdout.no_fnmatch_line("*notes.txt*")
+        result.stdout.no_fnmatch_line("*it.png*")
+        run(project).stdout.no_fnmatch_line("*no test has used*")
 
     def test_a_missing_picture_fails_and_says_how_to_make_it(self, project):
         result = run(project)

@@ -4,6 +4,7 @@ import numpy as np
 import pygame
 import pytest
 
+from sandbox.picture.chart import Plot
 from sandbox.picture.graph import Panel, draw_panel, graph, panels_of
 from sandbox.picture.sheet import Sheet
 from sandbox.sport.amounts import shown_in
@@ -60,7 +61,15 @@ def test_a_panel_can_be_drawn_anywhere():
     """With the time marked; nothing is drawn outside its rectangle but half a line's width."""
     sheet = Sheet((640, 360), on_dark=True)
     rect = pygame.Rect(100, 60, 300, 160)
-    draw_panel(sheet, rect, panels("throws")["speed"], run_of("throws").duration, t=0.7)
+    draw_panel(sheet, rect, panels("throws")["speed"], run_of("throws").duration, t=0.7, said="now 9.1")
     drawn = pygame.surfarray.array3d(sheet.surface).any(axis=2)
+    assert drawn[300:400, 60:75].any()  # what is said, at the right
     drawn[98:402, 58:222] = False
     assert not drawn.any()
+
+
+def test_a_plot_stands_on_its_rectangle():
+    """The least value is its lower edge, the largest its upper one; time runs from left to right."""
+    plot = Plot(pygame.Rect(10, 20, 200, 100), until=4.0, low=-2.0, high=8.0)
+    assert [plot.row(value) for value in (-2.0, 3.0, 8.0)] == [120.0, 70.0, 20.0]
+    assert [plot.column(t) for t in (0.0, 1.0, 4.0)] == [10.0, 60.0, 210.0]

@@ -54,8 +54,8 @@ def test_what_takes_balls_is_seen(bare):
     run = sandbox.simulate(bare("billiards"))
     picture = run.scene.picture(run, SIZE)
     ground = colour(picture.stage(), picture.camera.pixel(0.0, 0.3))
-    for catch in run.setup.catches:
-        assert colour(picture.stage(), picture.camera.pixel(*catch.center)) != pytest.approx(ground, abs=20)
+    for trap in run.setup.traps:
+        assert colour(picture.stage(), picture.camera.pixel(*trap.center)) != pytest.approx(ground, abs=20)
 
 
 @pytest.mark.parametrize("name", ["basketball", "billiards"])
@@ -95,8 +95,10 @@ def test_surfaces_are_where_they_are(bare):
 
 
 PLANK = '''"""A plank that flies and slides along its length."""
-from sandbox.engine.setup import Body, Segment, Setup, Surface
-from sandbox.engine.shapes import box
+from sandbox.engine.model.ball import Body
+from sandbox.engine.model.setup import Setup
+from sandbox.engine.model.surface import Segment, Surface
+from sandbox.engine.model.shapes import box
 from sandbox.parameters import SceneParameters as Parameters
 from sandbox.physics.forces import Gravity
 

@@ -6,7 +6,7 @@ from math import hypot
 import pytest
 
 import sandbox
-from sandbox.engine.acting import cause
+from sandbox.engine.motion.forces_on_ball import cause
 from sandbox.picture.sheet import Sheet
 from sandbox.picture.vectors import Vectors, colour_of
 from sandbox.sport.amounts import amount

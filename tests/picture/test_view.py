@@ -14,7 +14,7 @@ import sandbox
 from sandbox.picture import marks
 from sandbox.picture.ball import Look
 from sandbox.picture.painter import Painter
-from sandbox.picture.places import Landscape, Stands, Stripes
+from sandbox.picture.places import Landscape, Person, Stands, Stripes
 from sandbox.picture.view import View
 from tests.scenes.play import run_of
 
@@ -44,7 +44,7 @@ def test_a_ball_or_a_bead_is_drawn_at_every_even_time(name: str, monkeypatch: py
     monkeypatch.setattr(Painter, "disc", note)
     picture.poster()
     every = float(re.findall(r"a ball every (\S+) s", written(picture))[0])
-    moments = np.arange(0.0, picture.told * (1.0 - 1e-9), every)
+    moments = np.arange(0.0, picture.story_end * (1.0 - 1e-9), every)
     assert len(moments) > 4
     for t in moments:
         at = picture.spots(picture.camera, np.array([picture.run.state(picture.ball, t)[:2]]), 0.0)[0]
@@ -69,10 +69,13 @@ def test_an_impact_on_the_rim_of_the_last_ball_is_marked_and_one_under_it_is_not
     monkeypatch.setattr(marks, "draw_mark", lambda sheet, at: drawn.append(at))
     picture = picture_of(name)
     picture.poster()
-    at, radius = picture.last(picture.camera)
-    places = [picture.camera.pixel(*mark.at) for mark in picture.impacts(picture.camera)]
-    assert [place for place in places if place in drawn] == [p for p in places if dist(p, at) > radius - 1.0]
-    assert any(dist(place, at) < radius for place in places)
+    under = False
+    for camera in (picture.camera, *(near.camera for near in getattr(picture, "closeups", ()))):
+        at, radius = picture.last(camera)
+        places = [camera.pixel(*mark.at) for mark in picture.impacts(camera)]
+        assert [place for place in places if place in drawn] == [p for p in places if dist(p, at) > radius - 1.0]
+        under |= any(dist(place, at) < radius + 1.0 for place in places)
+    assert under
 
 
 @pytest.mark.parametrize("name", ["golf", "golf/topped", "soccer", "basketball"])
@@ -208,3 +211,47 @@ def test_a_frame_says_it_if_only_the_smaller_ball_is_drawn_larger():
     assert picture.radius * picture.camera.scale > picture.least
     picture.frame(0.0)
     assert "balls drawn larger than they are" in written(picture)
+
+
+@pytest.mark.parametrize("name", ["hockey/air-hockey", "hockey", "bowling", "bowling/gutter-ball"])
+def test_the_ball_that_is_played_is_seen_where_it_was_caught(name: str):
+    """Air hockey once had no puck at the end."""
+    run = run_of(name)
+    picture = run.scene.picture(run, (1280, 720))
+    assert picture.caught[picture.ball] <= run.duration
+    (at, radius) = picture._placed(picture.camera, picture.story_end)[picture.ball]
+    assert radius >= 3.5
+    assert all(0.04 * side <= place <= 0.96 * side for place, side in zip(at, picture.size, strict=True))
+
+
+def test_labels_keep_off_what_stands_there():
+    """Baseball's was once on the fence, the shot put's on the mark."""
+    for name, text in (("baseball", "3.82 m over the fence"), ("throws", "15.4 m/s")):
+        picture = picture_of(name)
+        picture.poster()
+        label = next(rect for said, rect in picture.sheet.written if said == text)
+        eye = picture.eye(picture.camera)
+        thing = picture.place.things[0]  # fence, flag
+        points = eye.points(np.array(thing.corners))
+        low, high = points.min(axis=0), points.max(axis=0)
+        assert not label.colliderect((low[0], low[1], high[0] - low[0] + 1, high[1] - low[1] + 1)), name
+
+
+@pytest.mark.parametrize("name", ["volleyball", "volleyball/spike", "volleyball/jump-serve", "tennis", "tennis/clay"])
+def test_a_ball_crosses_nobody(name: str):
+    picture = picture_of(name)
+    eye = picture.eye(picture.camera)
+    path = picture.camera.pixels(picture.path.points)
+    people = [thing for thing in picture.place.things if isinstance(thing, Person) and thing.facing < 0]
+    assert people
+    for person in people:
+        points = eye.points(np.array(person.corners))
+        (left, top), (right, bottom) = points.min(axis=0), points.max(axis=0)
+        inside = (path > (left, top)) & (path < (right, bottom))
+        assert not inside.all(axis=1).any()
+
+
+@pytest.mark.parametrize(("old", "new"), [("told", "story_end"), ("company", "must_be_visible")])
+def test_an_option_that_was_called_otherwise_is_named(old: str, new: str):
+    with pytest.raises(sandbox.RequestError, match=f"Mine.{old} is now {new}"):
+        type("Mine", (View,), {old: 1.0})

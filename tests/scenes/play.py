@@ -8,7 +8,7 @@ from functools import cache
 from typing import Any
 
 import sandbox
-from sandbox.engine.run import Run
+from sandbox.engine.paths.run import Run
 
 
 def run_of(source: str, changes: Mapping[str, Any] | None = None) -> Run:

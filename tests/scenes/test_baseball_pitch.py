@@ -19,3 +19,10 @@ def test_a_ball_that_clips_the_zone_is_a_strike():
     height = pitch()["plate_height"]
     assert pitch(plate__top=height - 0.03)["strike"]
     assert not pitch(plate__top=height - 0.04)["strike"]
+
+
+def test_a_ball_that_clips_the_lower_edge_is_a_strike_too():
+    """Its radius is 3.7 cm."""
+    height = pitch("baseball-pitch/curve")["plate_height"]
+    assert pitch("baseball-pitch/curve", plate__bottom=height + 0.03)["strike"]
+    assert not pitch("baseball-pitch/curve", plate__bottom=height + 0.04)["strike"]

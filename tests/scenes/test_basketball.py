@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import asin, atan, cos, degrees, hypot, radians, sin, tan
+from math import asin, atan, cos, degrees, exp, hypot, pi, radians, sin, tan
 from typing import Any
 
 import numpy as np
@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 import sandbox
 from sandbox.lab.runs import runs
+from scenes.basketball import hoop
 from tests.scenes.play import playing
 
 #: Without the net's force, which bends the end of the way.
@@ -249,3 +250,20 @@ def test_a_ball_on_the_bracket_lies_half_a_tube_above_it():
     (bracket,) = [surface.shape for surface in scene.build().surfaces if surface.name == "bracket"]
     assert bracket.radius == 0.5 * hoop.tube_radius
     assert bracket.a[1] == bracket.b[1] == hoop.height
+
+
+# The net ------------------------------------------------------------------------------------------------------------
+
+
+def test_the_net_swings_back_and_forth_after_the_ball_and_comes_to_rest():
+    """At 11 rad/s, falling by exp(-3 t / s): half a period later it is on the other side, and smaller by that."""
+    run = sandbox.simulate(sandbox.load("basketball/bank-shot"))
+    assert run.result["made"]
+    net = hoop.HangingNet(run, run.scene.parameters)
+    down = np.linspace(0.0, 1.0, 5)
+    ends = [net._shape(down, net.left + turn * pi / 11.0)[0] for turn in (1e-9, 0.5, 1.0, 2.0)]
+    assert abs(ends[0][2]) > 1e-3
+    assert ends[1] == pytest.approx(0.0 * down, abs=1e-9)
+    assert ends[2] == pytest.approx(-ends[0] * exp(-3.0 * pi / 11.0), rel=1e-6)
+    assert ends[3] == pytest.approx(ends[0] * exp(-6.0 * pi / 11.0), rel=1e-6)
+    assert net._shape(down, net.left + 2.0)[0].tolist() == [0.0] * 5

@@ -13,8 +13,8 @@ import pytest
 
 import sandbox
 from sandbox import resources
-from sandbox.engine.accuracy import LEVELS
-from sandbox.engine.run import Run
+from sandbox.engine.model.accuracy import LEVELS
+from sandbox.engine.paths.run import Run
 from sandbox.errors import RequestError
 from sandbox.physics.throw import friction_by_speed
 from tests.scenes.play import playing
@@ -304,7 +304,7 @@ def test_noses_mouths_and_cut_angles_are_those_of_the_wpa():
 def test_each_kind_of_table_has_its_size(kind: str, length: float, width: float):
     scene = sandbox.load("billiards", {"table.kind": kind, "ball.radius": 0.02625})
     assert (scene.parameters.table.length, scene.parameters.table.width) == pytest.approx((length, width))
-    assert len(scene.build().catches) == (0 if kind == "carom" else 6)
+    assert len(scene.build().traps) == (0 if kind == "carom" else 6)
 
 
 def test_any_table_can_do_without_pockets():
@@ -316,7 +316,7 @@ def test_any_table_can_do_without_pockets():
 def test_holes_begin_where_the_shelf_ends():
     """From the middle of the mouth outwards: 1 to 2.25 in at the corners, 0 to 0.375 in at the sides (WPA)."""
     inch = 0.0254
-    holes = {catch.name: catch for catch in sandbox.load("billiards").build().catches}
+    holes = {trap.name: trap for trap in sandbox.load("billiards").build().traps}
     side, corner = holes["left side pocket"], holes["right foot corner pocket"]
     assert side.center[0] == 0.0
     assert side.center[1] - 0.635 - side.radius == pytest.approx(0.1875 * inch)
@@ -337,7 +337,7 @@ def test_a_ball_in_the_mouth_of_a_pocket_drops_and_none_leaves_the_table(kind: s
         table = run.scene.parameters.table
         if run.result["scratch"]:
             dropped += 1
-            nearest = min(hypot(x - c.center[0], y - c.center[1]) - c.radius for c in run.setup.catches)
+            nearest = min(hypot(x - c.center[0], y - c.center[1]) - c.radius for c in run.setup.traps)
             assert nearest == pytest.approx(0.0, abs=1e-9)
         else:
             assert abs(x) <= 0.5 * table.length + radius  # some come to rest between the jaws
@@ -636,10 +636,10 @@ def test_any_ball_may_be_the_cue_ball():
         ([spot("1", 0, 0)], {"rack": "nine-ball"}, 'balls: "1" is in the rack already'),
         ([], {"rack": "none"}, 'cue.ball = "cue": there is no such ball on the table; there are none'),
         ([spot("cue", 0.68, 0)], {"rack": "nine-ball"}, "overlap by"),
-        ([spot("cue", 0, 0)], {"table.corner_mouth": 0.95}, "table.width = 1.27 m: the pockets leave no rail"),
+        ([spot("cue", 0, 0)], {"table.corner_mouth": 0.95}, "the pockets leave no rail; it must be more than 1.34788"),
         ([spot("cue", 0, 0)], {"table.corner_jaw_radius": 0.4}, "table.corner_jaw_radius = 0.4 m: the rounding"),
         ([spot("cue", 0, 0)], {"table.side_hole_radius": 0.02}, "table.side_hole_radius = 0.02 m: balls pass beside"),
-        ([spot("cue", 0, 0)], {"table.corner_shelf": 0.2}, "table.corner_shelf = 0.2 m: the hole lies behind"),
+        ([spot("cue", 0, 0)], {"table.corner_shelf": 0.2}, "hole lies behind the cushions; it must be at most 0.0747"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_is_refused_by_name_and_place(balls: list[Any], overrides: dict[str, Any], said: str):
@@ -674,3 +674,11 @@ def test_how_balls_leave_their_first_meeting_is_told():
         assert told["rolling_direction"][name] == pytest.approx(degrees(atan2(uy, ux)), abs=1e-6)
         assert hypot(ux, uy) < told["rolling_speed"][name] < hypot(ux, uy) + ROLLING * G * 0.6
     assert list(told["leaving_speed"]) == ["cue", "1"]
+
+
+def test_a_single_ball_that_was_caught_did_not_come_to_rest():
+    run = shot(spot("cue", 0.0, 0.0), cue__speed=2.0, cue__angle=90.0)
+    assert run.result["scratch"]
+    assert run.ended == "rest"
+    assert run.result["rest_time"] is None
+    assert shot(spot("cue", 0.0, 0.0), cue__speed=0.5, cue__angle=0.0).result["rest_time"] > 0.5

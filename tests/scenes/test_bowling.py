@@ -5,10 +5,13 @@ from __future__ import annotations
 from math import cos, pi, radians
 from typing import Any
 
+import numpy as np
+import pygame
 import pytest
 
 import sandbox
-from tests.scenes.play import playing
+from sandbox.picture.painter import Painter
+from tests.scenes.play import playing, run_of
 
 HEAD, INCH = 18.288, 0.0254
 
@@ -101,3 +104,33 @@ def test_the_axis_turns_with_the_launch():
     vx, vy = run.state("ball", 1.0)[2:4]
     assert vy / vx == pytest.approx(radians(1.0), rel=1e-3)
     assert cos(radians(1.0)) == pytest.approx(vx / (vx * vx + vy * vy) ** 0.5)
+
+
+def test_a_fallen_pin_is_drawn_lying_and_the_number_standing_is_that_of_the_verdict():
+    """Once six pins were drawn as if standing for "leaves the 4, 6", and two after a strike."""
+    for name, left in (("bowling/straight", ["4", "6"]), ("bowling", [])):
+        run = run_of(name)
+        picture = run.scene.picture(run, (640, 360))
+        there = [pin for pin in picture.present(picture.story_end) if pin != "ball"]
+        assert [pin for pin in there if pin not in picture.falls] == left == run.result["leaves"]
+        lying = next(pin for pin in there if pin in picture.falls)
+        tall = {pin: _drawn_size(picture, pin, 20.0) for pin in (lying, *left)}
+        assert tall[lying] > 100  # px: a pin is over six radii long
+        assert all(tall[pin] < 60 for pin in left)
+
+
+def _drawn_size(picture, name, radius):
+    """The larger side in px of what is drawn for a ball in the end."""
+    surface = pygame.Surface((400, 400))
+    picture.draw_ball(Painter(surface), picture.camera, name, picture.story_end, (200.0, 200.0), radius)
+    seen = np.argwhere(pygame.surfarray.array3d(surface).max(axis=2) > 120)
+    return int(np.hypot(*np.ptp(seen, axis=0)))
+
+
+def test_a_ball_in_the_gutter_is_seen_from_near():
+    run = run_of("bowling/gutter-ball")
+    picture = run.scene.picture(run, (1280, 720))
+    picture.poster()
+    assert "ball" in picture.present(run.duration)
+    at = picture.near_camera.pixel(*run.state("ball", run.duration)[:2])
+    assert picture.lens.collidepoint(at)

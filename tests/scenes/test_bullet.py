@@ -37,7 +37,7 @@ def test_at_mach_5_the_target_is_hit_on_its_face():
 @pytest.mark.parametrize(
     ("changes", "said"),
     [
-        ({}, "21.2 m low at 914.4 m: hold 79.5 moa over"),
+        ({}, "21.2 m low at 914.4 m: hold 79.5 arcmin over"),
         ({"range__distance": 91.44}, "On the line of sight at 91.4 m"),
         ({"range__distance": 91.44, "zero__distance": 300.0}, "high at 91.4 m: hold"),
         ({"launch__speed": 20.0, "zero__distance": 0.0, "launch__angle": 80.0}, "Does not reach 914.4 m"),

@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+from math import cos, dist, radians
+from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 import sandbox
 from sandbox.engine.ledger import ledger
-from sandbox.engine.run import Run
+from sandbox.engine.model.ball import kinetic
+from sandbox.engine.paths.run import Run
+from sandbox.errors import RequestError
+from sandbox.picture.palette import palette, scene_colours
 from sandbox.scene import load
 
 
@@ -59,6 +65,29 @@ def test_as_many_balls_leave_a_cradle_as_come_in(preset: str, out: int):
     assert max(speeds[:-out]) < 0.25 * max(speeds)
 
 
+@pytest.mark.parametrize("angle", [-20.0, 20.0, 160.0])
+def test_a_cradle_that_is_pulled_at_an_angle_stays_on_its_strings(angle: float):
+    run = run_of("collisions/cradle-5", launch__speed=0.5, launch__angle=angle)
+    for ball in run.setup.balls:
+        path = run.trajectory(ball.name, every=0.01)
+        assert path[:, 2] == pytest.approx(0.0, abs=1e-6)
+    assert run.state("first", 0.0)[2:4] == pytest.approx((0.5 * cos(radians(angle)), 0.0))
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"launch__speed": 2.0}, r"'first' hangs on a string of 0\.25 m: .* at most 1\.57 m/s"),
+        ({"balls[0].y": 0.01}, r"'first' hangs on a string: y = 0\.01 m must be 0 m"),
+        ({"balls[2].vy": 0.1}, r"'3' hangs on a string: vy = 0\.1 m/s must be 0"),
+        ({"balls[0].x": -0.3}, r"swings over the string's end"),
+    ],
+)
+def test_what_strings_cannot_do_is_refused(changes: dict[str, Any], words: str):
+    with pytest.raises(RequestError, match=words):
+        run_of("collisions/cradle-5", **changes)
+
+
 def test_a_dropped_ball_leaps_off_another():
     """One impact after another: the floor turns the large one round, e V; then the small one."""
     run = run_of("collisions/ball-on-ball")
@@ -89,6 +118,27 @@ def test_balls_in_a_bowl_come_to_rest():
     run = run_of("collisions/bowl")
     assert run.ended == "rest"
     assert all(-0.3 < run.state(ball.name, run.duration)[0] < 0.3 for ball in run.setup.balls)
+
+
+def test_the_headline_says_of_which_hit_it_tells():
+    """4 % are lost in the first of many; and all energy until the balls lie still."""
+    assert run_of("collisions/bowl").scene.verdict(run_of("collisions/bowl")).endswith("4 % lost, later all of it")
+    several, one = run_of("collisions/cradle-5"), bench({"name": "first", "x": -0.2}, {"name": "second"})
+    assert several.scene.verdict(several).endswith("% lost in the first hit")
+    assert one.scene.verdict(one).endswith("lost")
+    for restitution, lost in ((1.0, "nothing"), (0.9993, "0 %"), (0.99, "1 %")):  # 0, 0.07 and 1 %
+        hit = run_of("collisions/equal-masses", contact__restitution=restitution)
+        assert hit.scene.verdict(hit).endswith(f"; {lost} lost")
+
+
+def test_a_blow_that_is_shown_beside_its_place_has_a_card():
+    run = run_of("collisions/cradle-5")
+    picture = run.scene.picture(run, (640, 360))
+    poster = picture.poster()
+    rect = dict(picture.sheet.written)["the blow after 0.25 s"]
+    ground, card = scene_colours(str(run.scene.folder / "picture.py"))["board"], palette("card")["background"]
+    corners = [poster.get_at(corner)[:3] for corner in (rect.topleft, rect.midbottom)]
+    assert all(dist(corner, card) < dist(corner, ground) for corner in corners)
 
 
 def test_no_two_balls_that_meet_is_said():
@@ -139,7 +189,7 @@ def test_the_strip_between_boxes_says_why_they_touch_or_not():
     from scenes.collisions.boxes import strip
 
     t = run.events[0].t
-    assert "apart: a strip 40.0 cm wide" in strip(run, 0.0).why
+    assert strip(run, 0.0).why == "first and second are 40.0 cm apart"
     assert "in touch along a side" in strip(run, t).why
     assert len(strip(run, t).met.points) == 2
 
@@ -152,3 +202,29 @@ def test_a_long_headline_is_as_large_as_any(preset: str):
         pass
     text, _, room = picture.heading
     assert picture.sheet.lettering.width(text, "large", bold=True) <= room
+
+
+def test_of_balls_and_boxes_a_file_has_only_those_that_it_gives(tmp_path: Path):
+    """Otherwise the default balls lie where its boxes do."""
+    file = tmp_path / "heap.toml"
+    file.write_text('scene = "collisions"\nboxes = [{ name = "a", y = 0.5 }]\n', encoding="utf-8")
+    assert [body.name for body in sandbox.load(file).build().balls] == ["a"]
+    assert len(sandbox.load("collisions/dominoes", {"balls[0].mass": 0.05}).build().balls) > 5
+
+
+def test_a_heavy_body_on_a_light_one_in_a_bowl_gains_no_energy():
+    """222 J became 4,399 J: 76.8 kg came down on 0.4 kg."""
+    light = {"name": "a", "shape": "box", "x": -0.01, "y": 0.5, "angle": 7, "width": 0.25, "height": 0.08, "mass": 0.4}
+    heavy = {"name": "b", "shape": "capsule", "x": -0.09, "y": 0.9, "angle": -162, "width": 0.14, "height": 0.15}
+    bowl = {"shape": "bowl", "radius": 0.35, "restitution": 0.55, "friction": 0.84}
+    bounces = {"contact__restitution": 0.33, "contact__friction": 0.57, "launch__ball": ""}
+    floor = {f"floor__{key}": value for key, value in bowl.items()}
+    run = run_of(balls=[], boxes=[light, {**heavy, "mass": 76.8}], gravity=9.81, duration=1.0, **bounces, **floor)
+    moving = [energy_at(run, t, 0.0) for t in np.linspace(0.0, run.duration, 101)]
+    whole = [energy_at(run, t, 9.81) for t in np.linspace(0.0, run.duration, 101)]
+    assert max(whole) <= whole[0] + 1e-3 * max(moving)
+
+
+def energy_at(run: Run, t: float, gravity: float) -> float:
+    states = [(ball, run.state(ball.name, t)) for ball in run.setup.balls]
+    return sum(kinetic(ball, state) + ball.mass * gravity * state[1] for ball, state in states)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import sandbox
-from sandbox.engine.acting import Turned
+from sandbox.engine.motion.forces_on_ball import Turned
 from sandbox.physics.spheroid import DragByAngle
 from tests.scenes.play import playing
 

@@ -15,8 +15,8 @@ from scipy.integrate import solve_ivp
 
 import sandbox
 from sandbox.engine import simulate
-from sandbox.engine.accuracy import resolve
-from sandbox.engine.run import Run
+from sandbox.engine.model.accuracy import resolve
+from sandbox.engine.paths.run import Run
 from sandbox.lab.validate import PUBLISHED
 from sandbox.physics import coefficients
 from sandbox.physics.club import Head, strike
@@ -482,3 +482,19 @@ def test_the_green_reaches_half_its_length_to_either_side_of_the_pin():
     assert (min(green.a[0] for green in greens), max(green.b[0] for green in greens)) == (135.0, 165.0)
     kinds = [kind_at(scene.parameters.ground, scene.parameters.pin, x) for x in (134.999, 135.001, 164.999, 165.001)]
     assert kinds == ["fairway", "green", "green", "fairway"]
+
+
+def test_a_later_strip_lies_on_an_earlier_one_and_the_green_on_all():
+    strips = [
+        {"kind": "rough", "start": 100.0, "end": 300.0},
+        {"kind": "bunker", "start": 150.0, "end": 180.0},
+        {"kind": "water", "start": 180.0, "end": 250.0},
+    ]
+    course = sandbox.load(
+        "golf", {"ground.strips": strips, "pin.distance": 245.0, "ground.green.length": 20.0}
+    ).parameters
+    kinds = {
+        x: kind_at(course.ground, course.pin, x) for x in (99.0, 101.0, 149.0, 151.0, 179.9, 180.1, 234.0, 236.0, 254.0)
+    }
+    assert list(kinds.values()) == ["fairway", "rough", "rough", "bunker", "bunker", "water", "water", "green", "green"]
+    assert kind_at(course.ground, course.pin, 256.0) == "rough"

@@ -30,6 +30,15 @@ def test_a_wrong_number_would_be_seen():
     assert sum(row.holds for row in rows) < 0.5 * len(rows)
 
 
+def test_a_result_that_a_changed_scene_lacks_does_not_hold():
+    """On a dry lane no third pin is struck: the case says so, in place of an IndexError."""
+    rows = validate("bowling", {"dry": 0.15})
+    lacking = [row for row in rows if row.computed is None]
+    assert [row.result for row in lacking] == ["met.3"]
+    assert not lacking[0].holds
+    assert "none" in "\n".join(as_text(lacking))
+
+
 def test_another_model_takes_the_place_of_the_one_in_a_case():
     """A case with a constant coefficient, too, is computed with the model that is asked for."""
     rows = validate("golf", {"ball.drag.model": "usga", "ball.lift.model": "usga"})

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from math import atan2, degrees
+
 import pytest
 
+import sandbox
+from sandbox.picture.places.things import Post
 from tests.scenes.play import playing
 
 fly = playing("rocket")
@@ -38,3 +42,11 @@ def test_without_weight_a_thrust_that_starts_from_rest_is_not_stiff(integrator: 
 def test_a_grenade_ends_itself():
     assert fly("rocket/grenade").result["flight_time"] == 4.5
     assert "away after 4.5 s" in fly("rocket/grenade").scene.verdict(fly("rocket/grenade"))
+
+
+@pytest.mark.parametrize("angle", [30.0, 75.0, 90.0])
+def test_the_rail_is_drawn_as_it_points(angle: float):
+    run = sandbox.simulate(sandbox.load("rocket", {"launch.angle": angle, "launch.speed": 0.0}))
+    (rail,) = (thing for thing in run.scene.picture(run, (320, 180)).place.things if isinstance(thing, Post))
+    (left, low, _), (right, high, _) = rail.points
+    assert degrees(atan2(high - low, right - left)) == pytest.approx(angle)

@@ -6,7 +6,7 @@ from math import cos, radians, sin, tan
 
 import pytest
 
-from sandbox.engine.run import Run
+from sandbox.engine.paths.run import Run
 from tests.scenes.play import playing
 
 VACUUM = {"air.density": 0.0, "wall.present": False}

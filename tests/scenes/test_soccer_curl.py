@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from sandbox.sport.amounts import roughly
 from tests.scenes.play import playing
 
 ALONE = {"wall.present": False, "keeper.present": False}
@@ -106,6 +107,13 @@ def test_a_ball_blown_back_from_the_line_is_no_goal():
         if 22.0 < furthest < 24.0 - 0.12:
             outcomes[bool(furthest > 22.17)].add(run.result["goal"])
     assert outcomes == {True: {True}, False: {False}}
+
+
+def test_the_headline_and_the_card_agree_on_how_wide():
+    run = kick(launch__angle=-25, **ALONE)
+    outside = -run.result["inside_post"]
+    assert run.scene.verdict(run) == f"Wide by {roughly(outside)}"
+    assert dict(run.scene.rows(run))["nearer post"].startswith(f"{outside:.1f}")
 
 
 def test_a_keeper_hardly_moves_when_the_ball_meets_him():

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from math import pi, sin
+from typing import Any
+
 import pytest
 
 import sandbox
@@ -16,10 +19,34 @@ def test_without_air_the_distance_is_that_of_the_parabola(angle: float):
     assert result["distance"] == pytest.approx(result["vacuum_distance"], rel=1e-9)
 
 
-def test_the_best_angle_is_the_best():
-    best = throw(air__density=0.0)["best_angle"]
-    farthest = throw(air__density=0.0, launch__angle=best)["distance"]
-    assert all(throw(air__density=0.0, launch__angle=best + off)["distance"] < farthest for off in (-0.5, 0.5))
+def test_a_throw_from_the_ground_goes_as_far_as_the_first_formula_of_a_lesson():
+    """R = v^2 sin(2 angle) / g."""
+    result = throw(air__density=0.0, release__height=0.0, release__place=0.0, launch__speed=20.0, launch__angle=30.0)
+    gravity = sandbox.load("throws").parameters.gravity
+    assert result["distance"] == pytest.approx(20.0**2 * sin(pi / 3.0) / gravity, rel=1e-9)
+    assert result["best_angle"] == pytest.approx(45.0)
+
+
+@pytest.mark.parametrize(
+    "how",
+    [
+        {"air__density": 0.0},
+        {},
+        {"ball__mass": 0.02},
+        {"ball__mass": 0.02, "launch__speed": 40.0},  # flat: 26 deg, where the parabola has 45
+        {"ball__mass": 0.02, "air__wind": [20.0, 0.0]},  # steep, into the tailwind
+        {"launch__speed": 0.5},  # nearly level, from above the ground
+    ],
+    ids=str,
+)
+def test_the_best_angle_is_the_best(how: dict[str, Any]):
+    best = throw(**how)["best_angle"]
+    farthest = throw(**how, launch__angle=best)["distance"]
+    assert all(throw(**how, launch__angle=best + off)["distance"] < farthest for off in (-0.5, 0.5))
+
+
+def test_without_gravity_no_angle_is_best():
+    assert throw(gravity=0.0)["best_angle"] is None
 
 
 def test_air_costs_a_shot_little():
@@ -35,3 +62,9 @@ def test_the_headline_says_the_distance_as_the_card_does_and_where_the_mark_is(a
     distance = dict(run.scene.rows(run))["distance"]
     assert distance == f"{run.result['distance']:.2f} m"
     assert run.scene.verdict(run) == f"{distance} {said}".replace(" ,", ",")
+
+
+def test_a_throw_that_equals_the_mark_does_not_beat_it():
+    distance = throw()["distance"]
+    assert not throw(record=distance)["record_beaten"]
+    assert throw(record=distance - 1e-6)["record_beaten"]

@@ -7,8 +7,9 @@ from math import asinh, hypot
 import pytest
 
 from sandbox.engine import simulate
-from sandbox.engine.accuracy import resolve
-from sandbox.engine.setup import Ball, Setup
+from sandbox.engine.model.accuracy import resolve
+from sandbox.engine.model.ball import Ball
+from sandbox.engine.model.setup import Setup
 from sandbox.physics.forces import Gravity
 from sandbox.sport.readings import travelled
 

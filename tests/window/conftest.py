@@ -47,7 +47,7 @@ class Player:
         while time.monotonic() < end:
             self.game.settle()
             self.frames(1)
-            if not (self.view.busy or self.game.shooting or self.game.jobs):
+            if not (self.view.busy or self.game.watching.awaited or self.game.jobs.waiting):
                 break
             time.sleep(0.001)
         self.frames(1)

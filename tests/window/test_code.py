@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import json
+import time
 
 import pygame
 import pytest
 
-from sandbox.errors import RequestError
+from sandbox.errors import RequestError, RunError
 from sandbox.new import new_scene
 from sandbox.window import replay
 from sandbox.window.app import play
@@ -36,7 +37,7 @@ class TestSaving:
         before = own.game.shot.run.result
         edit(own, "scene.py", "fan.push))", "10 * fan.push))")
         assert own.game.shot.run.result["apex"] > before["apex"] + 1
-        assert own.game.before_save.run.result == before
+        assert own.game.path.before_save.run.result == before
 
     def test_the_picture_changes_with_picture_py(self, own):
         kind = type(own.view.stage.picture)
@@ -61,6 +62,82 @@ class TestSaving:
         assert own.game.session.scene.module is not before
         edit(own, name, "\nfrom ", "\nimport (\nfrom ")
         assert [bad for _, bad in own.game.notices] == [True]
+
+
+LOOP = "while True:\n    pass\n"
+IN_BUILD = "\n\ndef build(parameters):\n    while True:\n        pass\n"
+
+
+class TestCodeThatNeverEnds:
+    """At the level of a module, in ``build`` and in ``verdict``; the window goes on."""
+
+    @pytest.fixture
+    def own(self, player, tmp_path):
+        new_scene(tmp_path / "own")
+        player = player(str(tmp_path / "own"))
+        player.game.workers.patience = 0.001
+        return player
+
+    @staticmethod
+    def frames_until(player, done):
+        end = time.monotonic() + 30.0
+        while not done():
+            started = time.monotonic()
+            player.frames(1, dt=0.11)
+            assert time.monotonic() - started < 5.0
+            assert time.monotonic() < end
+            time.sleep(0.005)
+
+    @pytest.mark.parametrize(("name", "code"), [("scene.py", LOOP), ("scene.py", IN_BUILD), ("picture.py", LOOP)])
+    def test_saved_it_is_given_up_and_mended_it_is_played_again(self, own, name, code, monkeypatch):
+        monkeypatch.setattr("sandbox.window.opening.LOADING", 1.0)
+        file, game = own.game.session.base.folder / name, own.game
+        good, before = file.read_text("utf-8"), game.session.scene.module
+        file.write_text(good + code, "utf-8")
+        self.frames_until(own, lambda: game.messages.unreadable is not None)
+        assert "given up after 1 s: does its code ever end?" in game.notices[0][0]
+        assert game.session.scene.module is before
+        assert game.shot is not None
+        monkeypatch.setattr("sandbox.window.opening.LOADING", 30.0)
+        file.write_text(good, "utf-8")
+        self.frames_until(own, lambda: game.messages.unreadable is None and game.opening.loading is None)
+        own.key(pygame.K_UP)
+        own.settle()
+        assert game.failure is None
+
+    @pytest.mark.parametrize("code", [LOOP, IN_BUILD])
+    def test_opened_it_can_be_stopped_and_the_scene_so_far_stays(self, own, code, tmp_path):
+        new_scene(tmp_path / "endless")
+        with (tmp_path / "endless" / "scene.py").open("a") as file:
+            file.write(code)
+        game, title = own.game, own.game.session.title
+        game.opening.open(str(tmp_path / "endless"))
+        self.frames_until(own, lambda: any("Esc stops it" in text for text, _ in game.notices))
+        own.key(pygame.K_ESCAPE)
+        assert game.opening.loading is None
+        assert "stopped" in game.notices[-1][0]
+        assert game.session.title == title
+        own.key(pygame.K_UP)
+        game.workers.patience = 60.0
+        own.settle()
+        assert game.failure is None
+
+    def test_a_verdict_runs_in_the_worker_first(self, own):
+        game = own.game
+        file = game.session.base.folder / "scene.py"
+        file.write_text(file.read_text("utf-8") + "\n\ndef verdict(run, parameters):\n    while True:\n        pass\n")
+        self.frames_until(own, lambda: game.path.runs.takes > 0.3 and game.opening.loading is None)
+        own.frames(3)
+        assert game.path.runs.work is not None
+        game.path.runs.give_up(None)
+
+    def test_a_window_is_not_opened_on_it(self, tmp_path, monkeypatch):
+        monkeypatch.setattr("sandbox.window.app.LOADING", 1.0)
+        new_scene(tmp_path / "endless")
+        with (tmp_path / "endless" / "scene.py").open("a") as file:
+            file.write(LOOP)
+        with pytest.raises(RunError, match=r"given up after 1 s: does its code ever end\?"):
+            play(str(tmp_path / "endless"))
 
 
 class TestReplays:
@@ -92,14 +169,15 @@ class TestReplays:
 
     def test_the_player_may_name_the_scene(self, recorded):
         path, folder = recorded
-        session, shot = replay.read(path, str(folder))
-        assert session.base.folder == folder
+        shot = replay.read(path, str(folder))
+        assert shot.scene.folder == folder
+        assert shot.changes.source == str(folder)
         assert shot.recorded
         assert (folder / "ran").exists()
 
     def test_the_scene_that_is_played_may_replay_its_own(self, recorded):
         path, folder = recorded
-        _, shot = replay.read(path, running=folder)
+        shot = replay.read(path, running=folder)
         assert shot.scene.folder == folder
 
     def test_scene_is_for_replays(self):
@@ -114,7 +192,7 @@ class TestWhatIsOpen:
         player = player(str(file))
         assert player.game.session.title == "mine.toml"
         assert "mine.toml" in pygame.display.get_caption()[0]
-        player.game.open("soccer")
+        player.game.opening.open("soccer")
         player.settle()
         assert "soccer" in pygame.display.get_caption()[0]
         player.button("menu")
@@ -139,8 +217,8 @@ class TestWhatIsOpen:
         for _ in ("playing", "over"):
             player.click((500, 300))
             assert player.game.shot is shot
-            assert player.game.playback is not None
-            player.game.playback.seek(1e9)
+            assert player.game.watching.playback is not None
+            player.game.watching.playback.seek(1e9)
 
 
 def test_without_a_sound_device_nothing_claims_sound(player, monkeypatch, capfd):

@@ -36,6 +36,35 @@ def test_what_is_looked_for_is_a_result_and_may_be_varied(source):
                 assert low < high
 
 
+@pytest.mark.parametrize("source", SCENES)
+def test_after_a_weak_shot_the_scenes_own_is_still_looked_for(source):
+    session = Session(source)
+    controls, own = session.controls, session.parameters
+    session.change({controls.speed: 0.2 * own[controls.speed].value})
+    for goal in (goal for question in questions(session, upright=True) for goal in question.goals):
+        for key in goal.vary.keys() & {controls.speed}:
+            low, high = goal.vary[key]
+            assert low < own[key].value < high
+
+
+def test_it_is_said_in_which_ranges_shots_are_looked_for(player):
+    player = player("basketball")
+    player.game.workers.helper = Slow()
+    player.key(pygame.K_SLASH)
+    player.frames()
+    ((text, bad),) = [notice for notice in player.game.notices if "looking" in notice[0]]
+    assert "speed 0.37 to 14.8 m/s, angle 2 to 85 deg" in text
+    assert not bad
+
+
+def test_a_map_on_which_nothing_scores_says_where_to_look(player, written):
+    player = player("basketball")
+    player.game.aiming.change({"launch.speed": 1.0})
+    player.key(pygame.K_m)
+    player.settle()
+    assert any("/ looks farther" in text for text, _ in written)
+
+
 def test_shots_into_the_ring_get_there_and_the_most_forgiving_is_first(monkeypatch):
     monkeypatch.setattr("sandbox.window.find.REFINED", 1)
     monkeypatch.setattr(sys.modules["sandbox.lab.aim.regions"], "SCAN_EACH", 21)
@@ -55,14 +84,14 @@ class TestInBilliards:
         monkeypatch.setattr(sys.modules["sandbox.lab.aim.shots"], "SCAN", 17)
         monkeypatch.setattr("sandbox.window.score_map.COARSE", (3, 3))
         player = player("billiards/cut", (900, 560))
-        player.game.helper = Here()
+        player.game.workers.helper = Here()
         player.key(pygame.K_SLASH)
         return player
 
     def test_a_click_on_a_ball_finds_how_to_pot_it_and_a_click_on_a_path_aims_so(self, asking):
         game, view = asking.game, asking.view
         angle = game.session.value("cue.angle")
-        game.change({"cue.angle": angle + 30.0})
+        game.aiming.change({"cue.angle": angle + 30.0})
         asking.settle()
         assert not game.shot.scored
         asking.key(pygame.K_ESCAPE)
@@ -88,11 +117,11 @@ class TestInBilliards:
         asking.key(pygame.K_DOWN)
         assert over.chosen.action == "left head corner pocket"
         asking.key(pygame.K_UP)
-        asking.game.helper = Slow()
+        asking.game.workers.helper = Slow()
         asking.key(pygame.K_RETURN)
         assert "looking for shots at ball 1" in asking.game.notices[0][0]
         asking.key(pygame.K_ESCAPE)
-        assert not asking.game.jobs
+        assert not asking.game.jobs.waiting
         asking.settle()
         assert asking.view.over is None
 
@@ -100,4 +129,4 @@ class TestInBilliards:
 def test_a_scene_that_does_not_score_says_so(player):
     player = player("bullet", (640, 400))
     player.key(pygame.K_SLASH)
-    assert "says of no shot that it scores" in player.game.notices[-1][0]
+    assert "defines no scoring" in player.game.notices[-1][0]

@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 import json
+from concurrent.futures import Future
+from pathlib import Path
 
 import pygame
 import pytest
 
 from sandbox.new import new_scene
 from sandbox.scene import listings
-from sandbox.window.memory import HINTS, MOST, Memory
+from sandbox.window.app import App
+from sandbox.window.game import Game
+from sandbox.window.memory import HINTS, MOST, Memory, usual_place
 from sandbox.window.menu import THUMBNAIL, thumbnail
+from sandbox.window.session import Session
 
+from .test_play import Unanswered
 from .test_see import said
 
 
@@ -34,6 +40,15 @@ def test_hints_go_when_they_are_followed_and_do_not_come_back(remembering):
     remembering.key(pygame.K_ESCAPE)
     assert set(said(remembering)) & set(HINTS.values()) == {HINTS["drag"]}
     assert Memory(game.memory.file).hints.keys() == {"drag"}
+
+
+def test_the_dark_start_says_that_it_loads(written):
+    pygame.display.init()
+    screen = pygame.display.set_mode((640, 400))
+    app = App(Game(Session("golf"), Unanswered()), screen)
+    app.view.draw()
+    assert "loading golf ..." in [text for text, _ in written]
+    app.close()
 
 
 def test_recent_files_are_remembered_the_last_first(tmp_path):
@@ -65,6 +80,12 @@ def test_the_menu_has_thumbnails_descriptions_and_what_is_in_the_folder(remember
     assert {"recent", "in this folder", "golf"} <= menu.groups.keys()
     assert [row.action for row in menu.groups["in this folder"]] == ["./ours", "./ours/still"]
     remembering.settle()
+    sports = [listing.name for listing in listings() if "/" not in listing.name]
+    assert [what.action for _, what in menu.places if not isinstance(what, str)] == sports[: menu.seen]  # tiles
+    assert menu.across > 2
+    assert menu.chosen.action == "golf"
+    remembering.click(next(rect.center for rect, what in menu.places if what == "golf"))
+    remembering.settle()
     assert menu.pictures
     assert all(len(picture.result()) == 3 * THUMBNAIL[0] * THUMBNAIL[1] for picture in menu.pictures.values())
     about = next(listing.about for listing in listings() if listing.name == "golf")
@@ -74,7 +95,28 @@ def test_the_menu_has_thumbnails_descriptions_and_what_is_in_the_folder(remember
     assert menu.pictures["./ours"].result() == b""  # no code runs only because it lies here
 
 
+def test_thumbnails_that_nobody_waits_for_are_not_drawn(remembering):
+    waiting = [Future(), Future()]
+    waiting[1].set_result(b"")
+    remembering.view.thumbnails.update(zip(("golf", "soccer"), waiting, strict=True))
+    remembering.frames(1)
+    assert waiting[0].cancelled()
+    assert list(remembering.view.thumbnails) == ["soccer"]
+
+
 def test_a_scene_that_cannot_be_drawn_has_no_thumbnail(tmp_path):
     new_scene(tmp_path / "ours")
     (tmp_path / "ours" / "picture.py").write_text("raise ValueError", "utf-8")
     assert thumbnail(str(tmp_path / "ours")) == b""
+
+
+@pytest.mark.parametrize(
+    "known", [{"XDG_STATE_HOME": "/state", "LOCALAPPDATA": "/data"}, {"LOCALAPPDATA": "/data"}, {}]
+)
+def test_what_is_remembered_is_where_programs_keep_such_things(monkeypatch, known):
+    for name in ("XDG_STATE_HOME", "LOCALAPPDATA"):
+        monkeypatch.delenv(name, raising=False)
+    for name, place in known.items():
+        monkeypatch.setenv(name, place)
+    kept = Path(next(iter(known.values()), Path.home() / ".local" / "state"))
+    assert usual_place() == kept / "sports-sandbox" / "window.json"

@@ -13,13 +13,14 @@ from typing import Any
 import pytest
 
 import sandbox.window
-from sandbox.engine.accuracy import LEVELS
+from sandbox.engine.model.accuracy import LEVELS
 from sandbox.new import new_scene
 from sandbox.window.aim import nudged
-from sandbox.window.background import Latest
-from sandbox.window.game import LATE, LONG, Game
+from sandbox.window.background import LatestJob
+from sandbox.window.game import Game
 from sandbox.window.handles import grips
 from sandbox.window.history import DEPTH
+from sandbox.window.path import LATE, LONG
 from sandbox.window.session import Session
 from sandbox.window.shots import PATHS
 from sandbox.window.worker import computed
@@ -95,36 +96,36 @@ def test_it_draws_nothing():
 
 
 def test_a_game_aims_is_watched_pauses_and_aims_again(game):
-    assert game.playback is None
-    game.shoot()
-    assert game.playback.playing
-    game.playback.toggle()
-    assert not game.playback.playing
-    game.aim_again()
-    assert game.playback is None
-    assert [shot.number for shot in game.shots] == [1]
+    assert game.watching.playback is None
+    game.aiming.shoot()
+    assert game.watching.playback.playing
+    game.watching.playback.toggle()
+    assert not game.watching.playback.playing
+    game.aiming.again()
+    assert game.watching.playback is None
+    assert [shot.number for shot in game.shots.paths] == [1]
 
 
 def test_nudges_leave_a_shot_that_is_watched_alone(game):
-    game.shoot()
+    game.aiming.shoot()
     for end in (False, True):
         if end:
-            game.playback.seek(1e9)
-        assert not game.nudge(nudged(game.session, push=1))
-        assert game.playback is not None
+            game.watching.playback.seek(1e9)
+        assert not game.aiming.nudge(nudged(game.session, push=1))
+        assert game.watching.playback is not None
         assert "Enter" in game.notices[-1][0]
     assert game.session.changes.values == {}
 
 
 def test_only_the_last_shots_are_kept(game):
     for _ in range(PATHS + 5):
-        game.shoot()
-        game.aim_again()
+        game.aiming.shoot()
+        game.aiming.again()
         game.settle()
-        game.pin(game.table.rows[0]) if len(game.table.rows) == 1 else None
-    assert [shot.number for shot in game.shots] == [1, *range(6, PATHS + 6)]
-    assert [row.number for row in game.table.rows] == list(range(1, PATHS + 6))
-    game.watch_other(-1)
+        game.watching.pin(game.shots.rows[0]) if len(game.shots.rows) == 1 else None
+    assert [shot.number for shot in game.shots.paths] == [1, *range(6, PATHS + 6)]
+    assert [row.number for row in game.shots.rows] == list(range(1, PATHS + 6))
+    game.watching.watch_other(-1)
     assert game.shot.number == PATHS + 5
 
 
@@ -133,7 +134,7 @@ class TestAFailure:
         game = own(RAISES)
         game.settle()
         assert game.failure is None
-        game.change({"launch.speed": 60.0})
+        game.aiming.change({"launch.speed": 60.0})
         game.settle()
         game.advance(100.0)
         ((text, bad),) = [notice for notice in game.notices if "ZeroDivisionError" in notice[0]]
@@ -142,16 +143,16 @@ class TestAFailure:
             "    return 1 / (velocity[0] < 9), 0.0"
         )  # fmt: skip
         assert f"scene.py, line {line + 1})" in text
-        game.shoot()
-        assert game.playback is None
-        game.change({"launch.speed": 8.0})
+        game.aiming.shoot()
+        assert game.watching.playback is None
+        game.aiming.change({"launch.speed": 8.0})
         game.settle()
         assert game.failure is None
         assert not game.notices
 
     def test_invalid_values_are_said_and_the_last_good_ones_stay(self, game):
         before = game.session.scene
-        assert not game.change({"launch.speed": -3.0})
+        assert not game.aiming.change({"launch.speed": -3.0})
         assert game.notices == [("the window's launch.speed = -3.0: must be from 0 to 340 m/s", True)]
         assert game.session.scene is before
 
@@ -159,34 +160,34 @@ class TestAFailure:
 class TestARunThatNeverEnds:
     @pytest.fixture
     def stuck(self, game, monkeypatch) -> Game:
-        game.worker.never = True
-        game.change({"launch.speed": 2.0})
+        game.workers.path.never = True
+        game.aiming.change({"launch.speed": 2.0})
         game.advance(0.0)
-        assert game.runs.work is not None
-        game.runs.began -= LONG
+        assert game.path.runs.work is not None
+        game.path.runs.began -= LONG
         game.advance(0.0)
         return game
 
     def test_time_goes_on_and_it_may_be_stopped(self, stuck):
         assert "Esc stops it" in stuck.notices[-1][0]
         assert stuck.stop()
-        assert stuck.worker.stopped == 1
-        assert stuck.settled
+        assert stuck.workers.path.stopped == 1
+        assert stuck.path.settled
         assert stuck.failure is not None
-        stuck.shoot()
-        assert stuck.playback is None
+        stuck.aiming.shoot()
+        assert stuck.watching.playback is None
 
     def test_another_aim_stops_it_by_itself(self, stuck):
-        stuck.change({"launch.speed": 1.5})
+        stuck.aiming.change({"launch.speed": 1.5})
         stuck.advance(0.0)
-        assert stuck.worker.stopped == 1
+        assert stuck.workers.path.stopped == 1
         stuck.settle()
         assert stuck.shot.scene is stuck.session.scene
 
     def test_the_next_is_left_twice_as_long_until_one_ends(self):
         """Or a new process, which has to import all again, would be stopped before its first run ends."""
         abandoned: list[Future] = []
-        latest: Latest[None] = Latest(abandoned.append, hung=2.0)
+        latest: LatestJob[None] = LatestJob(abandoned.append, hung=2.0)
         for key, patience in ((1, 2.0), (2, 4.0), (3, 8.0), (5, 2.0)):
             latest.follow(key, lambda key: Future())
             before = len(abandoned)
@@ -199,15 +200,15 @@ class TestARunThatNeverEnds:
                 assert latest.take()
 
     def test_the_path_from_before_is_not_shown_as_if_it_were_the_one_that_takes_long(self, game):
-        game.worker.never = True
-        game.change({"launch.speed": 2.0})
+        game.workers.path.never = True
+        game.aiming.change({"launch.speed": 2.0})
         game.advance(0.0)
         assert not game.late
-        seen, game.runs.began = game.seen, game.runs.began - LATE
+        seen, game.path.runs.began = game.seen, game.path.runs.began - LATE
         game.advance(0.0)
         assert game.late
         assert game.seen != seen
-        game.worker.abandon(None)
+        game.workers.path.abandon(None)
         game.advance(0.0)
         assert not game.late
 
@@ -217,11 +218,11 @@ class TestARunThatNeverEnds:
     def test_a_real_one_ends_with_its_process(self, own, worker):
         game = own(STUCK, worker)
         game.settle()
-        game.change({"launch.speed": 60.0})
+        game.aiming.change({"launch.speed": 60.0})
         game.advance(0.0)
-        game.runs.began -= LONG
+        game.path.runs.began -= LONG
         assert game.stop()
-        game.change({"launch.speed": 8.0})
+        game.aiming.change({"launch.speed": 8.0})
         game.settle()
         assert game.failure is None
         assert game.shot.scene is game.session.scene
@@ -237,10 +238,10 @@ def test_a_setup_is_built_once_where_it_is_run(own, worker, force, times):
     (fan,) = [grip for grip in grips(game.session) if "fan.place" in grip.keys]
     for count, change in enumerate(
         (
-            lambda: game.change({"launch.speed": 9.0}),
-            lambda: game.drag_to((fan.place[0] + 1.0, 0.0), 0.1, fan),
-            game.undo,
-            lambda: game.reset(),
+            lambda: game.aiming.change({"launch.speed": 9.0}),
+            lambda: game.aiming.set(fan.changes((fan.place[0] + 1.0, 0.0), 0.1)),
+            game.aiming.undo,
+            lambda: game.aiming.reset(),
         ),
         1,
     ):
@@ -250,108 +251,108 @@ def test_a_setup_is_built_once_where_it_is_run(own, worker, force, times):
         game.settle()
         assert game.shot.scene is game.session.scene
         assert builds.read_text("utf-8") == "x" * times * count
-    game.shoot()
+    game.aiming.shoot()
     assert len(builds.read_text("utf-8")) == 4 * times
 
 
 def test_what_the_scene_cannot_be_built_from_is_refused_and_no_step_of_undo(worker):
     game = Game(Session("billiards/cut"), worker)
     game.settle()
-    game.change({"cue.angle": 12.0})
+    game.aiming.change({"cue.angle": 12.0})
     game.settle()
     shot = game.shot
     for values in ({"cue.follow": 0.9}, {"balls[1].x": game.session.value("balls[0].x"), "balls[1].y": 0.0}):
-        game.change(values)
+        game.aiming.change(values)
         game.settle()
         assert game.notices[-1][1]
         assert game.failure is None
         assert game.shot is shot
         assert game.session.changes.values == {"cue.angle": 12.0}
-    game.undo()
+    game.aiming.undo()
     assert game.session.changes.values == {}
 
 
 class TestUndo:
     def test_a_reset_can_be_undone(self, game):
-        game.change({"launch.speed": 2.0})
-        game.change({"gravity": 5.0})
-        game.reset()
+        game.aiming.change({"launch.speed": 2.0})
+        game.aiming.change({"gravity": 5.0})
+        game.aiming.reset()
         assert game.session.changes.values == {}
-        game.undo()
+        game.aiming.undo()
         assert game.session.changes.values == {"launch.speed": 2.0, "gravity": 5.0}
-        game.undo()
-        game.undo()
+        game.aiming.undo()
+        game.aiming.undo()
         assert game.session.changes.values == {}
-        game.undo()
+        game.aiming.undo()
         assert game.notices[-1][0] == "nothing to undo"
 
     def test_what_is_dragged_is_undone_at_once(self, game):
         for speed in (2.0, 2.1, 2.2):
-            game.change({"launch.speed": speed})
-        game.undo()
+            game.aiming.change({"launch.speed": speed})
+        game.aiming.undo()
         assert game.session.changes.values == {}
 
     def test_redo_does_again_what_was_undone_until_something_else_is_done(self, game):
         for key in ("gravity", "pin.distance"):
-            game.change({key: 3.0})
+            game.aiming.change({key: 3.0})
         for _ in range(3):
-            game.undo()
-        game.redo()
+            game.aiming.undo()
+        game.aiming.redo()
         assert game.session.changes.values == {"gravity": 3.0}
-        game.change({"launch.speed": 2.0})
-        game.redo()
+        game.aiming.change({"launch.speed": 2.0})
+        game.aiming.redo()
         assert game.notices[-1][0] == "nothing to redo"
         assert game.session.changes.values == {"gravity": 3.0, "launch.speed": 2.0}
 
     def test_a_shot_and_another_scene_are_undone_and_done_again(self, game):
-        game.change({"launch.speed": 2.0})
+        game.aiming.change({"launch.speed": 2.0})
         game.settle()
-        game.shoot()
-        game.undo()
-        assert game.playback is None
+        game.aiming.shoot()
+        game.aiming.undo()
+        assert game.watching.playback is None
         assert game.session.value("launch.speed") == 2.0
-        game.redo()
-        assert game.shot is game.shots[0]
-        game.open("golf/moon")
-        game.undo()
+        game.aiming.redo()
+        assert game.shot is game.shots.paths[0]
+        game.opening.open("golf/moon")
+        game.aiming.undo()
         assert (game.session.title, game.session.value("launch.speed")) == ("golf/putt", 2.0)
-        game.redo()
+        game.aiming.redo()
         assert game.session.title == "golf/moon"
 
     def test_the_last_200_are_kept(self, game):
         for number in range(DEPTH + 50):
-            game.change({"gravity": 1.0 + 0.01 * (number // 2), "launch.angle": 0.01 * number})
-            game.history.end()
+            game.aiming.change({"gravity": 1.0 + 0.01 * (number // 2), "launch.angle": 0.01 * number})
+            game.aiming.history.end()
         for _ in range(DEPTH + 50):
-            game.undo()
+            game.aiming.undo()
         assert game.notices[-1][0] == "nothing to undo"
         assert game.session.value("launch.angle") == pytest.approx(0.5)
 
     def test_two_pulls_are_two_changes(self, game):
         for at in ((100, 300), (50, 300)):
-            game.begin_pull((300, 300), 600, 1.0)
-            game.pull_to((200, 300))
-            game.pull_to(at)
+            game.grasp.begin_pull((300, 300), (1280, 720), 600, 1.0)
+            game.grasp.pull_to((200, 300))
+            game.grasp.pull_to(at)
             game.settle()
-            game.release()
-            game.aim_again()
+            game.grasp.release()
+            game.aiming.again()
         strong = game.session.value("launch.speed")
-        game.undo()
+        game.aiming.undo()
         assert 0 < game.session.value("launch.speed") < strong
         weak = game.session.changes
-        game.begin_pull((300, 300), 600, 1.0)
-        game.pull_to((100, 250))
-        game.give_up_pull()
+        game.grasp.begin_pull((300, 300), (1280, 720), 600, 1.0)
+        game.grasp.pull_to((100, 250))
+        game.grasp.cancel()
         assert game.session.changes == weak
-        game.undo()
+        game.aiming.undo()
         assert game.session.changes.values == {}
 
 
 def test_a_full_pull_suits_the_shot():
     for source, fastest in (("golf/putt", 10.0), ("golf", 110.0), ("billiards", 20.0)):
         game = Game(Session(source), Here())
-        game.begin_pull((300, 300), 600, 1.0)
-        game.pull_to((-600, 300))
+        game.grasp.begin_pull((300, 300), (1280, 720), 600, 1.0)
+        game.grasp.pull_to((-600, 300))
         speed, before = game.session.value(game.session.controls.speed), game.session.base_value(
             game.session.controls.speed
         )  # fmt: skip
@@ -359,19 +360,19 @@ def test_a_full_pull_suits_the_shot():
 
 
 def test_shots_are_earlier_ones_of_the_same_file_from_the_same_start(game):
-    game.shoot()
-    game.aim_again()
-    assert len(game.recent) == 1
-    game.open("golf/moon")
-    assert game.recent == []
-    assert len(game.shots) == 1
+    game.aiming.shoot()
+    game.aiming.again()
+    assert len(game.ghosts) == 1
+    game.opening.open("golf/moon")
+    assert game.ghosts == []
+    assert len(game.shots.paths) == 1
 
 
 @pytest.mark.parametrize("level", LEVELS)
 def test_it_says_what_an_accuracy_costs(game, level):
     from sandbox.window.worker import cost_and_errors
 
-    game.change({"accuracy.level": level})
+    game.aiming.change({"accuracy.level": level})
     assert " ms a run; " in cost_and_errors(game.session.scene)
 
 

@@ -47,11 +47,23 @@ def test_what_is_dragged_is_where_the_mouse_is_and_can_be_undone(player, source)
     now = next(place for each, place, *_ in view.spots if each.keys == grip.keys)
     assert now == pytest.approx((at[0] + by[0], at[1] + by[1]), abs=1.1)
     assert game.shot.scene is game.session.scene
-    assert not game.shots
+    assert not game.shots.paths
     player.release(now)
     player.settle()
     player.key(pygame.K_z, pygame.KMOD_CTRL)
     assert game.session.changes.values == {}
+
+
+def test_a_hoop_that_is_dragged_up_takes_its_board_along(player):
+    player = player("basketball")
+    value = player.game.session.value
+    before = {key: value(key) for key in ("hoop.height", "backboard.bottom", "backboard.top")}
+    drag(player, "hoop.distance", (20, -40))
+    rises = [value(key) - was for key, was in before.items()]
+    assert rises[0] > 0.2
+    assert rises == pytest.approx([rises[0]] * 3)
+    player.key(pygame.K_z, pygame.KMOD_CTRL)
+    assert {key: value(key) for key in before} == before
 
 
 def test_a_drag_snaps_by_key_and_shows_its_number(player, monkeypatch):
@@ -59,7 +71,7 @@ def test_a_drag_snaps_by_key_and_shows_its_number(player, monkeypatch):
     monkeypatch.setattr(pygame.key, "get_mods", lambda: pygame.KMOD_SHIFT)
     drag(player, "hoop.distance", (35, -22), let_go=False)
     distance, height = (player.game.session.value(f"hoop.{name}") for name in ("distance", "height"))
-    grip = player.game.grip
+    grip = player.game.grasp.grip
     step = next(spot for spot in player.view.spots if spot.grip.keys == grip.keys).step(snap=True)
     assert distance / step == pytest.approx(round(distance / step), abs=1e-6)
     assert height / step == pytest.approx(round(height / step), abs=1e-6)
@@ -155,13 +167,13 @@ def test_what_is_not_there_has_no_handle():
 
 def test_dragging_never_waits_for_a_run(player):
     player = player("golf")
-    player.game.worker = Here()
-    player.game.worker.never = True
-    player.game.patience = 0.0
+    player.game.workers.path = Here()
+    player.game.workers.path.never = True
+    player.game.workers.patience = 0.0
     grip = next(grip for grip, *_ in player.view.spots if "pin.distance" in grip.keys)
-    player.game.begin_drag(grip)
-    player.game.drag_to((200.0, 0.0), 1.0)
+    player.game.grasp.begin_drag(grip)
+    player.game.grasp.drag_to((200.0, 0.0), 1.0)
     player.frames(2)
     assert player.game.session.value("pin.distance") == 200.0
-    assert not player.game.settled
-    player.game.worker.abandon(None)
+    assert not player.game.path.settled
+    player.game.workers.path.abandon(None)

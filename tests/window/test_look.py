@@ -26,8 +26,8 @@ def test_watching_with_an_earlier_shot(player, golden):
         player.settle()
         player.pull(pull)
     player.move((400, 100))
-    player.game.playback.seek(3.0)
-    player.game.playback.playing = False
+    player.game.watching.playback.seek(3.0)
+    player.game.watching.playback.playing = False
     player.settle()
     player.view.changed = True
     player.frames()
@@ -54,14 +54,14 @@ def test_a_hoop_that_is_dragged(player, golden):
 def test_the_table_of_shots_and_what_is_pinned(player, golden):
     player = player("basketball/free-throw", SIZE)
     for speed in (7.3, 7.5, 7.7):
-        player.game.change({"launch.speed": speed})
+        player.game.aiming.change({"launch.speed": speed})
         player.settle()
-        player.game.shoot()
-        player.game.aim_again()
-    player.game.pin(player.game.table.rows[1])
+        player.game.aiming.shoot()
+        player.game.aiming.again()
+    player.game.watching.pin(player.game.shots.rows[1])
     player.key(pygame.K_q)
     player.view.over.sort("launch.speed")
-    player.view.over.chosen = player.game.table.rows[1]
+    player.view.over.chosen = player.game.shots.rows[1]
     player.settle()
     player.view.draw()
     golden.check("window-shots", player.screen)
@@ -69,7 +69,7 @@ def test_the_table_of_shots_and_what_is_pinned(player, golden):
 
 def test_where_the_tip_hits_and_what_can_be_aimed_at(player, golden):
     player = player("billiards/cut", SIZE)
-    player.game.change({"cue.english": -0.3, "cue.follow": 0.2})
+    player.game.aiming.change({"cue.english": -0.3, "cue.follow": 0.2})
     player.settle()
     player.key(pygame.K_SLASH)
     player.settle()
@@ -116,7 +116,7 @@ def test_few_points_keep_to_the_line_and_to_its_corners():
 @pytest.mark.parametrize("source", ["golf", "basketball", "billiards", "soccer"])
 def test_a_shot_that_goes_nowhere_is_drawn(player, source, written):
     player = player(source, SIZE)
-    player.game.change({player.game.session.controls.speed: 0.0})
+    player.game.aiming.change({player.game.session.controls.speed: 0.0})
     player.key(pygame.K_w)
     player.key(pygame.K_o)
     assert player.game.session.value(player.game.session.controls.speed) == 0.0

@@ -16,7 +16,7 @@ def test_it_plays(player, tmp_path: Path):
     aimed = pygame.surfarray.array3d(player.screen)
     assert 45 < player.game.session.value("launch.angle") < 60
     player.release((5, 600))
-    assert len(player.game.shots) == 1
+    assert len(player.game.shots.paths) == 1
     player.frames(90)
     assert (pygame.surfarray.array3d(player.screen) != aimed).any()
 

@@ -23,7 +23,7 @@ def test_the_tip_of_the_cue_is_where_it_is_dragged_and_never_beyond_a_miscue(pla
     value = player.game.session.value
     drag(player, 0.2, -0.3)
     assert (value("cue.english"), value("cue.follow")) == pytest.approx((0.2, -0.3), abs=0.03)
-    assert not player.game.shots
+    assert not player.game.shots.paths
     drag(player, 0.9, 0.9)
     assert hypot(value("cue.english"), value("cue.follow")) == pytest.approx(0.5, abs=0.02)
     assert player.game.failure is None

@@ -55,7 +55,7 @@ def test_a_pull_aims_opposite_and_shows_the_path_before_letting_go(player):
     player = player("golf")
     before = player.game.shot
     player.pull((-150, 60), let_go=False)
-    assert player.game.playback is None
+    assert player.game.watching.playback is None
     assert player.game.shot is not before
     angle = player.game.session.value("launch.angle")
     stretch = player.view.stage.camera.stretch
@@ -66,8 +66,8 @@ def test_a_pull_aims_opposite_and_shows_the_path_before_letting_go(player):
 def test_letting_go_shoots_what_was_shown(player):
     player = player("golf")
     player.pull((-150, 60))
-    shot = player.game.shots[-1]
-    assert player.game.playback.playing
+    shot = player.game.shots.paths[-1]
+    assert player.game.watching.playback.playing
     again = sandbox.simulate(shot.scene)
     assert again.result == shot.run.result
 
@@ -76,21 +76,71 @@ def test_a_longer_pull_is_stronger_and_escape_leaves_it(player):
     player = player("golf")
     speeds = []
     before = player.game.shot.run.result
-    for length in (40, 120, 240):
+    for length in (20, 50, 90):
         player.pull((-length, 0), let_go=False)
         speeds.append(player.game.session.value("launch.speed"))
         player.key(pygame.K_ESCAPE)
         assert player.game.shot.run.result == before
     assert speeds == sorted(set(speeds))
-    assert not player.game.shots
+    assert not player.game.shots.paths
     player.release((5, 5))
-    assert not player.game.shots
+    assert not player.game.shots.paths
+
+
+@pytest.mark.parametrize("source", [listing.name for listing in listings() if "/" not in listing.name])
+class TestPullsInEveryScene:
+    """From the ball itself, opposite to the scene's own shot, as far as the window reaches."""
+
+    @pytest.fixture
+    def pull(self, source):
+        """Gives the speed of a pull by so many px."""
+        player = Player(Here(), source)
+        stage, shot, game = player.view.stage, player.game.shot, player.game
+        angle = np.radians(shot.aim[1])
+        way = np.array([-np.cos(angle), np.sin(angle) * stage.camera.stretch])
+        game.grasp.begin_pull(
+            tuple(map(round, stage.ball_at(shot))),
+            player.screen.get_size(),
+            player.view.area.height,
+            stage.camera.stretch,
+        )
+
+        def speed_of(length):
+            game.grasp.pull.vector = tuple(length * way / np.hypot(*way))
+            return game.grasp.pull.changes(game.session)[game.session.controls.speed]
+
+        game.grasp.pull.vector = tuple(way)
+        yield speed_of, game.grasp.pull.full, shot.aim[0], game.session.controls
+        player.app.close()
+
+    def test_the_scenes_own_shot_is_within_reach_and_so_are_softer_and_stronger_ones(self, pull):
+        speed_of, full, own, controls = pull
+        speeds = [speed_of(length) for length in np.arange(8.0, full + 0.5, 0.5)]
+        assert min(abs(speed / own - 1.0) for speed in speeds) < 0.01
+        assert speeds == sorted(speeds)
+        assert speeds[0] == pytest.approx(controls.softest * own, rel=0.1)
+        assert speeds[-1] == pytest.approx(min(2.0 * own, controls.strongest), rel=0.05)
+        assert speed_of(2.0 * full) == speed_of(full + 5.0)
+
+    def test_a_few_px_change_little(self, pull):
+        speed_of, full, own, _ = pull
+        speeds = [speed_of(length) / own for length in np.arange(8.0, full, 3.0)]
+        assert max(np.diff(speeds)) < 0.18
+        near = [speed_of(length) / own for length in np.arange(0.6 * full, 0.75 * full, 3.0)]
+        assert max(np.diff(near)) < 0.06
+
+
+def test_a_pull_from_rest_has_a_strength_too(player):
+    """A cradle's ball is let go from rest: its own speed is 0."""
+    player = player("collisions/cradle-5")
+    player.pull((-150, 0), let_go=False)
+    assert 0.5 < player.game.session.value("launch.speed") < 2.0
 
 
 def test_a_click_is_no_shot_and_wheel_and_keys_turn_push_and_spin(player):
     player = player("golf")
     player.click((400, 300))
-    assert not player.game.shots
+    assert not player.game.shots.paths
     value = player.game.session.value
     for key, parameter, by in (
         (pygame.K_LEFT, "launch.angle", 1),
@@ -129,6 +179,22 @@ def test_what_is_drawn_was_built_once(source, monkeypatch):
         player.app.close()
 
 
+def test_what_is_over_in_half_a_second_starts_in_slow_motion_and_says_so(player, written):
+    player = player("volleyball/spike")
+    player.key(pygame.K_SPACE)
+    player.settle()
+    assert player.game.watching.playback.rate == 1 / 4
+    assert any("slow motion, 4 times slower" in text for text, _ in written)
+    player.key(pygame.K_PLUS)
+    player.key(pygame.K_RETURN)
+    player.key(pygame.K_SPACE)
+    player.settle()
+    assert player.game.watching.playback.rate == 1 / 4
+    player.key(pygame.K_PLUS)
+    player.game.watching.watch(player.game.shot)
+    assert player.game.watching.playback.rate == 1 / 2  # the player's own choice
+
+
 class TestWatching:
     @pytest.fixture
     def player(self, player):
@@ -137,7 +203,7 @@ class TestWatching:
         return player
 
     def test_the_clock_pauses_steps_starts_again_and_is_slowed_by_a_late_frame(self, player):
-        playback = player.game.playback
+        playback = player.game.watching.playback
         player.frames(10)
         player.key(pygame.K_SPACE)
         t = playback.t
@@ -155,7 +221,7 @@ class TestWatching:
         assert playback.t == pytest.approx(t + LONGEST_FRAME)
 
     def test_slow_motion_goes_to_a_sixteenth_and_fast_to_eight_and_the_time_line_can_be_dragged(self, player):
-        playback, line = player.game.playback, player.view.bar.line
+        playback, line = player.game.watching.playback, player.view.bar.line
         for key, rate in ((pygame.K_MINUS, 1 / 16), (pygame.K_EQUALS, 8)):
             for _ in range(12):
                 player.key(key)
@@ -171,7 +237,7 @@ class TestWatching:
         for length in (-100, -160):
             player.pull((length, 40))
             player.key(pygame.K_RETURN)
-        _, first, second = player.game.shots
+        _, first, second = player.game.shots.paths
         player.key(pygame.K_p)
         assert player.game.shot is second
         player.key(pygame.K_p)
@@ -205,14 +271,15 @@ class TestScenes:
         player = player("golf")
         player.key(pygame.K_l)
         player.key(pygame.K_DOWN)
-        names = [listing.name for listing in listings()]
-        golf = [name for name in names if name.startswith("golf/")]
-        assert player.view.over.chosen.action == golf[0]
+        sports = [listing.name for listing in listings() if "/" not in listing.name]
+        assert player.view.over.chosen.action == sports[sports.index("golf") + 1]
         player.key(pygame.K_UP)
         player.key(pygame.K_UP)
-        assert player.view.over.chosen.action == golf[-1]
+        assert player.view.over.chosen.action == sports[sports.index("golf") - 1]
         player.key(pygame.K_LEFT)
+        player.key(pygame.K_UP)
         chosen = player.view.over.chosen.action
+        assert chosen.startswith(f"{sports[-1]}/")
         assert not chosen.startswith("golf")
         player.key(pygame.K_RETURN)
         assert player.game.session.title == chosen
@@ -222,7 +289,7 @@ class TestScenes:
 def test_what_cannot_be_is_said_and_the_last_good_parameters_stay(player):
     player = player("golf")
     before = player.game.session.scene
-    assert not player.game.change({"launch.speed": -3.0})
+    assert not player.game.aiming.change({"launch.speed": -3.0})
     ((text, bad),) = player.game.notices
     assert bad
     assert text == "the window's launch.speed = -3.0: must be from 0 to 340 m/s"
@@ -253,17 +320,17 @@ def test_any_size_is_drawn(player, size):
 def test_every_key_does_something_harmless_in_every_state(player, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)  # some of them write files
     player = player("golf/putt", (640, 400))
-    player.game.helper = Unanswered()  # fans, maps and what is found have tests of their own, and take seconds
+    player.game.workers.helper = Unanswered()  # fans, maps and what is found have tests of their own, and take seconds
     for state in ("aiming", "playing", "over"):
         for command, key in [(each, key) for each in TABLE for key in each.keys]:
             if command.name in ("quit", "next_preset", "fullscreen", "animation"):
                 continue  # they have tests of their own
             if state != "aiming" and command.group not in ("Play", "Watch", "See"):
                 continue  # the others do the same
-            if state != "aiming" and player.game.playback is None:
-                player.game.shoot()
+            if state != "aiming" and player.game.watching.playback is None:
+                player.game.aiming.shoot()
             if state == "over":
-                player.game.playback.seek(1e9)
+                player.game.watching.playback.seek(1e9)
             player.press_named(key)
             assert player.game.running
         for _ in range(5):
@@ -294,7 +361,7 @@ class TestASlowRun:
     @pytest.fixture
     def slow(self, player):
         player = player("golf/putt")
-        player.game.worker, player.game.patience = Slow(player.game.worker), 0.0
+        player.game.workers.path, player.game.workers.patience = Slow(player.game.workers.path), 0.0
         return player
 
     def test_shows_the_path_before_until_it_is_there(self, slow):
@@ -302,22 +369,22 @@ class TestASlowRun:
         slow.key(pygame.K_UP)
         slow.frames(3)
         assert slow.game.shot is before
-        slow.game.worker.let_go()
+        slow.game.workers.path.let_go()
         slow.game.settle()
         assert slow.game.shot.scene is slow.game.session.scene
 
     def test_a_shot_begins_as_soon_as_it_is_there(self, slow):
         slow.key(pygame.K_UP)
         slow.key(pygame.K_SPACE)
-        assert slow.game.playback is None
-        slow.game.worker.let_go()
+        assert slow.game.watching.playback is None
+        slow.game.workers.path.let_go()
         slow.frames(2)
-        assert slow.game.playback.playing
-        assert slow.game.shots[-1].scene is slow.game.session.scene
+        assert slow.game.watching.playback.playing
+        assert slow.game.shots.paths[-1].scene is slow.game.session.scene
 
     def test_a_process_that_is_killed_is_begun_again(self, player):
         player = player("golf/putt")
-        player.game.worker.kill()
+        player.game.workers.path.kill()
         player.key(pygame.K_UP)
         player.key(pygame.K_UP)
         player.settle()

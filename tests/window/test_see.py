@@ -22,9 +22,9 @@ from sandbox.window import commands
 from sandbox.window.canvas import Canvas
 from sandbox.window.charts import Charts
 from sandbox.window.commands import GROUPS, HINTS, TABLE
-from sandbox.window.fan import FEWEST, SHOTS, cloud, density, others, short, spread_of
-from sandbox.window.game import LONG
+from sandbox.window.fan import FEWEST, SHOTS, cloud, density, short, shots_from_end, spread_of
 from sandbox.window.measure import reading
+from sandbox.window.path import LONG
 from sandbox.window.score_map import COARSE, FINER, SCORED, score_map
 from sandbox.window.session import Session
 from sandbox.window.view import AHEAD, AT_REST, HUNG
@@ -115,26 +115,26 @@ class TestTheFan:
         monkeypatch.setattr("sandbox.window.fan._begun", {})
         monkeypatch.setattr("sandbox.window.fan.QUICK", 0.0)
         assert cloud(*asked).left == 12 - FEWEST
-        assert others(Session("basketball").scene, 1.0, SHOTS - FEWEST) == []  # which is computed at once
-        known = others(session.scene, 1.0, 12 - FEWEST)
+        assert shots_from_end(Session("basketball").scene, 1.0, SHOTS - FEWEST) == []  # which is computed at once
+        known = shots_from_end(session.scene, 1.0, 12 - FEWEST)
         assert 0 < len(known) <= 12 - FEWEST
         while len(known) < 12 - FEWEST:
-            known = others(session.scene, 1.0, 12 - FEWEST - len(known))
+            known = shots_from_end(session.scene, 1.0, 12 - FEWEST - len(known))
         assert cloud(*asked, known) == alone
         assert cloud(*asked).left == 0
         assert cloud(*asked, known) == alone  # none of those that both have computed counts twice
 
     def test_in_the_window_the_path_s_process_computes_some_of_one_that_takes_long(self, player, monkeypatch):
         player = player("billiards/nine-ball-break")
-        player.game.helper = Processes(1)
+        player.game.workers.helper = Processes(1)
         try:
             player.key(pygame.K_f)
             while not player.view.elsewhere.value:
                 player.frames()
                 sleep(0.01)
             assert FEWEST <= player.view.clouds.value.shots < SHOTS
-            asked, submit = [], player.game.helper.submit
-            monkeypatch.setattr(player.game.helper, "submit", lambda *call: asked.append(call) or submit(*call))
+            asked, submit = [], player.game.workers.helper.submit
+            monkeypatch.setattr(player.game.workers.helper, "submit", lambda *call: asked.append(call) or submit(*call))
             player.key(pygame.K_UP)
             while not any(work is cloud and not quick for work, _, _, _, quick, *_ in asked):
                 player.frames()
@@ -142,12 +142,12 @@ class TestTheFan:
             assert all(scene == player.game.shot.scene for _, scene, *_ in asked)
             assert not any(known for *_, known in asked)  # shots of the fan from before
         finally:
-            player.game.helper.close(abandon=True)
+            player.game.workers.helper.close(abandon=True)
 
     def test_while_the_aim_changes_it_ends_where_something_is_known_and_at_rest_it_is_complete(self, player):
         player = player("golf")
         player.key(pygame.K_f)
-        player.game.nudge({"launch.speed": 70.0})
+        player.game.aiming.nudge({"launch.speed": 70.0})
         player.frames(1, dt=0.0)
         while player.view.clouds.work is not None:
             player.frames(1, dt=0.0)
@@ -193,7 +193,7 @@ class TestTheFan:
         assert player.view.clouds.value is not first
         assert player.view.clouds.key[0] is player.game.shot
         player.view.clouds.work = Future()  # the next one takes for ever
-        player.game.change({"pin.distance": 6.0})
+        player.game.aiming.change({"pin.distance": 6.0})
         player.frames(20)
         assert "the fan ..." in [text for text, _ in written]
 
@@ -204,7 +204,7 @@ class TestTheFan:
         assert player.view.clouds.value.said[1].startswith(f"speed ± {short(2 * 0.015 * 2.95)} m/s")
         for _ in range(9):
             player.key(pygame.K_LEFTBRACKET)
-        assert player.game.fan_width == 1 / 16
+        assert player.view.fan_width == 1 / 16
 
     def test_a_shot_that_does_not_begin_as_a_players_has_none(self, player):
         player = player("golf/club-head")
@@ -213,7 +213,7 @@ class TestTheFan:
         player.frames(2, dt=0.2)
         player.settle()
         assert "no fan" in player.view.clouds.value.said[0]
-        assert "does not begin as a player's" in str(player.view.maps.error)
+        assert "does not start from the player's controls" in str(player.view.maps.error)
 
     def test_a_shot_is_watched_with_its_fan(self, player, written):
         player = player(PUTT)
@@ -221,7 +221,7 @@ class TestTheFan:
         player.key(pygame.K_SPACE)
         player.frames(12)
         player.settle()
-        assert player.game.playback is not None
+        assert player.game.watching.playback is not None
         assert player.view.clouds.value.shots == SHOTS
         assert player.view.clouds.value.said[0] in [text for text, _ in written]
 
@@ -253,7 +253,7 @@ class TestTheFan:
         killed, latest = [], player.view.elsewhere
         monkeypatch.setattr(latest, "abandon", killed.append)
         latest.work, latest.began, latest.work_for = Future(), perf_counter(), "before"
-        player.game.worker.never = True
+        player.game.workers.path.never = True
         player.key(pygame.K_UP)
         player.frames(1)
         assert not killed
@@ -290,8 +290,8 @@ class TestTheMap:
         player.press(rect.center)
         player.move(at)  # the aim follows
         player.release(at)
-        assert player.game.playback is None
-        assert player.game.pull is None
+        assert player.game.watching.playback is None
+        assert player.game.grasp.pull is None
         speed, angle = known.aim((at[0] - rect.left) / rect.width, (rect.bottom - at[1]) / rect.height)
         assert player.game.session.value("launch.speed") == pytest.approx(speed, rel=1e-3)
         assert player.game.session.value("launch.angle") == pytest.approx(angle, abs=0.01)
@@ -300,7 +300,7 @@ class TestTheMap:
         assert player.view.maps.value is known  # the aim is on it
         player.key(pygame.K_m)
         player.move((5, player.view.bar.rect.bottom - 5))
-        player.game.reset()
+        player.game.aiming.reset()
         player.settle()
         player.frames(2, dt=9.0)
         assert differ(picture(player), plain) == 0
@@ -352,7 +352,7 @@ def test_the_player_may_have_to_predict_what_happens(player):
     assert hypot(x, y) == pytest.approx(1.0, rel=0.02)
     player.key(pygame.K_y)
     player.key(pygame.K_SPACE)
-    player.game.playback.seek(1e9)
+    player.game.watching.playback.seek(1e9)
     player.frames(1)
     assert shot.verdict in said(player)  # watched, it is shown
 
@@ -367,7 +367,7 @@ class TestTheTape:
         player.move(ends[1])
         player.release(ends[1])
         assert player.view.tape.length == pytest.approx(5.0, abs=2 / camera.scale)
-        assert player.game.pull is None
+        assert player.game.grasp.pull is None
         player.move((5, 5))
         assert player.view.tape.length == pytest.approx(5.0, abs=2 / camera.scale)
         player.key(pygame.K_ESCAPE)
@@ -398,7 +398,7 @@ class TestTheTape:
         player.move((500, 300))
         player.send(pygame.MOUSEBUTTONUP, pos=(500, 300), button=3, touch=False)
         assert player.view.tape.length == pytest.approx(200 / player.view.stage.camera.scale)
-        assert player.game.playback is None
+        assert player.game.watching.playback is None
 
 
 @pytest.mark.parametrize(("key", "least"), [(pygame.K_o, 0.0005), (pygame.K_w, 0.05), (pygame.K_F3, 0.002)])
@@ -415,8 +415,8 @@ def test_the_charts_show_the_state_at_the_time(player, written):
     player = player("golf")
     player.key(pygame.K_w)
     player.key(pygame.K_SPACE)
-    player.game.playback.playing = False
-    player.game.playback.seek(1.5)
+    player.game.watching.playback.playing = False
+    player.game.watching.playback.seek(1.5)
     written.clear()
     player.frames(1)
     texts = [text for text, _ in written]
@@ -436,7 +436,8 @@ def test_what_is_written_on_the_charts_does_not_overlap(shot_of, written, size, 
     shot = shot_of(Session(source))
     charts = Charts(shot, shot.scene.picture(shot.run, size))
     for t in (None, 0.5):
-        charts.draw(Canvas(pygame.Surface(size)), t)
+        form = charts.forms(Canvas(pygame.Surface(size)), t)[0]
+        form.draw(pygame.Rect((0, 0), form.size))
         placed = [rect for _, rect in written]
         assert len(placed) > 12  # with the numbers on the axes
         assert not any(a.colliderect(b) for a, b in combinations(placed, 2))
@@ -471,7 +472,7 @@ def test_where_the_energy_goes_lies_over_the_picture_until_a_click(player):
     assert player.view.over.pictures["chart"].result().get_size() == whole
     player.click((600, 300))
     assert differ(picture(player), plain) < 0.2
-    assert not player.game.shots
+    assert not player.game.shots.paths
 
 
 class TestTheLists:
@@ -520,7 +521,7 @@ class TestTheLists:
         assert "charts" in player.view.on
         player.click((300, 100))
         assert player.view.over is None
-        assert player.game.pull is None
+        assert player.game.grasp.pull is None
         player.key(pygame.K_o)
         assert player.view.switched == {"ghosts", "charts", "arrows", PUTT}
 
@@ -536,9 +537,12 @@ class TestTheLists:
 
 def test_accuracy_tells_its_cost_and_its_error(player):
     player = player("golf")
+    told, tell = [], player.game.messages.tell
+    player.game.messages.tell = lambda *said: (told.append(said[0]), tell(*said))
     player.key(pygame.K_a)
-    while player.game.jobs:
+    while player.game.jobs.waiting:
         player.frames(1)
+    assert "accuracy precise ..." in told  # at once; what it costs takes a while
     assert player.game.session.value("accuracy.level") == "precise"
     text = player.game.notices[-1][0]
     assert text.startswith("accuracy precise: ")

@@ -18,7 +18,7 @@ def table(player):
     """A table of four putts, one of which goes in."""
     player = player("golf/putt", (1000, 600))
     for speed in SPEEDS:
-        player.game.change({"launch.speed": speed})
+        player.game.aiming.change({"launch.speed": speed})
         player.settle()
         player.key(pygame.K_SPACE)
         player.key(pygame.K_RETURN)
@@ -61,17 +61,17 @@ def test_the_interval_is_wilsons():
 
 def test_a_shot_is_pinned_deleted_and_gone_back_to(table):
     game = table.game
-    table.click(place(table, game.table.rows[1]))
+    table.click(place(table, game.shots.rows[1]))
     table.key(pygame.K_p)
-    assert game.table.rows[1].pinned
+    assert game.shots.rows[1].pinned
     table.key(pygame.K_UP)
     table.key(pygame.K_DELETE)
-    assert [row.number for row in game.table.rows] == [1, 2, 4]
+    assert [row.number for row in game.shots.rows] == [1, 2, 4]
     table.key(pygame.K_RETURN)
     assert table.view.over is None
     table.settle()
     assert game.session.value("launch.speed") == SPEEDS[1]
-    assert game.shot.run.result == game.table.rows[1].result
+    assert game.shot.run.result == game.shots.rows[1].result
     table.key(pygame.K_z, pygame.KMOD_CTRL)
     assert game.session.value("launch.speed") == SPEEDS[-1]
 
@@ -79,21 +79,21 @@ def test_a_shot_is_pinned_deleted_and_gone_back_to(table):
 def test_a_pinned_path_stays_and_one_that_was_dropped_is_computed_again(table, monkeypatch):
     game, view = table.game, table.view
     table.key(pygame.K_q)
-    first, second = game.table.rows[:2]
-    game.pin(second)
+    first, second = game.shots.rows[:2]
+    game.watching.pin(second)
     for _ in range(PATHS):
-        game.shoot()
-        game.aim_again()
+        game.aiming.shoot()
+        game.aiming.again()
     assert first.shot is None
-    assert second.shot in game.recent
-    game.pin(first)
+    assert second.shot in game.ghosts
+    game.watching.pin(first)
     table.settle()
     assert first.shot.run.result == first.result
     drawn = []
-    monkeypatch.setattr(view.stage, "draw_ghosts", lambda sheet, ghosts, around: drawn.append(ghosts))
+    monkeypatch.setattr(view.stage, "draw_ghosts", lambda sheet, ghosts: drawn.append(ghosts))
     view.draw()
     assert [shot.number for shot in drawn[-1]][:2] == [1, 2]
-    game.pin(first)
+    game.watching.pin(first)
     assert first.shot is None
 
 
@@ -105,13 +105,13 @@ def test_it_is_written_as_csv(table, tmp_path, monkeypatch):
     assert [row["shot"] for row in rows] == ["1", "2", "3", "4"]
     assert [float(row["launch.speed"]) for row in rows] == list(SPEEDS)
     assert [row["scored"] for row in rows] == ["false", "true", "false", "false"]
-    assert [float(row["total"]) for row in rows] == [row.result["total"] for row in table.game.table.rows]
+    assert [float(row["total"]) for row in rows] == [row.result["total"] for row in table.game.shots.rows]
 
 
 def test_it_is_of_this_scene_and_scrolls(table):
     for _ in range(40):
-        table.game.shoot()
-        table.game.aim_again()
+        table.game.aiming.shoot()
+        table.game.aiming.again()
     table.frames(1)
     over = table.view.over
     assert over.seen < 44
@@ -123,9 +123,9 @@ def test_it_is_of_this_scene_and_scrolls(table):
         place(table, shown[0])
     for _ in range(45):
         table.key(pygame.K_PAGEDOWN)
-    assert over.chosen is table.game.table.rows[0]
+    assert over.chosen is table.game.shots.rows[0]
     table.key(pygame.K_ESCAPE)
-    table.game.open("golf/moon")
+    table.game.opening.open("golf/moon")
     table.key(pygame.K_q)
     assert table.view.over is None
     assert "no shots yet" in table.game.notices[-1][0]

@@ -13,13 +13,16 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from sandbox.scene import listings, load, simulate
 from sandbox.window import commands
 from sandbox.window.app import App
+from sandbox.window.canvas import Canvas
 from sandbox.window.game import Game
 from sandbox.window.pointer import NOTCH
 from sandbox.window.session import Session
+from sandbox.window.shots import PATHS, Shot
 from sandbox.window.stage import Stage
-from sandbox.window.view import CARD, SMALLEST, View
+from sandbox.window.view import CARD, OUTDATED, SMALLEST, View
 
 from .test_game import Here
 
@@ -27,16 +30,16 @@ SIZE = (480, 400)
 
 #: What a player does, by what it is called when it fails.
 ACTIONS = {
-    "place": lambda view: view.game.change(PLACES[view.game.session.base.name][0]),
-    "other place": lambda view: view.game.change(PLACES[view.game.session.base.name][1]),
-    "gravity": lambda view: view.game.change({"accuracy.level": "fast"}),
+    "place": lambda view: view.game.aiming.change(PLACES[view.game.session.base.name][0]),
+    "other place": lambda view: view.game.aiming.change(PLACES[view.game.session.base.name][1]),
+    "gravity": lambda view: view.game.aiming.change({"accuracy.level": "fast"}),
     "stronger": lambda view: commands.do(view, "push"),
     "turned": lambda view: commands.do(view, "turn"),
     "reset": lambda view: commands.do(view, "reset"),
     "undo": lambda view: commands.do(view, "undo"),
     "redo": lambda view: commands.do(view, "-undo"),
-    "shoot": lambda view: view.game.shoot(),
-    "to the end": lambda view: view.game.playback and view.game.playback.seek(1e9),
+    "shoot": lambda view: view.game.aiming.shoot(),
+    "to the end": lambda view: view.game.watching.playback and view.game.watching.playback.seek(1e9),
     "Enter": lambda view: commands.do(view, "again"),
     "Esc": lambda view: commands.do(view, "back"),
     "B": lambda view: commands.do(view, "rack"),
@@ -50,8 +53,8 @@ ACTIONS = {
     "fit": lambda view: commands.do(view, "fit"),
     "pull": lambda view: view.pull_for_test(),
     "drag": lambda view: view.drag_for_test(),
-    "aim as the first": lambda view: view.game.table.rows and view.game.aim_as(view.game.table.rows[0]),
-    "another scene": lambda view: view.game.open("golf/putt"),
+    "aim as the first": lambda view: view.game.shots.rows and view.game.aiming.aim_as(view.game.shots.rows[0]),
+    "another scene": lambda view: view.game.opening.open("golf/putt"),
 }
 PLACES = {
     "golf": ({"pin.distance": 60.0}, {"pin.distance": 200.0, "air.wind": [-4.0, 0.0]}),
@@ -72,20 +75,20 @@ class Watched(View):
     """Checks each time that it draws a shot that the stage under it is that shot's."""
 
     def pull_for_test(self) -> None:
-        self.game.begin_pull((200, 200), self.area.height, 1.0)
-        self.game.pull_to((150, 210))
+        self.game.grasp.begin_pull((200, 200), self.area.size, self.area.height, 1.0)
+        self.game.grasp.pull_to((150, 210))
 
     def drag_for_test(self) -> None:
         for grip, *_ in self.spots[-2:-1]:
             self.hold()
-            self.game.begin_drag(grip)
-            self.game.drag_to((grip.place[0] + 0.1, grip.place[1] + 0.1), 0.01)
+            self.game.grasp.begin_drag(grip)
+            self.game.grasp.drag_to((grip.place[0] + 0.1, grip.place[1] + 0.1), 0.01)
 
     def draw(self):
         draw_path = Stage.draw_path
 
         def on_its_own(stage, sheet, shot, until):
-            if self.game.playback is not None:
+            if self.game.watching.playback is not None:
                 assert stage.shot.scene.parameters == shot.scene.parameters
             else:
                 assert stage.shot.place == shot.place == self.game.session.place
@@ -96,7 +99,7 @@ class Watched(View):
 
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(Stage, "draw_path", on_its_own)
-            patch.setattr(self.game, "reason", raised)
+            patch.setattr("sandbox.window.view.reason", raised)
             super().draw()
 
 
@@ -111,7 +114,7 @@ def settled(app: App) -> None:
     for _ in range(2000):
         app.game.settle()
         app.tick(0.2)
-        if not app.view.busy and app.game.settled and not app.game.shooting:
+        if not app.view.busy and app.game.path.settled and not app.game.watching.awaited:
             return
     raise AssertionError("never at rest")
 
@@ -126,20 +129,20 @@ def test_the_stage_belongs_to_the_shot(screen, source, actions):
     try:
         settled(app)
         for action in actions:
-            if app.game.holding:
-                app.game.release()
+            if app.game.grasp.holds:
+                app.game.grasp.release()
                 app.view.free()
             if app.game.session.base.name not in PLACES:
-                app.game.open(source)
+                app.game.opening.open(source)
             ACTIONS[action](app.view)
             app.tick(0.016)
-        app.game.release()
+        app.game.grasp.release()
         app.view.free()
         settled(app)
         stage, shot = app.view.stage, app.game.shot
         assert stage.shot.scene.parameters == shot.scene.parameters
         assert stage.shot.scene.folder == shot.scene.folder
-        if app.game.playback is None:
+        if app.game.watching.playback is None:
             assert shot.scene.parameters == app.game.session.scene.parameters
     finally:
         app.close()
@@ -149,11 +152,11 @@ class TestTheCamera:
     def test_it_goes_out_for_a_strong_pull_and_in_again_for_a_weak_one(self, player):
         player = player("golf/putt")
         scale = player.view.stage.camera.scale
-        player.game.change({"launch.speed": 30.0})
+        player.game.aiming.change({"launch.speed": 30.0})
         player.settle()
         far = player.view.stage.camera.scale
         assert far < 0.5 * scale
-        player.game.change({"launch.speed": 2.9})
+        player.game.aiming.change({"launch.speed": 2.9})
         player.settle()
         assert player.view.stage.camera.scale > 0.8 * scale
 
@@ -203,14 +206,14 @@ class TestTheCamera:
         player.settle()
         assert player.view.camera.scale == pytest.approx(NOTCH**0.5 * near.scale)
         assert player.view.camera.world(200, 150) == pytest.approx(near.world(200, 150))
-        player.game.playback.playing = False
+        player.game.watching.playback.playing = False
         place = player.view.camera.world(300, 200)
         player.press((300, 200))
         player.move((330, 190))
         player.release((330, 190))
         player.settle()
         assert player.view.camera.world(330, 190) == pytest.approx(place)
-        assert player.game.playback is not None
+        assert player.game.watching.playback is not None
 
     @pytest.mark.parametrize("source", ["golf", "billiards"])
     def test_it_follows_the_ball_as_near_as_one_likes(self, player, source):
@@ -218,8 +221,8 @@ class TestTheCamera:
         for key in (pygame.K_SPACE, pygame.K_v):
             player.key(key)
         player.settle()
-        player.game.playback.playing = False
-        ball = player.game.shot.run.state(player.game.shot.ball, player.game.playback.t)[:2]
+        player.game.watching.playback.playing = False
+        ball = player.game.shot.run.state(player.game.shot.ball, player.game.watching.playback.t)[:2]
         far = player.view.camera
         player.view.zoom(2.0, (5, 5))
         player.frames(2)
@@ -237,9 +240,9 @@ class TestTheCamera:
         whole = player.view.stage.camera
         finger(pygame.FINGERDOWN, 1, (200, 150))
         player.send(pygame.MOUSEBUTTONDOWN, pos=(200, 150), button=1, touch=True)
-        assert player.game.pull is not None
+        assert player.game.grasp.pull is not None
         finger(pygame.FINGERDOWN, 2, (300, 150))
-        assert player.game.pull is None
+        assert player.game.grasp.pull is None
         finger(pygame.FINGERMOTION, 2, (400, 150))
         player.send(pygame.MOUSEMOTION, pos=(210, 150), rel=(0, 0), buttons=(1, 0, 0), touch=True)
         for number in (1, 2):
@@ -248,7 +251,7 @@ class TestTheCamera:
         player.settle()
         assert player.view.stage.camera.scale == pytest.approx(2 * whole.scale)
         assert player.view.stage.camera.world(300, 150) == pytest.approx(whole.world(250, 150))
-        assert not player.game.shots
+        assert not player.game.shots.paths
         assert player.game.session.changes.values == {}
 
 
@@ -280,9 +283,9 @@ def test_nothing_is_drawn_while_nothing_changes(player):
     player.key(pygame.K_SPACE)
     assert any(player.app.tick(0.016) for _ in range(3))
     player.send(pygame.WINDOWMINIMIZED)
-    t = player.game.playback.t
+    t = player.game.watching.playback.t
     assert not any(player.app.tick(0.016) for _ in range(20))
-    assert player.game.playback.t == t
+    assert player.game.watching.playback.t == t
     player.send(pygame.WINDOWRESTORED)
     assert player.app.tick(0.016)
 
@@ -301,3 +304,61 @@ def test_only_nudges_and_steps_repeat(player):
         pygame.event.post(pygame.event.Event(pygame.KEYDOWN, key=pygame.K_LEFT, mod=0, unicode="", scancode=0))
     player.frames()
     assert player.game.session.value("launch.angle") == pytest.approx(before + 4.0)
+
+
+@pytest.mark.parametrize("source", ["curling", "bowling"])
+def test_the_near_part_shows_the_shot_that_is_aimed_and_no_other(source):
+    scene = load(source)
+    shot, other = (Shot(each, simulate(each)) for each in (scene, scene.changed({"launch.angle": 1.0})))
+    stage, pictures = Stage(shot, SIZE), []
+    for run, before in ((other, stage), (other, Stage(other, SIZE, stage.camera)), (shot, stage)):
+        sheet = Canvas(pygame.Surface(SIZE))
+        before.draw_balls(sheet, run, 0.0)
+        pictures.append(pygame.surfarray.array3d(sheet.surface))
+    assert (pictures[0] == pictures[1]).mean() > 0.995
+    assert (pictures[0] != pictures[2]).any()
+
+
+def test_a_fan_of_another_aim_is_dim_until_its_own_comes(player):
+    player = player("basketball", (640, 400))
+    player.key(pygame.K_f)
+    player.frames(2, dt=0.2)
+    player.settle()
+    view, alphas = player.view, []
+    view._once("cloud", view.clouds.value, lambda: pytest.fail("it was drawn"))
+    alphas.append(view._once("cloud", view.clouds.value, object).get_alpha())
+    player.game.aiming.change({"launch.angle": 60.0})
+    player.game.settle()
+    view.clouds.work = Future()  # a fan that takes for ever
+    view.draw()
+    alphas.append(view._once("cloud", view.clouds.value, object).get_alpha())
+    view.clouds.work = None
+    assert alphas == [255, OUTDATED]
+
+
+def test_shots_whose_paths_are_kept_have_colours_of_their_own():
+    for source in sorted(item.name for item in listings() if "/" not in item.name):
+        scene = load(source)
+        stage = Stage(Shot(scene, simulate(scene)), SIZE)
+        assert len({stage.colour_of(number) for number in range(1, PATHS + 1)}) == PATHS, source
+
+
+@pytest.mark.parametrize(
+    ("source", "changes"),
+    [
+        *((listing.name, {}) for listing in listings() if "/" not in listing.name or "tennis/" in listing.name),
+        ("tennis", {"launch.speed": 30.9, "launch.angle": 12.5}),  # long: the bounce is behind the other player
+        ("baseball/green-monster", {}),
+        ("basketball/brick", {}),
+    ],
+)
+def test_the_story_is_in_the_picture(source, changes, shot_of):
+    size = (960, 500)
+    shot = shot_of(Session(source, changes))
+    stage = Stage(shot, size)
+    track = shot.track(shot.ball)
+    places = stage.camera.pixels(track[track[:, 0] <= stage.story, 1:])
+    assert (places >= 0.0).all()
+    assert (places <= size).all()
+    if "tennis" in source:
+        assert stage.story == shot.run.duration

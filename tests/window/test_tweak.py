@@ -81,10 +81,10 @@ class TestThePanel:
         assert player.game.session.value("launch.speed") > at_middle + 40
         player.release((slider.right - 30, slider.top - 40))
         assert player.game.shot.run.result["carry"] > before + 5
-        assert not player.game.shots
+        assert not player.game.shots.paths
 
     def test_one_reset_takes_back_one_parameter_and_the_other_all(self, player):
-        player.game.change({"launch.speed": 50.0, "launch.angle": 20.0})
+        player.game.aiming.change({"launch.speed": 50.0, "launch.angle": 20.0})
         player.frames(2)
         player.click(place(player, "launch.speed", RESET_OF).center)
         player.frames(2)
@@ -108,7 +108,7 @@ class TestThePanel:
         panel = player.view.panel
         before = panel.before
         player.key(pygame.K_SPACE)  # no command, and no letter
-        assert player.game.playback is None
+        assert player.game.watching.playback is None
         letters(player, "1243")
         for key in (pygame.K_BACKSPACE, pygame.K_LEFT, pygame.K_DELETE, pygame.K_HOME, pygame.K_RIGHT):
             player.key(key)
@@ -146,6 +146,18 @@ class TestThePanel:
             write(player, "launch.angle", text)
             assert player.game.notices[-1][1], text
             assert player.game.session.value("launch.angle") == 10.4
+
+    def test_what_is_selected_may_be_copied_and_cut(self, player, monkeypatch):
+        copied = []
+        monkeypatch.setattr(pygame.scrap, "put_text", copied.append)
+        panel = player.view.panel
+        player.click(place(player, "launch.angle", FIELD_OF).center)
+        player.key(pygame.K_c, pygame.KMOD_CTRL)
+        assert (copied, panel.before) == (["10.4"], "10.4")
+        player.key(pygame.K_x, pygame.KMOD_CTRL)
+        assert (copied, panel.before) == (["10.4", "10.4"], "")
+        player.key(pygame.K_c, pygame.KMOD_CTRL)  # nothing is selected
+        assert len(copied) == 2
 
     def test_a_slider_that_goes_while_it_is_dragged_is_no_matter(self, player):
         slider = place(player, "launch.speed", SLIDER_OF)
@@ -258,7 +270,7 @@ class TestSaving:
         file.write_text(SCENE.replace("60.0", "70.0"), encoding="utf-8")
         self.wait(player)
         assert player.game.session.value("launch.speed") == 70.0
-        assert player.game.before_save is before
+        assert player.game.path.before_save is before
         assert player.game.shot.run.result["carry"] > before.run.result["carry"]
 
     @pytest.mark.parametrize("broken", ["scene = [", SCENE.replace("60.0", "-1.0"), SCENE + "spin_up = 3\n"])
@@ -279,7 +291,7 @@ class TestSaving:
 
     def test_what_was_changed_in_the_window_stays_changed(self, player, file):
         player = player(str(file))
-        player.game.change({"launch.angle": 33.0})
+        player.game.aiming.change({"launch.angle": 33.0})
         file.write_text(SCENE.replace("60.0", "70.0"), encoding="utf-8")
         self.wait(player)
         assert player.game.session.value("launch.angle") == 33.0
@@ -288,7 +300,7 @@ class TestSaving:
     def test_another_scene_in_the_file_is_opened_and_nothing_of_the_one_before_is_left(self, player, file):
         player = player(str(file))
         player.key(pygame.K_TAB)
-        player.game.change({"launch.angle": 33.0})
+        player.game.aiming.change({"launch.angle": 33.0})
         player.key(pygame.K_SPACE)
         file.write_text('scene = "soccer"\n', encoding="utf-8")
         self.wait(player)
@@ -297,7 +309,7 @@ class TestSaving:
         assert game.session.base.name == "soccer"
         assert game.shot.scene is game.session.scene
         assert view.stage.shot is game.shot
-        assert game.playback is game.before_save is None
+        assert game.watching.playback is game.path.before_save is None
         assert game.session.changes.values == {}
-        assert not game.recent
+        assert not game.ghosts
         assert "wall.height" in {row.key for row in view.panel.rows}

@@ -16,12 +16,12 @@ from sandbox.errors import RequestError
 from sandbox.lab.aim.greatest import greatest
 from sandbox.lab.aim.intervals import intervals
 from sandbox.lab.aim.pair import pairs
-from sandbox.lab.aim.question import GREATEST, Aim, Target, Try, as_target, parse_target
+from sandbox.lab.aim.question import GREATEST, Aim, Target, Trial, as_target, parse_target
 from sandbox.lab.aim.regions import regions
 from sandbox.lab.aim.scalar import roots_of
 from sandbox.lab.aim.shots import Shots
 from sandbox.lab.axes import Span, as_axis
-from sandbox.lab.runs import Progress, silent
+from sandbox.lab.runs import Progress, no_progress
 from sandbox.scene import Scene, as_scene
 
 __all__ = ["Aim", "Target", "aim", "as_target", "parse_target", "search"]
@@ -33,7 +33,7 @@ def aim(
     target: Mapping[str, Any] | None = None,
     *,
     maximize: str | None = None,
-    progress: Progress = silent,
+    progress: Progress = no_progress,
 ) -> Aim:
     """All values within a range that meet a target: ``aim("golf", {"launch.angle": (5, 75)}, {"carry": 200.0})``.
 
@@ -53,7 +53,7 @@ def aim(
     return search(chosen, spans, [*targets, *([] if maximize is None else [Target(maximize, GREATEST)])], progress)
 
 
-def search(scene: Scene, spans: Sequence[Span], targets: Sequence[Target], progress: Progress = silent) -> Aim:
+def search(scene: Scene, spans: Sequence[Span], targets: Sequence[Target], progress: Progress = no_progress) -> Aim:
     """Like ``aim``, for spans and targets already parsed."""
     try:
         import scipy  # noqa: F401
@@ -73,7 +73,7 @@ def search(scene: Scene, spans: Sequence[Span], targets: Sequence[Target], progr
             "targets, or two parameters and a target that is not a number; for more use sandbox sweep"
         )
     shots = Shots(scene, spans, targets, progress)
-    jumps: list[tuple[Try, Try]] = []
+    jumps: list[tuple[Trial, Trial]] = []
     if targets[0].value is GREATEST:
         solutions = greatest(shots)
     elif len(targets) == 2:
@@ -83,8 +83,8 @@ def search(scene: Scene, spans: Sequence[Span], targets: Sequence[Target], progr
     else:
         solutions = intervals(shots) if len(spans) == 1 else regions(shots)
     nearest = None if solutions else shots.nearest()
-    tries = shots.tries
-    return Aim(scene, tuple(spans), tuple(targets), solutions, nearest, jumps, tries, shots.failures)
+    found = solutions, nearest, jumps, shots.tries, shots.failures, shots.resolution
+    return Aim(scene, tuple(spans), tuple(targets), *found)
 
 
 def _count(things: Sequence[Any], name: str) -> str:

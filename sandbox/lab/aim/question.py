@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from importlib import import_module
 from math import isfinite
 from typing import Any
 
@@ -12,7 +11,7 @@ import numpy as np
 from sandbox import units
 from sandbox.errors import RequestError
 from sandbox.lab.axes import Span
-from sandbox.scene import Scene
+from sandbox.scene import Scene, display
 
 #: The wanted value of a number that is to be as great as possible.
 GREATEST = object()
@@ -33,14 +32,14 @@ class Target:
         return f"greatest {self.name}" if self.value is GREATEST else f"{self.name} = {self.value}"
 
     def met(self, value: Any) -> bool:
-        """Whether a run's value is the wanted one, or holds it; for targets that are not numbers."""
+        """True if a run's value is the wanted one, or holds it; for targets that are not numbers."""
         if isinstance(value, list | dict):
             return self.value in value or (isinstance(value, dict) and self.value in value.values())
         return bool(value == self.value and isinstance(value, bool) == isinstance(self.value, bool))
 
 
 @dataclass(frozen=True)
-class Try:
+class Trial:
     """One run of a search: its parameter values, and the targeted results, None if missing."""
 
     values: tuple[float, ...]
@@ -92,10 +91,12 @@ class Aim:
     spans: tuple[Span, ...]
     targets: tuple[Target, ...]
     solutions: list[Solution]
-    nearest: Try | None  # the best of all tries, if there is no solution
-    jumps: list[tuple[Try, Try]]  # where the result jumps over the target between two nearly equal values
-    tries: list[Try] = field(repr=False)
+    nearest: Trial | None  # the best of all tries, if there is no solution
+    jumps: list[tuple[Trial, Trial]]  # where the result jumps over the target between two nearly equal values
+    tries: list[Trial] = field(repr=False)
     failures: int = 0  # tries that failed
+    resolution: dict[str, float] = field(default_factory=dict)  # by key: intervals or regions, and gaps in them, that
+    # are narrower than this may be missed; empty for targets that are numbers
 
     def __repr__(self) -> str:
         wanted = ", ".join(map(str, self.targets))
@@ -103,8 +104,7 @@ class Aim:
         return f"<Aim of {self.scene.title} at {wanted}: {found or 'no solution'}>"
 
     def _repr_html_(self) -> str:
-        html: str = import_module("sandbox.page.notebook").aim_html(self)
-        return html
+        return display.notebook().aim_html(self)
 
     @property
     def misses(self) -> dict[str, float]:

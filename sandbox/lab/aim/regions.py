@@ -10,8 +10,8 @@ from sandbox.lab.aim.intervals import FIRST, narrowed
 from sandbox.lab.aim.question import Region, Solution
 from sandbox.lab.aim.shots import Shots
 
-#: Points of the scan along each parameter: regions narrower than this fraction of the range may be missed.
-SCAN_EACH = 61
+#: Points of the scan along each parameter, and the spacings of these points across which a region is sure to be seen.
+SCAN_EACH, _NARROWEST = 61, 3
 
 #: Directions in which the border is searched for around the most forgiving point, and how accurately, as a fraction of
 #: the range.
@@ -27,6 +27,7 @@ def regions(shots: Shots) -> list[Solution]:
     from scipy.ndimage import distance_transform_edt, label
 
     shots.planned = SCAN_EACH**2
+    shots.resolved(_NARROWEST / (SCAN_EACH - 1))
     axes = [np.linspace(span.low, span.high, SCAN_EACH).tolist() for span in shots.spans]
     met = np.array(shots.meets(list(product(*axes)), "scan")).reshape(SCAN_EACH, SCAN_EACH)
     room = distance_transform_edt(np.pad(met, 1))[1:-1, 1:-1]

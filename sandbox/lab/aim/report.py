@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict
+from math import ceil, floor, log10
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from sandbox.files import json_text
-from sandbox.lab.aim.question import GREATEST, Aim, Interval, Solution, Target, Try
+from sandbox.lab.aim.question import GREATEST, Aim, Interval, Solution, Target, Trial
 from sandbox.lab.axes import label, result_label, unit_of
 from sandbox.lab.chart import chart, legend, mark
 from sandbox.lab.tables import paragraph, table
@@ -38,6 +39,7 @@ def as_json(aim: Aim) -> str:
         "jumps": [[_try(aim, side) for side in jump] for jump in aim.jumps],
         "tries": len(aim.tries),
         "failures": aim.failures,
+        "resolution": aim.resolution,
     }
     return json_text(told)
 
@@ -49,7 +51,7 @@ def _solution(solution: Solution) -> dict[str, Any]:
     return {"parameters": told.pop("values"), **told}
 
 
-def _try(aim: Aim, one: Try) -> dict[str, Any]:
+def _try(aim: Aim, one: Trial) -> dict[str, Any]:
     result = {target.name: value for target, value in zip(aim.targets, one.found, strict=True)}
     return {"parameters": _named(aim, one.values), "result": result}
 
@@ -81,7 +83,22 @@ def as_text(aim: Aim) -> list[str]:
             f"{other.found[0]:.6g}, over the target"
         )
     failures = f", {aim.failures} of which failed" if aim.failures else ""
-    return [*lines, "", f"  {len(aim.tries):,} runs{failures}"]
+    return [*lines, "", *paragraph(f"{len(aim.tries):,} runs{failures}{_resolution(aim)}")]
+
+
+def _resolution(aim: Aim) -> str:
+    """The widths below which something may be missed, rounded up, as the end of a sentence; "" for numbers."""
+    if not aim.resolution:
+        return ""
+    widths = [_with_unit(aim, axis, _above(width)) for axis, width in enumerate(aim.resolution.values())]
+    kind = "gaps and intervals" if len(widths) == 1 else "gaps and regions"
+    return f"; {kind} narrower than {' by '.join(widths)} may be missed"
+
+
+def _above(width: float) -> str:
+    """A width rounded up to one digit."""
+    power = 10.0 ** floor(log10(width))
+    return f"{ceil(width / power * (1.0 - 1e-9)) * power:.1g}"
 
 
 def _question(aim: Aim) -> str:
@@ -139,7 +156,7 @@ def _interval_lines(aim: Aim) -> list[str]:
     room = _with_unit(aim, 0, significant(0.5 * best.width))
     side = "both sides" if best.open_low and best.open_high else "the lower side" if best.open_low else "the upper side"
     cut = f"; it continues beyond the range on {side}: widen the range to see its middle" if _is_cut(best) else ""
-    forgiving = paragraph(f"{_forgiving(aim)}, with {room} of room to either side{cut}")
+    forgiving = paragraph(f"{_forgiving(aim)}, with a margin of ±{room}{cut}")
     return [*table(headings, rows, "rrrrrl"), *_more(aim), "", *forgiving]
 
 

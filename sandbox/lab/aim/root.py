@@ -46,7 +46,7 @@ def bracketed(miss: Callable[[float], float], a: float, b: float, fine: float) -
 
 
 def is_met(shots: Shots, point: tuple[float, ...]) -> bool:
-    """Whether all targets are met, within a millionth of the results' variation, or within their numerical error."""
+    """True if all targets are met, within a millionth of the results' variation, or within their numerical error."""
     misses = np.abs(shots.numbers(point, "solve"))
     spreads = np.array([shots.spread(index) for index in range(len(shots.targets))])
     if (misses <= _MET * spreads).all():

@@ -9,9 +9,9 @@ from math import copysign, inf, isfinite
 import numpy as np
 
 from sandbox.lab.aim.greatest import peak
-from sandbox.lab.aim.question import Solution, Try
+from sandbox.lab.aim.question import Solution, Trial
 from sandbox.lab.aim.root import SAME, bracketed, is_met, solution
-from sandbox.lab.aim.shots import Shots, scan
+from sandbox.lab.aim.shots import SCAN, Shots, scan
 
 #: Roots are found to this fraction of the range.
 _FINE = 1e-12
@@ -20,17 +20,23 @@ _FINE = 1e-12
 _PARTS, _DEEPEST = 8, 3
 
 
+#: Runs that a root takes, and a place where a result may barely reach the target, about: for the progress bar.
+_RUNS_OF_A_ROOT, _RUNS_OF_A_TURN = 25, 150
+
+
 class _Gap(Exception):
     """A missing result inside a bracket."""
 
 
-def roots_of(shots: Shots) -> tuple[list[Solution], list[tuple[Try, Try]]]:
+def roots_of(shots: Shots) -> tuple[list[Solution], list[tuple[Trial, Trial]]]:
     """Every value in the range at which a number meets its target, and the jumps over it."""
-    seen = [(place, float(shots.missed(result)[0])) for place, result in scan(shots)]
+    seen = [(place, float(shots.missed(result)[0])) for place, result in scan(shots, SCAN)]
     span = shots.spans[0]
     found = [place for place, miss in seen if miss == 0.0]
     jumps: list[float] = []
-    brackets = [*_brackets(seen), *_hidden(shots, seen)]
+    crossed, turns = list(_brackets(seen)), list(_turns(seen))
+    shots.planned = len(shots.tries) + _RUNS_OF_A_ROOT * len(crossed) + _RUNS_OF_A_TURN * len(turns)
+    brackets = [*crossed, *_hidden(shots, seen, turns)]
     for number, (low, high) in enumerate(brackets):
         for root in _roots(shots, low, high, f"solve {number + 1}", depth=0):
             (found if is_met(shots, (root,)) else jumps).append(root)
@@ -51,12 +57,18 @@ def _brackets(seen: Iterable[tuple[float, float]]) -> Iterator[tuple[float, floa
             yield low, high
 
 
-def _hidden(shots: Shots, seen: Sequence[tuple[float, float]]) -> Iterator[tuple[float, float]]:
-    """Brackets of pairs of roots with no point of the scan between them: a result that barely reaches the target."""
-    for left, here, right in zip(seen, seen[1:], seen[2:], strict=False):
-        misses = left[1], here[1], right[1]
-        if not all(map(isfinite, misses)) or min(misses) <= 0.0 <= max(misses) or not _is_lowest(*misses):
-            continue
+def _turns(seen: Sequence[tuple[float, float]]) -> Iterator[int]:
+    """The points of the scan around which a result may barely reach the target."""
+    for place in range(1, len(seen) - 1):
+        misses = seen[place - 1][1], seen[place][1], seen[place + 1][1]
+        if all(map(isfinite, misses)) and not min(misses) <= 0.0 <= max(misses) and _is_lowest(*misses):
+            yield place
+
+
+def _hidden(shots: Shots, seen: Sequence[tuple[float, float]], turns: Sequence[int]) -> Iterator[tuple[float, float]]:
+    """Brackets of pairs of roots with no point of the scan between them, around some of its points."""
+    for place in turns:
+        left, here, right = seen[place - 1 : place + 2]
         turn = _turning_point(shots, left[0], right[0], copysign(1.0, here[1]))
         if turn[1] * here[1] <= 0.0:
             yield left[0], turn[0]
@@ -64,7 +76,7 @@ def _hidden(shots: Shots, seen: Sequence[tuple[float, float]]) -> Iterator[tuple
 
 
 def _is_lowest(left: float, here: float, right: float) -> bool:
-    """Whether the middle value is closest to zero, and a parabola through all three reaches or nearly reaches zero."""
+    """True if the middle value is closest to zero, and a parabola through all three reaches or nearly reaches zero."""
     if abs(here) > min(abs(left), abs(right)):
         return False
     bend, lean = left - 2.0 * here + right, 0.5 * (right - left)
@@ -73,7 +85,7 @@ def _is_lowest(left: float, here: float, right: float) -> bool:
 
 
 def _turning_point(shots: Shots, low: float, high: float, sign: float) -> tuple[float, float]:
-    """Where the result comes closest to the target, or exceeds it most, and its miss there."""
+    """The place where the result comes closest to the target, or exceeds it most, and its miss there."""
     (place,), height = peak(shots, [low], [high], lambda result: -sign * float(shots.missed(result)[0]))
     return place, -sign * height
 
@@ -99,7 +111,7 @@ def _roots(shots: Shots, low: float, high: float, phase: str, depth: int) -> Ite
                 yield from _roots(shots, *inner, phase, depth + 1)
 
 
-def _sides(shots: Shots, place: float) -> tuple[Try, Try]:
+def _sides(shots: Shots, place: float) -> tuple[Trial, Trial]:
     """The tries on either side of a jump."""
     ordered = sorted((each for each in shots.tries if each.found[0] is not None), key=lambda each: each.values)
     wanted = shots.targets[0].value

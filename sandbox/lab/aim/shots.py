@@ -9,19 +9,23 @@ from typing import Any
 
 import numpy as np
 
-from sandbox.engine.run import Run
 from sandbox.errors import RequestError, RunError
-from sandbox.lab.aim.question import GREATEST, Target, Try
+from sandbox.lab.aim.question import GREATEST, Target, Trial
 from sandbox.lab.axes import Span
-from sandbox.lab.runs import Progress, runs
+from sandbox.lab.runs import Progress, fly_together, runs
 from sandbox.scene import Scene, compare
+from sandbox.scene.scene_run import SceneRun
 from sandbox.text import no_such_result
 from sandbox.tracebacks import one_line_error
 
-#: Points of the scan of one parameter.
+#: Points of the scan of one parameter for a target that is a number.
 SCAN = 129
 
-#: Refinements of an interval with a jump, the parts of each, and the most runs for all of them.
+#: Points of the scan for a target that is not a number, where runs are computed together, and where one by one. The
+#: result may change between any two points without a sign of it, so their spacing is the width that is guaranteed.
+DENSE, DENSE_ALONE = 2049, 513
+
+#: Refinements of an interval with a jump, the parts of each, and the most runs that these may add.
 _REFINEMENTS, _PARTS, _MOST_RUNS = 3, 4, 2000
 
 #: A result is not smooth if it differs from the cubic through its four neighbours by more than this fraction of their
@@ -36,8 +40,9 @@ class Shots:
         self.scene = scene
         self.spans = spans
         self.targets = targets
-        self.tries: list[Try] = []
+        self.tries: list[Trial] = []
         self.failures = 0
+        self.resolution: dict[str, float] = {}
         self._names = [target.name for target in targets]
         for target in targets:
             if target.name not in scene.facts:
@@ -49,7 +54,7 @@ class Shots:
         self._progress = progress
         self._first_error: Exception | None = None
         self._known: dict[tuple[float, ...], dict[str, Any] | None] = {}
-        self._finer: dict[tuple[float, ...], Run | Exception] = {}
+        self._finer: dict[tuple[float, ...], SceneRun | Exception] = {}
 
     def results(
         self, points: Sequence[tuple[float, ...]], phase: str = "scan", others: bool = False
@@ -64,14 +69,18 @@ class Shots:
             result = self._known[point] = _result(run)
             self._check_kinds(result)
             found = tuple(None if result is None else result.get(name) for name in self._names)
-            self.tries.append(Try(point, found, phase))
+            self.tries.append(Trial(point, found, phase))
             self._progress(len(self.tries), max(self.planned, len(self.tries)))
         return [self._known[point] for point in points]
 
     #: Expected number of runs, for the progress bar.
     planned = SCAN
 
-    def finer(self, points: Sequence[tuple[float, ...]]) -> list[Run | Exception]:
+    def resolved(self, share: float) -> None:
+        """Keep the widths, as a share of each range, below which an interval or region, or a gap, may be missed."""
+        self.resolution = {span.key: share * (span.high - span.low) for span in self.spans}
+
+    def finer(self, points: Sequence[tuple[float, ...]]) -> list[SceneRun | Exception]:
         """Finer runs at some points, with all facts but how a run ends."""
         new = [point for point in dict.fromkeys(points) if point not in self._finer]
         found = runs(self.scene, self._keys, new, finer=True, asked=self.scene.all_but_the_end)
@@ -83,7 +92,7 @@ class Shots:
         return self.missed(self.results([point], phase)[0])
 
     def meets(self, points: Sequence[tuple[float, ...]], phase: str, finer: bool = False) -> list[bool]:
-        """Whether the target, which is not a number, is met at each of these points."""
+        """True if the target, which is not a number, is met at each of these points."""
         target = self.targets[0]
         found = [_result(run) for run in self.finer(points)] if finer else self.results(points, phase)
         return [result is not None and target.met(result.get(target.name)) for result in found]
@@ -104,14 +113,14 @@ class Shots:
         return [self._compared(*each) for each in zip(points, coarser, self.finer(points), strict=True)]
 
     def _compared(
-        self, point: tuple[float, ...], run: Run | Exception, finer: Run | Exception
+        self, point: tuple[float, ...], run: SceneRun | Exception, finer: SceneRun | Exception
     ) -> tuple[dict[str, Any], dict[str, float], np.ndarray]:
         if isinstance(run, Exception) or isinstance(finer, Exception):
             return dict(self._known.get(point) or {}), {}, np.full(len(self.targets), np.nan)
         shift = self.missed(finer.result) - self.missed(run.result) if all(t.is_number for t in self.targets) else None
         return run.result, compare(run, finer).errors, np.zeros(0) if shift is None else shift
 
-    def nearest(self) -> Try | None:
+    def nearest(self) -> Trial | None:
         """The try with the smallest miss. Raises RunError if none was completed."""
         if self._first_error is not None and self.failures == len(self.tries):
             first = one_line_error(self._first_error)
@@ -121,7 +130,7 @@ class Shots:
         complete = [each for each in self.tries if all(value is not None for value in each.found)]
         scales = [self.spread(index) for index in range(len(self.targets))]
 
-        def miss(each: Try) -> float:
+        def miss(each: Trial) -> float:
             offs = zip(each.found, self.targets, scales, strict=True)
             return hypot(*((value - target.value) / scale for value, target, scale in offs))
 
@@ -150,7 +159,7 @@ class Shots:
 
 
 def _example(target: Target, value: Any) -> str:
-    """How to aim at a result like this value: a word that may look like a number is in quotes, also for the shell."""
+    """A target for a result like this value: a word that may look like a number is in quotes, also for the shell."""
     if isinstance(value, list | dict):
         value = next(iter(value), "1")
     text = f"{value:.4g}" if isinstance(value, float) else str(value).lower() if isinstance(value, bool) else str(value)
@@ -158,7 +167,7 @@ def _example(target: Target, value: Any) -> str:
 
 
 def _kind(value: Any) -> str:
-    """What a result is, in words."""
+    """The kind of a result, in words."""
     if isinstance(value, bool | np.bool_):
         return "true or false"
     return (
@@ -166,7 +175,7 @@ def _kind(value: Any) -> str:
     )
 
 
-def _result(run: Run | Exception) -> dict[str, Any] | None:
+def _result(run: SceneRun | Exception) -> dict[str, Any] | None:
     return None if isinstance(run, Exception) else run.result
 
 
@@ -194,17 +203,24 @@ def _signature(result: Mapping[str, Any] | None) -> Any:
     ]
 
 
-def scan(shots: Shots) -> list[tuple[float, dict[str, Any] | None]]:
-    """Results over the range, with more points where something changes abruptly."""
+def dense(shots: Shots) -> int:
+    """The number of points of a scan that misses nothing wider than its spacing."""
+    middle = [0.5 * (span.low + span.high) for span in shots.spans]
+    return DENSE if fly_together(shots.scene, [span.key for span in shots.spans], middle) else DENSE_ALONE
+
+
+def scan(shots: Shots, points: int) -> list[tuple[float, dict[str, Any] | None]]:
+    """Results at this many points of the range, with more points where something changes abruptly."""
     span, target = shots.spans[0], shots.targets[0]
-    places = np.linspace(span.low, span.high, SCAN).tolist()
+    shots.planned = points
+    places = np.linspace(span.low, span.high, points).tolist()
     for _ in range(_REFINEMENTS + 1):
         results = shots.results([(place,) for place in places], others=True)
         seen = list(zip(places, results, strict=True))
         rough = {index for index, (one, other) in enumerate(pairwise(results)) if _signature(one) != _signature(other)}
         if target.is_number:
             rough |= _bends(np.array(places), np.array([shots.missed(result)[0] for result in results]))
-        if not rough or len(shots.tries) + (_PARTS - 1) * len(rough) > _MOST_RUNS:
+        if not rough or len(places) + (_PARTS - 1) * len(rough) > points + _MOST_RUNS:
             break
         finer: list[float] = []
         for index, (low, high) in enumerate(pairwise(places)):

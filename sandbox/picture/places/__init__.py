@@ -1,4 +1,4 @@
-"""Of what a place is made, seen from the side: ground, what lies behind it, and things that stand on it."""
+"""The parts of a place, seen from the side: ground, what lies behind it, and things that stand on it."""
 
 from sandbox.picture.places.courts import COURT_WIDTH, tennis_court
 from sandbox.picture.places.ground import Ground, Line, Planks, Stripes, boards, turf

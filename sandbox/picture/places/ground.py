@@ -158,12 +158,12 @@ def boards(colours: Mapping[str, Any], **more: Any) -> Ground:
 
 @lru_cache(maxsize=4)
 def _canvas(size: tuple[int, int]) -> pygame.Surface:
-    """Where ground is drawn, larger: new memory is slow."""
+    """The surface on which ground is drawn, larger: new memory is slow."""
     return blank(size)
 
 
 @lru_cache(maxsize=4)
 def _haze(size: tuple[int, int], colour: Colour) -> pygame.Surface:
-    """What the ground fades into with distance."""
+    """The colour into which the ground fades with distance."""
     fade = np.linspace(150 / 255, 0, round(0.8 * size[1]))
     return from_coverage(np.broadcast_to(fade, (size[0], len(fade))), colour)

@@ -196,13 +196,13 @@ class Person:
         painter.disc(at(-0.01, 0.0), 0.18 * wide, kit.hair)
 
     def place(self, camera: Camera, unit: float) -> Point:
-        """Where the person stands, in px."""
+        """The person's place, in px."""
         turn, back = radians(self.facing), self.behind * enlarged(camera, unit)
         return camera.pixel(self.at[0] - back * cos(turn), self.at[1] - back * sin(turn))
 
 
 def enlarged(camera: Camera, unit: float) -> float:
-    """How many times their size people are drawn, so as to be seen."""
+    """The factor by which people are drawn larger, so as to be seen."""
     return max(1.0, LEAST_PERSON * unit / (BREADTH * camera.scale))
 
 

@@ -1,4 +1,4 @@
-"""What lies behind the ground: stands under an evening sky, a hall with people who watch, an open landscape."""
+"""Scenery behind the ground: stands under an evening sky, a hall with people who watch, an open landscape."""
 
 from __future__ import annotations
 
@@ -30,14 +30,16 @@ Layer = tuple[pygame.Surface, int, float]
 
 
 class Scenery:
-    """What lies behind: a frozen dataclass, so that its layers can be kept."""
+    """Scenery: a frozen dataclass, so that its layers can be kept."""
 
     def layers(self, size: tuple[int, int], foot: int) -> tuple[Layer, ...]:
         """Down to the row ``foot`` (px) of a picture of ``size`` px, the farthest first."""
         raise NotImplementedError
 
     def draw(self, surface: pygame.Surface, foot: int, moved: float) -> None:
-        """As seen by an eye that has moved ``moved`` px to the right."""
+        """As seen by an eye that has moved ``moved`` px to the right; nothing where its foot is above the picture."""
+        if foot <= 0:
+            return
         for layer, top, speed in _layers(self, surface.get_size(), foot):
             width = layer.get_width()
             left = -(round(speed * moved) % width)
@@ -66,7 +68,7 @@ class Stands(Scenery):
 
     def layers(self, size: tuple[int, int], foot: int) -> tuple[Layer, ...]:
         width, unit = size[0], rows_of(size) / 720
-        sky = shaded(width, np.clip(np.arange(foot) / (foot - 90 * unit), 0, 1), self.sky, 1.3)
+        sky = shaded(width, np.clip(np.arange(foot) / max(1.0, foot - 90 * unit), 0, 1), self.sky, 1.3)
         sky = glowing(sky, self.glow, (0.70 * width, foot - 120 * unit), (0.30 * width, 120 * unit))
         return (from_colours(sky), 0, 0.0), (_stands(self, size, foot), 0, 0.25)
 
@@ -267,7 +269,7 @@ class _Artist:
         return from_coverage(cover * 0.8, colour), int(self.foot * 0.08)
 
     def stars(self) -> tuple[pygame.Surface, int]:
-        """Where there is no air."""
+        """A sky without air."""
         cover = np.zeros((self.width, self.foot), np.float32)
         places = self.random.uniform((0, 0), (self.width, self.foot), (260, 2))
         for (x, y), faint in zip(places, self.random.uniform(0, 1, len(places)), strict=True):

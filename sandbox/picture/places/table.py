@@ -1,4 +1,4 @@
-"""What only tables have: wooden rails with cushions, pockets and sights, seen from above under a lamp in a dark room.
+"""Parts that only tables have: wooden rails with cushions, pockets and sights, from above under a lamp in a dark room.
 
 Parts of a plan, as in ``plan.py``; the middle of the table is the origin and half sizes are (along x, along y), in m.
 """
@@ -13,7 +13,7 @@ from math import exp, hypot
 import numpy as np
 import pygame
 
-from sandbox.engine.setup import Segment, Surface
+from sandbox.engine.model.surface import Segment, Surface
 from sandbox.picture.camera import Box, Camera
 from sandbox.picture.painter import Painter, Point, around_corners, blank, from_colours
 from sandbox.picture.palette import Colour, mix
@@ -152,7 +152,7 @@ class Cushion:
 
 
 def cushions(surfaces: Sequence[Surface], back: Point, colours: tuple[Colour, Colour]) -> tuple[Cushion, ...]:
-    """Of the segments named "... cushion", which are noses, each between the jaws that begin at its ends."""
+    """The cushions of segments named "... cushion", which are noses, each between the jaws that begin at its ends."""
     shapes = [(s.name.endswith("cushion"), s.shape) for s in surfaces if isinstance(s.shape, Segment)]
     jaws = [(shape.a, shape.b, shape.radius) for nose, shape in shapes if not nose]
     found = []

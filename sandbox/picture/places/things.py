@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from math import dist
-from typing import Any, ClassVar, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -36,14 +36,18 @@ class Thing(Protocol):
 
     @property
     def near(self) -> bool:
-        """Whether it is before the ball, from the side."""
+        """True if it is before the ball, from the side."""
+
+    @property
+    def corners(self) -> Sequence[Point3]:
+        """Points in m around what it hides."""
 
     def draw(self, painter: Painter, eye: Any) -> None:
         """As the eye sees it."""
 
 
 def unit_of(painter: Painter) -> float:
-    """What 1 px is on a picture of 720 rows."""
+    """The size of 1 px on a picture of 720 rows, in px."""
     return rows_of(painter.surface.get_size()) / 720
 
 
@@ -56,6 +60,10 @@ class Net:
     opacity: float
     mesh: float = 0.12
     near: bool = False
+
+    @property
+    def corners(self) -> Sequence[Point3]:
+        return ()  # one sees through it
 
     def draw(self, painter: Painter, eye: Eye) -> None:
         threads, edges, thin = [], [], max(0.6, 0.8 * unit_of(painter))
@@ -82,6 +90,10 @@ class Post:
     radius: float
     colour: Colour
     near: bool = False
+
+    @property
+    def corners(self) -> Sequence[Point3]:
+        return self.points
 
     def draw(self, painter: Painter, eye: Eye) -> None:
         points = np.array(self.points)
@@ -117,8 +129,11 @@ def _figures() -> dict[str, Any]:
 
 @cache
 def pose_of(name: str) -> Pose:
-    """One of the poses."""
-    found, strokes = _figures()["poses"][name], _figures()["strokes"]
+    """The pose of this name. Raises ValueError for an unknown one."""
+    poses, strokes = _figures()["poses"], _figures()["strokes"]
+    if name not in poses:
+        raise ValueError(f"pose = {name!r}: there is no such pose; the poses are {', '.join(poses)}")
+    found = poses[name]
     drawn = [(part, width, points) for group in found["strokes"] for part, width, *points in strokes[group]]
     return Pose(drawn, tuple(found.get("holds", (0.0, 0.0))))
 
@@ -134,7 +149,19 @@ class Person:
     z: float = 0.0
     up: float = 0.0
     facing: int = 1
-    near: ClassVar[bool] = False
+    near: bool = False
+
+    @property
+    def corners(self) -> Sequence[Point3]:
+        half = 0.2 * self.tall
+        return [(self.x + side * half, self.up + high, self.z) for side in (-1, 1) for high in (0.0, self.tall)]
+
+    def __post_init__(self) -> None:
+        parts = dict.fromkeys(part for part, *_ in pose_of(self.pose).strokes)
+        missing = [part for part in parts if part not in self.colours]
+        if missing:
+            needed = ", ".join(parts)
+            raise ValueError(f"pose = {self.pose!r}: colours lacks {', '.join(missing)}; this pose needs {needed}")
 
     @classmethod
     def holding(

@@ -8,8 +8,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from sandbox.engine.setup import Ball, Segment, Setup, Surface
-from sandbox.parameters import Group, SceneParameters, choice, either, group, groups, quantity, switch, vector
+from sandbox.engine.model.ball import Ball
+from sandbox.engine.model.setup import Setup
+from sandbox.engine.model.surface import Segment, Surface
+from sandbox.parameters import Group, SceneParameters, choice, group, groups, one_of, quantity, switch, vector
 from sandbox.sport.facts import Fact
 
 
@@ -32,7 +34,7 @@ class ConstantDrag(Group):
 class DroppedBall(Group):
     mass: float = quantity(0.1, "kg", low=1e-6, high=1e3, meaning="mass")
     radius: float = quantity(0.05, "m", low=1e-4, high=10, meaning="radius")
-    drag: NoDrag | ConstantDrag = either(NoDrag(), "drag of the air")
+    drag: NoDrag | ConstantDrag = one_of(NoDrag(), "drag of the air")
 
 
 class Air(Group):

@@ -1,0 +1,1 @@
+"""Contacts: when things touch and where, and how a surface responds."""

@@ -1,0 +1,57 @@
+"""The event queue: what is predicted for each ball, in order of time."""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Sequence
+from itertools import count
+from typing import NamedTuple
+
+from sandbox.engine.motion.event_kind import EventKind
+from sandbox.engine.motion.moving_ball import MovingBall
+
+#: In place of the second ball of an event that has only one.
+NO_BALL = -1
+
+
+class QueuedEvent(NamedTuple):
+    """A predicted event. It is out of date, and skipped, once one of its balls has another arc."""
+
+    t: float  # s
+    order: int  # of two at the same time the one that was predicted first comes first
+    kind: EventKind
+    ball: int  # index into the balls of the setup
+    version: int  # of that ball's arc when this was predicted
+    other: int  # the second ball of a touch, or NO_BALL
+    other_version: int
+
+    @property
+    def balls(self) -> list[int]:
+        """The one or two balls."""
+        return [self.ball] if self.other == NO_BALL else [self.ball, self.other]
+
+
+class EventQueue:
+    """Predicted events of balls, earliest first."""
+
+    def __init__(self, tracks: Sequence[MovingBall]) -> None:
+        self._tracks = tracks
+        self._heap: list[QueuedEvent] = []
+        self._order = count()
+
+    def push(self, t: float, kind: EventKind, ball: int, other: int = NO_BALL) -> None:
+        """Add an event at t that holds as long as its balls are on their present arcs."""
+        other_version = 0 if other == NO_BALL else self._tracks[other].version
+        event = QueuedEvent(t, next(self._order), kind, ball, self._tracks[ball].version, other, other_version)
+        heapq.heappush(self._heap, event)
+
+    def pop(self) -> QueuedEvent | None:
+        """Remove and return the earliest event that is not out of date; None if there is none."""
+        while self._heap:
+            event = heapq.heappop(self._heap)
+            _, _, _, ball, version, other, other_version = event
+            if self._tracks[ball].version == version and (
+                other == NO_BALL or self._tracks[other].version == other_version
+            ):
+                return event
+        return None

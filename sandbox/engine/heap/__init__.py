@@ -1,0 +1,1 @@
+"""Balls and bodies that lie on one another, stepped by pymunk."""

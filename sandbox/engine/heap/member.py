@@ -1,0 +1,137 @@
+"""A ball or body in a heap, and its counterpart in pymunk's Space."""
+
+from __future__ import annotations
+
+from math import hypot
+
+import pymunk
+
+from sandbox.engine.contact.touch import Obstacle
+from sandbox.engine.heap.pymunk_world import PymunkWorld
+from sandbox.engine.model.ball import kinetic
+from sandbox.engine.model.surface import Surface
+from sandbox.engine.motion.moving_ball import InHeap, MovingBall
+from sandbox.engine.paths.arc import Arc
+from sandbox.physics.integrators import Acceleration, State
+
+
+class Member:
+    """A ball or body in a heap. A step is half a drift, the impulses of forces and contacts, and half a drift.
+
+    Chipmunk's unit of time is ``unit`` s.
+    """
+
+    def __init__(self, index: int, track: MovingBall, world: PymunkWorld, unit: float, since: float) -> None:
+        self.index = index
+        self.track = track
+        self.ball = track.ball
+        self.since = since  # s, when it came to press on others; from the start, forever
+        self.slow_for = 0.0  # s
+        self.resistance = 0.0  # N m, of rolling, by the pressure of the step before
+        self.touching: set[Obstacle | int] = set()  # obstacles, and balls by index, in this step
+        self.before: set[Obstacle | int] = set()  # the same in the step before
+        self.left_out: set[Obstacle | int] = set()  # what it met too fast in this step: left to an impact
+        self.start: State = track.state
+        self.end: State = track.state
+        self.applied: Acceleration | None = None  # by forces in the middle of the last step, in m/s^2 and rad/s^2
+        self.body, self.disc = world.add(self.ball)
+        self.brake = pymunk.SimpleMotor(self.body, world.space.static_body, 0.0)  # rolling resistance
+        self._unit, self._h = unit, 0.0  # s
+        world.space.add(self.brake)
+
+    def place(self, t: float, h: float, state: State) -> None:
+        """Begin a step of h s at t: Chipmunk will move it from here to the middle."""
+        x, y, vx, vy, spin, *angle = state
+        unit, ball, body = self._unit, self.ball, self.body
+        turned = [angle[0] + 0.5 * h * spin] if angle else []
+        middle = (x + 0.5 * h * vx, y + 0.5 * h * vy, vx, vy, spin, *turned)
+        self.start, self._h = state, h
+        self.applied = ax, ay, turning = self.track.applied(t + 0.5 * h, middle)
+        body.position = (x - 0.5 * h * vx, y - 0.5 * h * vy)
+        body.angle = angle[0] - 0.5 * h * spin if angle else 0.0
+        body.velocity, body.angular_velocity = (unit * vx, unit * vy), unit * spin
+        mass, inertia = unit * unit * ball.mass, unit * unit * ball.inertia
+        body.force, body.torque = (mass * ax, mass * ay), inertia * turning
+        self.brake.max_force = unit * unit * self.resistance
+        self.touching, self.left_out = set(), set()
+
+    @property
+    def velocity(self) -> tuple[float, float, float]:
+        """Its velocity after the impulses, in m/s and rad/s."""
+        (vx, vy), spin, unit = self.body.velocity, self.body.angular_velocity, self._unit
+        return vx / unit, vy / unit, spin / unit
+
+    @velocity.setter
+    def velocity(self, new: tuple[float, float, float]) -> None:
+        vx, vy, spin = new
+        self.body.velocity, self.body.angular_velocity = (self._unit * vx, self._unit * vy), self._unit * spin
+
+    @property
+    def freely(self) -> tuple[float, float, float]:
+        """The velocity that it would have after this step by forces alone, in m/s and rad/s."""
+        assert self.applied is not None
+        (_, _, vx, vy, spin, *_), (ax, ay, turning), h = self.start, self.applied, self._h
+        return vx + h * ax, vy + h * ay, spin + h * turning
+
+    def velocity_at(self, x: float, y: float) -> tuple[float, float]:
+        """The velocity in m/s, before the impulses, of its point that is at (x, y) in the middle of the step."""
+        _, _, vx, vy, spin, *_ = self.start
+        at = self.body.position
+        return vx - spin * (y - at.y), vy + spin * (x - at.x)
+
+    def velocity_after(self, x: float, y: float) -> tuple[float, float]:
+        """The same after the impulses."""
+        (vx, vy, spin), at = self.velocity, self.body.position
+        return vx - spin * (y - at.y), vy + spin * (x - at.x)
+
+    @property
+    def energy(self) -> float:
+        """Kinetic energy in J after the impulses."""
+        return kinetic(self.ball, (0.0, 0.0, *self.velocity))
+
+    @property
+    def gain(self) -> float:
+        """The energy in J that it gains in the step beyond the work of forces, which act where it is moved by position
+        correction, too."""
+        assert self.applied is not None
+        (x, y, ux, uy, spun, *_), (ax, ay, turning) = self.start, self.applied
+        (vx, vy, spin), at, ball, half = self.velocity, self.body.position, self.ball, 0.5 * self._h
+        dx, dy = at.x + half * vx - x, at.y + half * vy - y
+        by_speed = 0.5 * (vx * vx + vy * vy - ux * ux - uy * uy) - ax * dx - ay * dy
+        by_spin = 0.5 * (spin * spin - spun * spun) - turning * half * (spun + spin)
+        return ball.mass * by_speed + ball.inertia * by_spin
+
+    @property
+    def fastest(self) -> float:
+        """A speed in m/s that no point of a body, or of a ball its centre, exceeds at the start or end of the step."""
+        reach = self.ball.radius if self.ball.rotates else 0.0
+        return max(hypot(state[2], state[3]) + reach * abs(state[4]) for state in (self.start, self.end))
+
+    def swing(self, spin: float) -> float:
+        """The acceleration in m/s^2 of the farthest point of a body with this spin (rad/s): it presses on others
+        without a force, too."""
+        return spin * spin * self.ball.radius if self.ball.rotates else 0.0
+
+    def resist(self, surface: Surface, push: float, height: float) -> None:
+        """Add the torque of rolling resistance on a surface that presses with ``push`` (N) and is ``height`` (m) from
+        the centre."""
+        self.resistance += surface.rolling_resistance * push * (height + self.ball.inertia / (self.ball.mass * height))
+
+    def arc(self, t: float) -> Arc:
+        """The path of the step from t, in which the velocity changes evenly, moved by position correction."""
+        h, body = self._h, self.body
+        x, y, ux, uy, spun, *angle = self.start
+        (px, py), (vx, vy, spin) = body.position, self.velocity
+        dx, dy = px - x - 0.5 * h * ux, py - y - 0.5 * h * uy
+        turn = body.angle
+        turned = tuple((at, 0.5 * (at + turn) + 0.25 * h * spun, turn + 0.5 * h * spin) for at in angle)
+        self.end = (px + 0.5 * h * vx, py + 0.5 * h * vy, vx, vy, spin, *(curve[-1] for curve in turned))
+        curves = (
+            (x, x + 0.5 * (h * ux + dx), self.end[0]),
+            (y, y + 0.5 * (h * uy + dy), self.end[1]),
+            (ux, vx),
+            (uy, vy),
+            (spun, spin),
+            *turned,
+        )
+        return Arc(t, t + h, self.start, curves, InHeap(dx / h, dy / h), self.end)

@@ -1,0 +1,302 @@
+"""One step of a heap: pymunk finds the contacts in its middle, and their impulses; it creates no energy."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import pymunk
+
+from sandbox.engine.contact.manifold import all_round
+from sandbox.engine.contact.surfaces import bounce_of_balls, bounce_off
+from sandbox.engine.heap.member import Member
+from sandbox.engine.heap.pymunk_world import PymunkWorld, rolls, speeds_at
+from sandbox.engine.model.ball import Ball, kinetic
+from sandbox.engine.model.setup import Setup
+from sandbox.engine.model.shapes import Vector
+from sandbox.engine.model.surface import Surface
+from sandbox.errors import RunError
+from sandbox.physics.integrators import State
+
+if TYPE_CHECKING:
+    from sandbox.engine.heap.contact_solver import Contacts
+
+#: Solver iterations for balls that are alike, and the largest ratio of masses up to which they are. Each step starts
+#: from the impulses of the one before. Fewer: balls sink into one another; a larger ratio needs as many times more.
+_ITERATIONS, _ALIKE = 100, 10.0
+
+#: Share of an overlap that is left after a step; in Chipmunk after a unit of time at least, without underflow. Smaller:
+#: a step moves what lies on others by more than its velocity; larger: overlaps of fast steps last.
+_LEFT, _LEAST_LEFT = 0.6, 1e-300
+
+#: Closing speed, in units of what forces give in a step, below which Chipmunk's iterations have come to their end; and
+#: overlap, in margins, that is left as it is.
+_CLOSING, _LEVEL = 1e-3, 1e-3
+
+#: Share of restitution that is left where energy would grow, and below which there is none.
+_REDUCED, _LEAST = 0.5, 0.1
+
+#: Energy that all steps of heaps together may create: as a share of the largest kinetic energies, and as much as lifts
+#: those that touch by this many margins, a twentieth of the smallest radius, which they may overlap while they are
+#: poured. Less: heaps that come to rest are errors; more: energy from nothing is not noticed.
+_CREATED, _LIFTED = 1e-3, 50.0
+
+
+@dataclass(slots=True)
+class Touch:
+    """Two that touch in a step."""
+
+    first: Member
+    second: Member | None
+    surface: Surface | None
+    normal: Vector  # unit vector from the first
+    points: Sequence[tuple[Vector, float]]  # m, and the gap there in m
+    restitution: float
+    friction: float
+    approach: float  # m/s, before the impulses, where they approach fastest
+    height: float  # m, of the centre above the surface that resists its rolling; 0 if none does
+    push: float  # N s, of the normal impulse
+
+
+Group = tuple[list[Member], list[Touch]]
+
+
+class Stepper:
+    """Steps the balls and bodies of a heap.
+
+    Balls that are alike are solved by Chipmunk's iterations, and so are bodies that are alike, where these come to
+    their end; they take long where heavy ones lie on light ones: there the contacts are solved directly. A step gains
+    no energy: restitution is reduced first, and what remains, mostly of lifting what overlaps, is taken from the
+    motion of those that touch one another.
+    """
+
+    def __init__(self, setup: Setup, margin: float, unit: float) -> None:
+        """``margin`` is the gap in m up to which shapes touch, ``unit`` Chipmunk's unit of time in s."""
+        self.unit = unit
+        self.margin = margin
+        masses = [ball.mass for ball in setup.balls]
+        self._ratio = max(masses) / min(masses)
+        self.directly = not all_round(*setup.balls) or self._ratio > _ALIKE
+        self._setup = setup
+        self._h, self._pressed_speed, self._impact_speed = 0.0, 0.0, 0.0  # s, m/s, m/s
+        self._touches: list[Touch] = []
+        self._approach: dict[frozenset[pymunk.Shape], float] = {}  # m/s, of what touches in this step
+        self._of_disc: dict[pymunk.Shape, Member] = {}
+        self._gained = 0.0  # J, in all steps; negative, as contacts take energy
+        self._most: dict[int, float] = {}  # J, of kinetic energy, by index
+
+    @cached_property
+    def world(self) -> PymunkWorld:
+        """The Space, made when there is something to step."""
+        # at rest shapes stay in touch: their margins overlap
+        iterations = _ITERATIONS if self.directly else int(_ITERATIONS * self._ratio**0.5)
+        world = PymunkWorld(self._setup.surfaces, iterations, self.margin, 0.5 * self.margin)
+        world.on_contact(self._meet, self._press)
+        return world
+
+    def add(self, member: Member) -> None:
+        """Step this one, too."""
+        self._of_disc[member.disc] = member
+
+    def remove(self, member: Member) -> None:
+        """Step it no more."""
+        del self._of_disc[member.disc]
+        self.world.space.remove(member.body, member.disc, member.brake)
+
+    def step(self, h: float, span: float, pressed_speed: float, impact_speed: float) -> list[Group]:
+        """Do a step of h s from where the members are placed; returns those that touch one another, in groups.
+
+        ``span`` is the length in s of a step that nothing cuts. What approaches no faster than ``pressed_speed`` (m/s)
+        does not bounce; what does so faster than ``impact_speed`` is left to an impact of its own.
+        """
+        self._h, self._pressed_speed, self._impact_speed = h, pressed_speed, impact_speed
+        space = self.world.space
+        space.collision_bias = 1.0 if self.directly else max(_LEFT ** (self.unit / span), _LEAST_LEFT)
+        self._touches, self._approach = [], {}
+        self.world.step(h / self.unit)
+        groups = self._groups()
+        for members, touches in groups:
+            if self.directly and touches:
+                self._solve(members, touches, 1.0 - _LEFT ** (h / span))
+        return groups
+
+    def note_energy(self, ball: Ball, state: State, index: int) -> None:
+        """Note how much kinetic energy a ball or body has: the energy that a heap creates is compared with the most."""
+        self._most[index] = max(self._most.get(index, 0.0), kinetic(ball, state))
+
+    def settle_accounts(self, t: float, groups: Sequence[Group], forced: float) -> None:
+        """Take what a step that ends at t has gained from the motion. Raises RunError if energy appears that no motion
+        can pay for; ``forced`` is the largest acceleration by forces in m/s^2."""
+        for members, _ in groups:
+            gain, moving = sum(member.gain for member in members), sum(member.energy for member in members)
+            if gain > 0.0:
+                share = max(0.0, 1.0 - gain / moving) ** 0.5 if moving > 0.0 else 0.0
+                for member in members:
+                    vx, vy, spin = member.velocity
+                    member.velocity = share * vx, share * vy, share * spin
+                gain = max(0.0, gain - moving)
+            self._gained += gain
+            had = sum(self._most.values())
+            lifting = forced * _LIFTED * self.margin * sum(member.ball.mass for member in members)
+            if self._gained > _CREATED * had + lifting:
+                names = ", ".join(sorted(repr(member.ball.name) for member in members))
+                raise RunError(
+                    f"t = {t:.6g} s: {self._gained:.3g} J appeared from nothing in the heap of {names}, whose largest "
+                    f"kinetic energy is {had:.3g} J; lower accuracy.step"
+                )
+
+    def _groups(self) -> list[Group]:
+        """The members in groups that touch one another, directly or through others, each with its contacts."""
+        of = {member.index: {member.index} for member in self._of_disc.values()}
+        for touch in self._touches:
+            if touch.second is not None and of[touch.first.index] is not of[touch.second.index]:
+                joined = of[touch.first.index] | of[touch.second.index]
+                of |= dict.fromkeys(joined, joined)
+        groups: dict[int, Group] = {id(group): ([], []) for group in of.values()}
+        for member in self._of_disc.values():
+            groups[id(of[member.index])][0].append(member)
+        for touch in self._touches:
+            groups[id(of[touch.first.index])][1].append(touch)
+        return list(groups.values())
+
+    # ------------------------------------------------------------------ the direct solution
+
+    def _solve(self, members: Sequence[Member], touches: Sequence[Touch], share: float) -> None:
+        """Solve the contacts of a group, and move its members out of this share of their overlaps."""
+        partings, depths = _wanted(touches)
+        iterated = self._ratio <= _ALIKE and self._iterated(members, touches, partings)
+        if iterated and max(depths) <= _LEVEL * self.margin:
+            return
+        contacts = self._contacts(members, touches)
+        guess = [touch.push / len(touch.points) for touch in touches for _ in touch.points]
+        restitution = 1.0
+        while not iterated:
+            velocities, pushes = contacts.impulses([restitution * parting for parting in partings], guess)
+            for member, (vx, vy, spin) in zip(members, velocities, strict=True):
+                member.velocity = vx, vy, spin
+            if restitution == 0.0 or not any(partings) or sum(member.gain for member in members) <= 0.0:
+                break
+            restitution = _REDUCED * restitution if restitution > _LEAST else 0.0
+        if not iterated:
+            of_points = iter(pushes)
+            for touch in touches:
+                touch.push = sum(next(of_points) for _ in touch.points)
+        if max(depths) > 0.0:
+            moved = contacts.moved_apart([share * depth for depth in depths])
+            for member, (dx, dy, turn) in zip(members, moved, strict=True):
+                member.body.position += (dx, dy)
+                member.body.angle += turn
+
+    def _iterated(self, members: Sequence[Member], touches: Sequence[Touch], partings: Sequence[float]) -> bool:
+        """True if Chipmunk's iterations have come to their end in this group: nothing closes any more, and it has
+        gained no energy."""
+        most, wanted = _CLOSING * self._pressed_speed, iter(partings)
+        for touch in touches:
+            nx, ny = touch.normal
+            for (x, y), _ in touch.points:
+                (vx, vy), (ux, uy) = touch.first.velocity_after(x, y), (0.0, 0.0)
+                if touch.second is not None:
+                    ux, uy = touch.second.velocity_after(x, y)
+                if (vx - ux) * nx + (vy - uy) * ny + next(wanted) > most:
+                    return False
+        return sum(member.gain for member in members) <= 0.0
+
+    def _contacts(self, members: Sequence[Member], touches: Sequence[Touch]) -> Contacts:
+        """The contacts of a group."""
+        # here, not above: it brings numpy, which balls that are alike do not need
+        from sandbox.engine.heap.contact_solver import Contacts, Moving, Point
+
+        number = {member.index: place for place, member in enumerate(members)}
+        bodies = [
+            Moving(
+                *each.body.position,
+                1.0 / each.ball.mass,
+                1.0 / each.ball.inertia,
+                each.freely,
+                self._h * each.resistance,
+            )
+            for each in members
+        ]
+        points = []
+        for touch in touches:
+            second = None if touch.second is None else number[touch.second.index]
+            for point, _ in touch.points:
+                points.append(Point(number[touch.first.index], second, point, touch.normal, touch.friction))
+        return Contacts(bodies, points)
+
+    # ------------------------------------------------------------------ callbacks
+
+    def _meet(self, arbiter: pymunk.Arbiter) -> None:
+        """Leave out what meets too fast for sustained contact: it has an impact of its own, at its exact time."""
+        first, second = arbiter.shapes
+        here, there = self._of_disc[first], self._of_disc.get(second)
+        place = -1 if there is not None else self.world.surface_of[second]
+        other = here.track.obstacles[place] if there is None else there.index
+        approach, along, slip = (speed / self.unit for speed in _speeds(arbiter, here, there))
+        arbiter.process_collision = other in here.before or approach <= self._impact_speed  # it is remembered
+        if not arbiter.process_collision:
+            here.left_out.add(other)
+            if there is not None:
+                there.left_out.add(here.index)
+            return
+        here.touching.add(other)
+        self._approach[frozenset(arbiter.shapes)] = approach
+        bounces = approach > self._pressed_speed
+        if there is not None:
+            there.touching.add(here.index)
+            bounce = bounce_of_balls(self._setup, approach, abs(slip), here.ball.name, there.ball.name)
+        elif bounces:
+            bounce = bounce_off(self._setup.surfaces[place], approach, along)
+        else:
+            arbiter.restitution = 0.0
+            return
+        arbiter.restitution, arbiter.friction = bounce.restitution if bounces else 0.0, bounce.friction
+
+    def _press(self, arbiter: pymunk.Arbiter) -> None:
+        """Note a contact."""
+        first, second = arbiter.shapes
+        here, there = self._of_disc[first], self._of_disc.get(second)
+        surface = None if there is not None else self._setup.surfaces[self.world.surface_of[second]]
+        height = 0.0
+        if surface is not None and rolls(here.ball, arbiter):
+            height = here.ball.radius
+            if not all_round(here.ball):
+                height = abs(arbiter.normal.dot(arbiter.contact_point_set.points[0].point_a - here.body.position))
+        points: list[tuple[Vector, float]] = []
+        if self.directly:
+            for point in arbiter.contact_point_set.points:
+                (ax, ay), (bx, by) = point.point_a, point.point_b
+                points.append(((0.5 * (ax + bx), 0.5 * (ay + by)), point.distance + self.margin))
+        push = abs(arbiter.total_impulse.dot(arbiter.normal)) / self.unit
+        nx, ny = arbiter.normal
+        bounce, approach = (arbiter.restitution, arbiter.friction), self._approach[frozenset(arbiter.shapes)]
+        self._touches.append(Touch(here, there, surface, (nx, ny), points, *bounce, approach, height, push))
+
+
+def _wanted(touches: Sequence[Touch]) -> tuple[list[float], list[float]]:
+    """At each point of these contacts the speed in m/s of parting by restitution, and the depth in m."""
+    partings, depths = list[float](), list[float]()
+    for touch in touches:
+        nx, ny = touch.normal
+        for (x, y), gap in touch.points:
+            (vx, vy), (ux, uy) = touch.first.velocity_at(x, y), (0.0, 0.0)
+            if touch.second is not None:
+                ux, uy = touch.second.velocity_at(x, y)
+            partings.append(touch.restitution * max(0.0, (vx - ux) * nx + (vy - uy) * ny))
+            depths.append(-gap)
+    return partings, depths
+
+
+def _speeds(arbiter: pymunk.Arbiter, here: Member, there: Member | None) -> tuple[float, float, float]:
+    """Speed of approach in m/s where two shapes meet, and speeds along, of the centres and of the surfaces."""
+    if not all_round(here.ball, *([] if there is None else [there.ball])):
+        approach, slip = speeds_at(arbiter)
+        return approach, slip, slip
+    nx, ny = arbiter.normal
+    (vx, vy), (ux, uy) = here.body.velocity, (0.0, 0.0) if there is None else there.body.velocity
+    along = slip = (vy - uy) * nx - (vx - ux) * ny
+    for member in (here, there):
+        slip += 0.0 if member is None else member.ball.radius * member.body.angular_velocity
+    return (vx - ux) * nx + (vy - uy) * ny, along, slip

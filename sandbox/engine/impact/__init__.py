@@ -1,0 +1,1 @@
+"""Impulses: single impacts by pymunk, several at once, and balls that are pressed together."""

@@ -1,0 +1,377 @@
+"""Impacts at one instant: which bodies touch, the properties of each contact, and the exchange of impulses."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from math import dist, hypot
+from typing import NamedTuple
+
+from sandbox.engine.contact.manifold import ContactManifold, all_round, farthest, meeting, speeds_at, surfaces_met
+from sandbox.engine.contact.surfaces import (
+    after_impulses,
+    after_vertical_friction,
+    bounce_of_balls,
+    bounce_off,
+    friction_in_plane,
+    speeds_where_touching,
+    tilted,
+)
+from sandbox.engine.contact.touch import Obstacle
+from sandbox.engine.impact.impulses import Contact, after_contact_of_bodies, after_contacts_at_once, disc_on_ground
+from sandbox.engine.model.ball import Ball, kinetic
+from sandbox.engine.model.setup import Setup
+from sandbox.engine.model.surface import Bounce, Surface
+from sandbox.engine.model.tolerances import CLOSING, TOUCHING_GAP
+from sandbox.engine.motion.moving_ball import InCluster, MovingBall
+from sandbox.engine.paths.arc import Arc, uniform_arc
+from sandbox.engine.paths.run import Numerics
+from sandbox.errors import RunError
+from sandbox.physics.cushion import nose_sine
+from sandbox.physics.integrators import State
+
+#: Largest relative energy gain of a cluster in an impact: rounding in Chipmunk's iterations.
+_GAIN = 1e-7
+
+#: Relative gain of energy in an impact that ends the run. Less: rounding in Chipmunk's iterations is an error; more:
+#: energy from nothing is not noticed.
+_CREATED = 1e-6
+
+#: Alternations between balls and soft walls at one instant, after which all exchange impulses at once.
+_TURNS = 9
+
+
+#: Fraction of the fastest approach that may remain after an impact.
+_REMAINING = 1e-6
+
+#: Fraction of the radius by which two contacts that are one differ in place and normal, where flush surfaces join.
+_SAME_POINT = 2e-6
+
+#: Fraction of the fastest approach in an impact below which another is rounding: of a body that has been lying.
+_FAINT = 1e-4
+
+
+class Hit(NamedTuple):
+    """One contact that closed."""
+
+    t: float  # s
+    ball: int  # index into the balls of the setup
+    partner: str
+    speed: float  # m/s, normal speed of approach
+
+
+class Outcome(NamedTuple):
+    """The states after an impact, and the contacts that closed."""
+
+    t: float  # s, when the last two bodies separate
+    states: dict[int, State]  # then, of all balls that are touched
+    hits: list[Hit]  # in order of time
+    arcs: Mapping[int, Sequence[Arc]] = {}  # their paths through a contact that lasts
+
+
+#: What simulates the contact at t of balls in these states; None if impulses are right.
+ResolveCluster = Callable[[float, dict[int, State]], Outcome | None]
+
+
+class Impacts:
+    """Resolves impacts among the balls of a run."""
+
+    def __init__(self, setup: Setup, tracks: Sequence[MovingBall], numerics: Numerics, slowest_hop: float) -> None:
+        self._setup = setup
+        self._tracks = tracks
+        self._numerics = numerics
+        self.gap = TOUCHING_GAP  # m, up to which shapes touch; wider in a heap
+        self.pairs: list[tuple[int, int]] = []  # of balls that touch, of those found last
+        self._slowest_hop = slowest_hop  # m/s, minimum speed at which balls on cloth separate
+        # Walls softer than balls push back after the balls have separated.
+        model = setup.contact
+        self._all_soft = len(setup.balls) > 1 and model.name != "rigid" and model.wall_stiffness == 0.0
+        self._some_soft = self._all_soft or any(map(self._soft, setup.surfaces))
+        self._walls: dict[tuple[int, bool | None], list[Obstacle]] = {}  # soft or hard, of each ball
+        self._all_round = all_round(*setup.balls)
+        self._heaviest = max(ball.mass for ball in setup.balls)  # kg
+
+    def exchange(self, t: float, states: dict[int, State], resolve_cluster: ResolveCluster) -> Outcome:
+        """The outcome of the impact at t of balls that touch, directly or through others.
+
+        Balls and hard walls exchange impulses at once; soft walls push back afterwards, one after another, and so on
+        until nothing closes; balls that a wall sends on others that touch still others may form a cluster. If that
+        takes too many turns, or in a heap, all exchange impulses at once instead.
+        """
+        start = states
+        hits: list[Hit] = []  # not list[Hit](), which takes thirty times as long, here and below
+        last = _TURNS if self._some_soft and self.gap == TOUCHING_GAP and not self._any_body(states) else 0
+        for turn in range(last + 1):
+            if turn in (0, last):
+                states, hits = dict(start), []
+            elif turn % 2 == 0 and (parted := resolve_cluster(t, states)) is not None:
+                marker = InCluster(t, parted.t)
+                others = {i: [uniform_arc(t, parted.t, state, marker)] for i, state in states.items()}
+                arcs = {**others, **parted.arcs}
+                ends = {i: each[-1].state(parted.t) for i, each in arcs.items()}
+                return Outcome(parted.t, ends, hits + parted.hits, arcs)
+            before = dict(states)
+            if turn < last and turn % 2:
+                closed = self._close_soft_walls(states)
+            else:
+                closed = self._close_at_once(states, None if turn == last else False)
+            if turn > 0 and not closed:
+                break
+            if closed and self._slowest_hop > 0.0:
+                self._pay_for_hops(before, states)
+            hits += _hits(t, closed)
+        self._refuse_gain(t, start, states, hits)
+        return Outcome(t, states, hits)
+
+    def _refuse_gain(self, t: float, before: dict[int, State], after: dict[int, State], hits: Sequence[Hit]) -> None:
+        """Raise RunError if the bodies that touch at t have more energy after their impact than before."""
+        had, has = self._energy(before), self._energy(after)
+        if has - had > _CREATED * had + len(hits) * self._heaviest * self._slowest_hop**2:
+            names = {self._tracks[index].ball.name for index in before} | {hit.partner for hit in hits}
+            raise RunError(
+                f"t = {t:.6g} s: {has - had:.3g} J appeared from nothing in the impact of "
+                f"{', '.join(sorted(map(repr, names)))}, whose kinetic energy was {had:.3g} J; "
+                "look for masses that differ by very much, or extreme friction"
+            )
+
+    def _any_body(self, indices: Iterable[int]) -> bool:
+        """True if some of these are bodies, not balls."""
+        return not self._all_round and any(self._tracks[index].ball.rotates for index in indices)
+
+    def _close_at_once(self, states: dict[int, State], soft: bool | None) -> list[Contact]:
+        """Close all contacts of balls with each other and with soft or hard walls, or both, at once; returns those that
+        were closing. If a ball closes one, and does not come to close the others by that, these do not act."""
+        found = [*self._contacts_with_surfaces(states, soft), *self._contacts_of_balls(states)]
+        closed = [contact for contact in found if contact.speed > CLOSING]
+        if len(closed) == 1 == min(len(found), len(states)) and not self._any_body(states):
+            before = dict(states)
+            self._exchange_alone(states, closed[0])
+            if not any(self._closes(other, states) for other in found if other is not closed[0]):
+                return closed
+            states.update(before)
+        if closed:
+            self._exchange_at_once(states, found)
+        return closed
+
+    def _closes(self, contact: Contact, states: dict[int, State]) -> bool:
+        balls, meeting = self._balls(contact), [states[index] for index in contact.balls]
+        return speeds_where_touching(balls, meeting, contact.nx, contact.ny, contact.sine)[0] > CLOSING
+
+    def _close_soft_walls(self, states: dict[int, State]) -> list[Contact]:
+        """Close the contacts with soft walls, one after another; returns them."""
+        closed = []
+        for contact in self._contacts_with_surfaces(states, True):
+            if contact.speed > CLOSING:
+                self._exchange_alone(states, contact)
+                closed.append(contact)
+        return closed
+
+    def touching(self, t: float, seeds: Sequence[int]) -> dict[int, State]:
+        """The states at t of all balls that touch those in ``seeds``, directly or through others."""
+        states: dict[int, State] = {}
+        waiting = list(seeds)
+        pairs: list[tuple[int, int]] = []
+        while waiting:
+            index = waiting.pop(0)
+            if index in states:
+                continue
+            track = self._tracks[index]
+            states[index] = state = track.arc.state(t)
+            for other, neighbour in enumerate(self._tracks):
+                if other in states or neighbour.caught or neighbour.arc.t0 > t:
+                    continue
+                reach = track.ball.radius + neighbour.ball.radius + self.gap
+                left, bottom, right, top = neighbour.arc.box()
+                if not (left - reach <= state[0] <= right + reach and bottom - reach <= state[1] <= top + reach):
+                    continue
+                x, y = neighbour.arc.position(t)
+                if (x - state[0]) ** 2 + (y - state[1]) ** 2 <= reach * reach and (
+                    all_round(track.ball, neighbour.ball)
+                    or meeting(track.ball, state, neighbour.ball, neighbour.arc.state(t)).gap <= self.gap
+                ):
+                    waiting.append(other)
+                    pairs.append((index, other))
+        place = {index: number for number, index in enumerate(states)}
+        self.pairs = sorted(pairs, key=lambda pair: (place[pair[0]], place[pair[1]]))
+        return states
+
+    # ------------------------------------------------------------------ contacts
+
+    def _contacts_with_surfaces(self, states: dict[int, State], soft: bool | None) -> Iterator[Contact]:
+        """The contacts with soft or hard walls, or both, each from the states when it is asked for. Where two surfaces
+        join, a point of both counts once, for the surface whose side it is less far ``off``."""
+        for index in states:
+            track = self._tracks[index]
+            met: dict[tuple[float, ...], tuple[Obstacle, ContactManifold, int]] = {}
+            asked = (index, soft)
+            if asked not in self._walls:
+                self._walls[asked] = [o for o in track.obstacles if soft is None or self._soft(o.surface) is soft]
+            if not self._walls[asked]:
+                continue
+            for obstacle, found in surfaces_met(track.ball, self._walls[asked], states[index], self.gap):
+                for number, point in enumerate(found.points):
+                    place = *point, *(track.ball.radius * part for part in found.normal)
+                    near = (each for each in met if dist(place, each) <= _SAME_POINT * track.ball.radius)
+                    place = next(near, place)
+                    tilt = obstacle.tilt_from_side(*found.normal)
+                    if place not in met or tilt < met[place][0].tilt_from_side(*met[place][1].normal):
+                        met[place] = obstacle, found, number
+            for obstacle, found, number in met.values():
+                yield self._hopping(
+                    contact_with_surface(index, track.ball, states[index], obstacle.surface, found, number)
+                )
+
+    def _soft(self, surface: Surface) -> bool:
+        return self._all_soft or surface.nose_height is not None
+
+    def _contacts_of_balls(self, states: dict[int, State]) -> Iterator[Contact]:
+        for pair in self.pairs:
+            balls = [self._tracks[index].ball for index in pair]
+            found = meeting(balls[0], states[pair[0]], balls[1], states[pair[1]], self.gap)
+            for number in range(len(found.points)) if found.gap <= self.gap else ():
+                yield self._hopping(contact_of_two(pair, balls, self._setup, found, number))
+
+    # ------------------------------------------------------------------ impulses
+
+    def _exchange_alone(self, states: dict[int, State], contact: Contact) -> None:
+        """A single contact of balls. Below a nose a ball that spins may be drawn on, or leave more slowly than the
+        slowest hop: it is given that."""
+        balls, before = self._balls(contact), [states[index] for index in contact.balls]
+        after = after_single_contact(balls, before, contact)
+        x, y, vx, vy, *spins = after[0]
+        short = self._slowest_hop - vx * contact.nx - vy * contact.ny
+        if contact.sine != 0.0 and short > 0.0:
+            after[0] = (x, y, vx + short * contact.nx, vy + short * contact.ny, *spins)
+        self._numerics.pymunk_steps += 1
+        states.update(zip(contact.balls, after, strict=True))
+
+    def _exchange_at_once(self, states: dict[int, State], found: Sequence[Contact]) -> None:
+        """Several contacts, without gain of energy.
+
+        If several contacts close at once, restitution may demand more energy than there is. With friction this is
+        known as Kane's paradox (the slip reverses while the normal speeds are imposed): friction is reduced, down to
+        zero. If energy still increases, as when a light ball is squeezed between a wall and a heavy ball, restitution
+        is reduced: with both at zero no energy is gained. Chipmunk sees only the plane, so the upward part of the
+        friction comes afterwards.
+        """
+        balls = [track.ball for track in self._tracks]
+        most = (1.0 + _GAIN) * self._energy(states) + len(found) * self._heaviest * self._slowest_hop**2
+        wanted = [
+            (contact.bounce.restitution, friction_in_plane(contact.bounce.friction, *contact.speeds[1:]))
+            for contact in found
+        ]
+        friction = restitution = 1.0
+        while True:
+            bounces = [Bounce(restitution * e, friction * mu) for e, mu in wanted]
+            if len(found) == 1:
+                after, pushes = after_contact_of_bodies(balls, states, found[0], bounces[0])
+            else:
+                after, pushes = after_contacts_at_once(balls, states, found, bounces)
+            self._numerics.pymunk_steps += 1
+            if (self._energy(after) <= most and self._parted(after, found)) or restitution == 0.0:
+                break
+            if friction > 0.0:
+                friction = 0.5 * friction if friction > 1e-3 else 0.0
+            else:
+                restitution = 0.9 * restitution if restitution > 1e-2 else 0.0
+        states.update(after)
+        for contact, push in zip(found, pushes, strict=True):
+            if contact.speeds[2] != 0.0 and push > 0.0:
+                before, most = [states[index] for index in contact.balls], contact.bounce.friction * push
+                slip = contact.speeds[1:]
+                rubbed = after_vertical_friction(self._balls(contact), before, contact.nx, contact.ny, slip, most)
+                states.update(zip(contact.balls, rubbed, strict=True))
+
+    def _parted(self, after: dict[int, State], found: Sequence[Contact]) -> bool:
+        """True if no body closes any more: with much friction on a slim one Chipmunk does not come to an end."""
+        closing = max(contact.speed for contact in found)
+        return all(
+            all_round(*self._balls(contact))
+            or speeds_at([after[index] for index in contact.balls], contact.point, (contact.nx, contact.ny))[0]
+            <= _REMAINING * closing
+            for contact in found
+        )
+
+    def _balls(self, contact: Contact) -> list[Ball]:
+        return [self._tracks[index].ball for index in contact.balls]
+
+    def _hopping(self, contact: Contact) -> Contact:
+        """The contact with enough restitution to separate no slower than the slowest hop."""
+        bounce, slowest = contact.bounce, self._slowest_hop
+        if contact.speed <= CLOSING or bounce.restitution * contact.speed >= slowest:
+            return contact
+        return contact._replace(bounce=bounce._replace(restitution=slowest / contact.speed))
+
+    def _pay_for_hops(self, before: dict[int, State], after: dict[int, State]) -> None:
+        """Remove the energy that minimum hops added from the motion of all balls: energy never increases."""
+        had, has = self._energy(before), self._energy(after)
+        if has > had:
+            share = (had / has) ** 0.5
+            for index, (x, y, *motion) in after.items():
+                after[index] = (x, y, *(share * speed for speed in motion))
+
+    def _energy(self, states: dict[int, State]) -> float:
+        """Kinetic energy in J, including rotation."""
+        return sum(kinetic(self._tracks[index].ball, state) for index, state in states.items())
+
+
+def contact_with_surface(
+    index: int, ball: Ball, state: State, surface: Surface, found: ContactManifold, number: int
+) -> Contact:
+    """The contact at one of the points where they meet; what depends on the speed along takes that of the centre."""
+    (nx, ny), point, sine = found.normal, found.points[number], 0.0
+    approach, along = found.speeds[number][0], state[2] * ny - state[3] * nx
+    bounce = bounce_off(surface, approach, along)
+    if bounce.tilt != 0.0:
+        nx, ny = tilted(nx, ny, bounce.tilt, along)
+        point = farthest(ball, state, (nx, ny)) if len(found.points) == 1 else point
+    if not ball.rotates:
+        sine = 0.0 if surface.nose_height is None else nose_sine(ball.radius, surface.nose_height)
+        speeds = speeds_where_touching([ball], [state], nx, ny, sine)
+    else:
+        bounce = _without_pull(bounce, approach)
+        speeds = speeds_at((state,), point, (nx, ny))
+    return Contact((index,), surface.name, nx, ny, sine, bounce, approach, speeds, point)
+
+
+def contact_of_two(
+    indices: tuple[int, int], balls: Sequence[Ball], setup: Setup, found: ContactManifold, number: int
+) -> Contact:
+    """The contact of two balls or bodies at one of the points where they meet."""
+    (a, b), speeds = balls, found.speeds[number]
+    bounce = bounce_of_balls(setup, speeds[0], hypot(*speeds[1:]), a.name, b.name)
+    bounce = bounce if all_round(a, b) else _without_pull(bounce, speeds[0])
+    return Contact(indices, b.name, *found.normal, 0.0, bounce, speeds[0], speeds, found.points[number])
+
+
+def after_single_contact(balls: Sequence[Ball], states: Sequence[State], contact: Contact) -> list[State]:
+    """The states of one or two after a single contact: of balls in units of the reduced mass; friction acts against the
+    whole slip."""
+    if not all_round(*balls):
+        return list(after_contact_of_bodies(balls, dict(enumerate(states)), contact, contact.bounce)[0].values())
+    mobility = sum([1.0 / ball.mass for ball in balls])  # 1/kg
+    turning = sum([1.0 / (ball.mass * ball.inertia_factor) for ball in balls])
+    approach, along, upward = contact.speeds
+    slip = hypot(along, upward)
+    restitution, friction, _, tangential = contact.bounce
+    wanted = (1.0 + tangential) * slip  # ending that much slip is reversing a share of what there is
+    push, rub = disc_on_ground().exchange(approach, wanted, mobility / turning, restitution, friction)
+    share = rub / (slip * mobility) if slip > 0.0 else 0.0
+    impulse = push / mobility, share * along, share * upward
+    return after_impulses(balls, states, contact.nx, contact.ny, impulse, contact.sine)
+
+
+def _without_pull(bounce: Bounce, approach: float) -> Bounce:
+    """Without restitution where a point of contact does not close: it may be pressed on, not pulled along."""
+    return bounce if approach > CLOSING else bounce._replace(restitution=0.0)
+
+
+def _hits(t: float, closed: Sequence[Contact]) -> list[Hit]:
+    """The contacts that closed, as hits: of two points of one contact the faster; none that is rounding, where bodies
+    lie."""
+    fastest: dict[tuple[tuple[int, ...], str], Hit] = {}
+    least = _FAINT * max((contact.speed for contact in closed), default=0.0)
+    for contact in closed:
+        pair = contact.balls, contact.partner
+        if contact.speed >= least and (pair not in fastest or contact.speed > fastest[pair].speed):
+            fastest[pair] = Hit(t, contact.balls[0], contact.partner, contact.speed)
+    return list(fastest.values())

@@ -1,0 +1,209 @@
+"""Impulses of contacts, computed by pymunk: one step of a Space, in which nothing moves, applies restitution and
+Coulomb friction.
+
+A single contact does not depend on place, direction or size: in units of the reduced mass it is the impact of a disc
+of radius 1 and mass 1 on level ground, whose centre of mass is elsewhere if bodies meet. For contacts that close
+together the balls are placed as they are.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Sequence
+from math import copysign, hypot, log, sqrt
+from typing import Any, NamedTuple
+
+import pymunk
+
+from sandbox.engine.model.ball import Ball
+from sandbox.engine.model.shapes import Vector
+from sandbox.engine.model.surface import Bounce
+from sandbox.physics.integrators import State
+
+#: Length in s of the step in which impulses are exchanged: at 340 m/s a ball moves 3e-13 m in it. No contact in it is
+#: deep enough for Chipmunk to correct positions.
+INSTANT = 1e-15
+
+#: A disc and its ground overlap by this fraction of the radius during the exchange, so that Chipmunk sees the contact;
+#: where several contacts close together by much less, as the arm of the friction is off by as much.
+OVERLAP, _CLOSE = 1e-6, 1e-11
+
+#: Solver iterations for contacts that close together: a cluster of 16 balls needs 50 for 1e-7 m/s. One is exact for a
+#: single contact of a ball. Two contacts of a slim body help each other: a rod of 1 x 30 on end needs 1,000.
+_ITERATIONS, _ITERATIONS_TURNING = 200, 2_000
+
+#: Height at which a disc waits that is not in use, in radii.
+PARKED = 1.5
+
+#: From a disc's centre to the ground.
+_DOWN: Vector = (0.0, -1.0)
+
+
+def still_space(iterations: int) -> pymunk.Space:
+    """A Space that never corrects positions and forgets a contact in the step after it."""
+    space = pymunk.Space()
+    space.collision_slop = space.collision_bias = 1.0
+    space.collision_persistence = 1
+    space.iterations = iterations
+    return space
+
+
+def _enough(inertia: float, arm: Vector, friction: float) -> int:
+    """Iterations after which a contact that sticks or slides is known to rounding: each leaves a fraction of the error,
+    as pushing makes a body slip."""
+    (along, down), both = arm, abs(arm[0] * arm[1])
+    left = max(both / sqrt((inertia + along**2) * (inertia + down**2)), friction * both / (inertia + along**2))
+    if left == 0.0:
+        return 1
+    return min(_ITERATIONS_TURNING, int(-36.0 / log(left)) + 2) if left < 1.0 else _ITERATIONS_TURNING
+
+
+def disc_over_ground(space: pymunk.Space, x: float, y: float) -> tuple[pymunk.Circle, pymunk.Body]:
+    """A disc of radius 1 and mass 1 that waits above its own piece of level ground at (x, y), and its body."""
+    ground = pymunk.Segment(space.static_body, (x - 0.1, y), (x + 0.1, y), 0.0)
+    ground.elasticity = ground.friction = 1.0  # pymunk multiplies both shapes' values: the disc has the pair's
+    body = pymunk.Body(1.0, 1.0)
+    body.position = x, y + 1.0 + PARKED
+    disc = pymunk.Circle(body, 1.0)
+    space.add(ground, body, disc)
+    return disc, body
+
+
+class DiscOnGround:
+    """A disc of radius 1 and mass 1 above level ground: the reduced form of a single contact."""
+
+    def __init__(self) -> None:
+        self._space = still_space(1)
+        self._disc, self._body = disc_over_ground(self._space, 0.0, 0.0)
+        self._pair = 0.0, 0.0, 1.0  # restitution, friction, moment of inertia
+        self._arm = _DOWN  # from the centre of mass to the ground
+
+    def exchange(
+        self, approach: float, slip: float, inertia: float, restitution: float, friction: float, arm: Vector = _DOWN
+    ) -> tuple[float, float]:
+        """The impulses away from the ground and along it, if the disc approaches at this speed and its surface slips at
+        that speed; all in m/s. ``inertia`` is its moment of inertia, ``arm`` leads from its centre of mass to the
+        ground.
+        """
+        body, pair = self._body, (restitution, friction, inertia)
+        if pair != self._pair or arm != self._arm:
+            self._pair, self._arm = pair, arm
+            self._disc.elasticity, self._disc.friction, body.moment = pair
+            self._disc.unsafe_set_offset((arm[0], arm[1] + 1.0))
+            self._space.iterations = _enough(inertia, arm, friction)
+        x, y = -arm[0], -arm[1] - OVERLAP
+        try:
+            body.angle = 0.0
+            body.position, body.velocity, body.angular_velocity = (x, y), (slip, -approach), 0.0
+            self._space.step(INSTANT)
+            along, away = body.velocity
+            return away + approach, along - slip
+        finally:  # apart, so that pymunk forgets the contact
+            body.position = x, y + PARKED
+            self._space.step(INSTANT)
+
+
+_made = threading.local()
+
+
+def disc_on_ground() -> DiscOnGround:
+    """The disc of this thread, made once: a contact leaves no trace in it."""
+    disc: DiscOnGround | None = getattr(_made, "disc", None)
+    if disc is None:
+        disc = _made.disc = DiscOnGround()
+    return disc
+
+
+class Contact(NamedTuple):
+    """A contact in an impact. The unit normal points to the first ball, from the surface or from the second ball."""
+
+    balls: tuple[int, ...]  # one or two, as indices into the balls of the setup
+    partner: str  # name of the surface or of the second ball
+    nx: float
+    ny: float
+    sine: float  # of the angle above the ball's centre at which a cushion's nose touches it
+    bounce: Bounce
+    speed: float  # m/s, at which the centres approach, positive when closing
+    speeds: tuple[float, float, float]  # m/s, where they touch: of approach, and of the slip along and upward
+    point: Vector  # m, where they touch
+
+
+def after_contact_of_bodies(
+    balls: Sequence[Ball], states: dict[int, State], contact: Contact, bounce: Bounce
+) -> tuple[dict[int, State], list[float]]:
+    """The states after a single contact of bodies, and its normal impulse in N s.
+
+    A push at the contact makes it move by ``K P``, with a symmetric matrix K. One body with the smaller eigenvalue of K
+    as 1/m, and its centre of mass at the right place, moves as all of them do.
+    """
+    nx, ny = contact.nx, contact.ny
+    arms = [(contact.point[0] - states[index][0], contact.point[1] - states[index][1]) for index in contact.balls]
+    away = along = both = 0.0  # K, in 1/kg
+    for index, (x, y) in zip(contact.balls, arms, strict=True):
+        across, down = x * ny - y * nx, x * nx + y * ny
+        away += 1.0 / balls[index].mass + across * across / balls[index].inertia
+        along += 1.0 / balls[index].mass + down * down / balls[index].inertia
+        both -= across * down / balls[index].inertia
+    larger = 0.5 * (away + along + hypot(away - along, 2.0 * both))
+    smaller = (away * along - both * both) / larger
+    arm = sqrt(max(0.0, away / smaller - 1.0)), -sqrt(max(0.0, along / smaller - 1.0))
+    approach, slip, _ = contact.speeds
+    slip *= 1.0 + contact.bounce.tangential  # ending that much is reversing a share of what there is
+    arm = copysign(arm[0], both), arm[1]
+    push, rub = disc_on_ground().exchange(approach, slip, 1.0, bounce.restitution, bounce.friction, arm)
+    px, py = (push * nx + rub * ny) / smaller, (push * ny - rub * nx) / smaller
+    after = dict(states)
+    for index, (x, y), way in zip(contact.balls, arms, (1.0, -1.0), strict=False):
+        u, v, vx, vy, spin, *more = states[index]
+        share, turn = way / balls[index].mass, way / balls[index].inertia
+        after[index] = (u, v, vx + share * px, vy + share * py, spin + turn * (x * py - y * px), *more)
+    return after, [push / smaller]
+
+
+def after_contacts_at_once(
+    balls: Sequence[Ball], states: dict[int, State], contacts: Sequence[Contact], bounces: Sequence[Bounce]
+) -> tuple[dict[int, State], list[float]]:
+    """The states of balls and bodies, by their index, after contacts that close together with these bounces, and the
+    normal impulse in N s of each.
+
+    In place of the shapes, which pymunk would examine again, each contact has a disc on the first body and a piece of
+    its tangent plane on the second, or on what is fixed; they overlap at its point, and have its normal.
+    """
+    turning = any(balls[index].rotates for index in states)
+    space = still_space(_ITERATIONS_TURNING if turning else _ITERATIONS)
+    bodies: dict[int, pymunk.Body] = {}
+    left, bottom, *_ = next(iter(states.values()))
+    for index, (x, y, vx, vy, spin, *_) in states.items():
+        body = bodies[index] = pymunk.Body(balls[index].mass, balls[index].inertia)
+        body.position, body.velocity, body.angular_velocity = (x - left, y - bottom), (vx, vy), spin
+        space.add(body)
+    pairs: dict[frozenset[pymunk.Shape], int] = {}
+    for number, contact in enumerate(contacts):
+        normal = pymunk.Vec2d(contact.nx, contact.ny)
+        point = pymunk.Vec2d(contact.point[0] - left, contact.point[1] - bottom)
+        first, *others = (bodies[index] for index in contact.balls)
+        second = others[0] if others else space.static_body
+        size = balls[contact.balls[0]].radius
+        disc = pymunk.Circle(first, size, point + size * normal - first.position)
+        foot, along = point + _CLOSE * size * normal - second.position, size * normal.perpendicular()
+        plane = pymunk.Segment(second, foot - along, foot + along, 0.0)
+        space.add(disc, plane)
+        pairs[frozenset((disc, plane))] = number
+    impulses = [0.0] * len(contacts)
+
+    def bounce(arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
+        number = pairs.get(frozenset(arbiter.shapes))
+        if number is None:  # of another contact
+            arbiter.process_collision = False
+        else:
+            arbiter.restitution, arbiter.friction, *_ = bounces[number]
+
+    def read(arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
+        impulses[pairs[frozenset(arbiter.shapes)]] = abs(arbiter.total_impulse.dot(arbiter.normal))
+
+    space.on_collision(pre_solve=bounce, post_solve=read)
+    space.step(INSTANT)
+    after = {}
+    for index, (x, y, _, _, _, *more) in states.items():
+        after[index] = (x, y, *bodies[index].velocity, bodies[index].angular_velocity, *more)
+    return after, impulses

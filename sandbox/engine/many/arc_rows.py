@@ -1,0 +1,174 @@
+"""Paths as rows of numbers. Arcs are created on demand, since most arcs of a sweep are never read; what the facts of
+all shots ask of their paths is computed once for all."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from functools import cached_property
+from itertools import chain
+from math import inf
+from typing import Any
+
+import numpy as np
+
+from sandbox.engine.many.bernstein_many import downward_crossings as crossings_of_many
+from sandbox.engine.many.bernstein_many import evaluate, first_part
+from sandbox.engine.paths.arc import Arc
+from sandbox.engine.paths.bernstein import downward_crossings, elevate
+from sandbox.engine.paths.path import Curve, Passage, Path, climb, height
+from sandbox.engine.paths.phase import ArcContact
+
+#: Positions of an arc's parts in its row: times, state at the start, curves, state at the end, number of the contact.
+T0, T1 = 0, 1
+START = slice(2, 7)
+CURVES = X, Y, VX, VY, SPIN = slice(7, 13), slice(13, 19), slice(19, 24), slice(24, 29), slice(29, 33)
+END = slice(33, 38)
+CONTACT = END.stop
+COLUMNS = CONTACT + 1
+
+#: Positions of the coefficients, a column for each curve, and whether there is one: of x and y there are most.
+_COEFFICIENTS = np.add.outer(np.arange(X.stop - X.start), [curve.start for curve in CURVES])
+_HELD = np.less(_COEFFICIENTS, [curve.stop for curve in CURVES])
+_OF_CURVES = _COEFFICIENTS[_HELD]
+
+
+class Paths:
+    """The paths of many balls, one after another. ``rows`` has shape (arcs, 39): t0, t1, start, coefficients, end, and
+    a place in ``contacts`` or -1; ``ends`` has the number of rows up to the end of each path."""
+
+    def __init__(self, rows: np.ndarray, ends: Sequence[int], contacts: Sequence[ArcContact | None] = ()) -> None:
+        self.rows = rows
+        self.contacts = contacts
+        self._bounds = [0, *ends]
+        self._asked: dict[Curve, int] = {}
+        self._passages: dict[Curve, list[list[Passage]]] = {}
+
+    def __getitem__(self, number: int) -> ArcRows:
+        return ArcRows(self, number, *self._bounds[number : number + 2])
+
+    def passages(self, path: ArcRows, curve: Curve) -> list[Passage]:
+        """Each time and state at which a curve becomes negative along a path. All paths are computed together as soon
+        as a second one is asked for the same curve."""
+        if curve not in self._passages and self._asked.setdefault(curve, path.number) == path.number:
+            return [passage for _, passage in self._passing(path.first, path.last, curve)]
+        if curve not in self._passages:
+            found: list[list[Passage]] = [[] for _ in self._bounds]
+            for number, passage in self._passing(0, len(self.rows), curve):
+                found[number].append(passage)
+            self._passages[curve] = found
+        return self._passages[curve][path.number]
+
+    def _passing(self, first: int, last: int, curve: Curve) -> Iterator[tuple[int, Passage]]:
+        """The number of the path, and the passage, for the arcs in these rows; of each path in order, as in
+        ``Path.passages``."""
+        rows = self.rows[first:last]
+        values, places = np.array(curve(arc_of(rows.T))), np.arange(len(rows))
+        numbers = np.searchsorted(self._bounds, first + places, side="right") - 1
+        signs, signed = np.sign(values), values.any(axis=0)
+        starts, ends = (some[(some != 0.0).argmax(axis=0), places] for some in (signs, signs[::-1]))
+        latest = np.append(-1, np.maximum.accumulate(np.where(signed, places, -1)))[:-1]  # arc before that is not zero
+        turned = (starts < 0.0) & (latest >= 0) & (ends[latest] > 0.0) & (numbers[latest] == numbers)
+        some = np.flatnonzero((values.min(axis=0) <= 0.0) & (values.max(axis=0) > 0.0))
+        among, u, doubtful, _ = crossings_of_many(values[:, some])
+        clear = ~np.isin(among, doubtful)
+        found: list[tuple[Any, Any]] = [(np.flatnonzero(turned), 0.0), (some[among[clear]], u[clear])]
+        for place in some[np.unique(doubtful)].tolist():
+            found += [([place], u) for u in downward_crossings(values[:, place].tolist())]
+        at = np.concatenate([where for where, _ in found]).astype(int)
+        u = np.concatenate([np.broadcast_to(u, len(where)) for where, u in found])
+        order = np.lexsort((u, at))
+        rows, u = rows[at[order]], u[order]
+        t = rows[:, T0] + u * (rows[:, T1] - rows[:, T0])
+        states = np.array([evaluate(rows[:, part].T, u) for part in CURVES]).T
+        return zip(numbers[at[order]].tolist(), zip(t.tolist(), map(tuple, states.tolist()), strict=True), strict=True)
+
+
+class ArcRows(Path):
+    """The arcs of one ball: some rows of ``paths``."""
+
+    def __init__(self, paths: Paths, number: int, first: int, last: int) -> None:
+        self.paths, self.number, self.first, self.last = paths, number, first, last
+
+    def __len__(self) -> int:
+        return self.last - self.first
+
+    def __getitem__(self, index: int) -> Arc:
+        return arc_of(self._rows[index].tolist(), self.paths.contacts)
+
+    def __iter__(self) -> Iterator[Arc]:
+        return (arc_of(row, self.paths.contacts) for row in self._rows.tolist())
+
+    @property
+    def _rows(self) -> np.ndarray:
+        return self.paths.rows[self.first : self.last]
+
+    @cached_property
+    def starts(self) -> Sequence[float]:
+        """The time in s at which each arc begins."""
+        times: list[float] = self._rows[:, T0].tolist()
+        return times
+
+    @cached_property
+    def stops(self) -> Sequence[float]:
+        """The time in s at which each arc ends."""
+        times: list[float] = self._rows[:, T1].tolist()
+        return times
+
+    def pieces(self) -> Iterator[tuple[float, float, list[float], list[float]]]:
+        """Return the same as in Path, without the arcs."""
+        return zip(self.starts, self.stops, *(self._rows[:, part].tolist() for part in (X, Y)), strict=True)
+
+    def ends(self) -> list[Passage]:
+        """Time and state at the end of each arc."""
+        return list(zip(self.stops, map(tuple, self._rows[:, END].tolist()), strict=True))
+
+    def highest(self, until: float = inf) -> Passage:
+        """Time and state where it is highest, up to a time at which it is not."""
+        rows = self._rows
+        at = int(np.where(rows[:, T1] <= until, rows[:, END.start + 1], -inf).argmax())  # of the ends
+        ends = [(float(rows[at, T1]), tuple(rows[at, END].tolist()))]
+        turns = [(float(rows[0, T0]), tuple(rows[0, START].tolist())), *ends, *self.passages(climb)]
+        return max((turn for turn in turns if turn[0] <= until), key=height)
+
+    def passages(self, curve: Curve) -> list[Passage]:
+        """Each time and state at which a curve becomes negative."""
+        return self.paths.passages(self, curve)
+
+
+def cut(rows: np.ndarray, t: np.ndarray, u: np.ndarray) -> np.ndarray:
+    """Arcs as columns that end at t (s), where their parameter is u."""
+    rows[T1] = t
+    rows[_OF_CURVES] = first_part(rows[_COEFFICIENTS], u)[_HELD]
+    rows[END] = rows[[curve.stop - 1 for curve in CURVES]]
+    return rows
+
+
+def columns_of(arcs: Sequence[Arc], contacts: Sequence[int]) -> np.ndarray:
+    """Arcs as columns; their contacts have these numbers."""
+    rows = []
+    for arc, contact in zip(arcs, contacts, strict=True):
+        curves = (elevate(curve, part.stop - part.start - 1) for curve, part in zip(arc.curves, CURVES, strict=True))
+        rows.append([arc.t0, arc.t1, *arc.start, *chain(*curves), *arc.state(arc.t1), contact])
+    return np.array(rows, float).reshape(-1, COLUMNS).T
+
+
+def stepped(arc: Arc, contacts: np.ndarray) -> np.ndarray:
+    """Arcs as columns, from one arc with arrays in place of numbers, as after a step."""
+    columns = np.empty((COLUMNS, len(contacts)))
+    columns[T0], columns[T1], columns[CONTACT] = arc.t0, arc.t1, contacts
+    columns[START], columns[END] = arc.start, arc.end
+    columns[START.stop : END.start] = list(chain(*arc.curves))
+    return columns
+
+
+def resting_columns(t: np.ndarray, state: np.ndarray) -> np.ndarray:
+    """Arcs without duration, as columns."""
+    x, y, _, _, spin = state
+    return np.vstack((t, t, state, *[x] * 6, *[y] * 6, *[0.0 * x] * 10, *[spin] * 4, state, 0.0 * x - 1.0))
+
+
+def arc_of(row: Any, contacts: Sequence[ArcContact | None] = ()) -> Arc:
+    """The arc of one row; of many rows as columns, one with arrays."""
+    start, end = tuple(row[START]), tuple(row[END])
+    contact = contacts[int(row[CONTACT])] if contacts and row[CONTACT] >= 0.0 else None
+    return Arc(row[T0], row[T1], start, (row[X], row[Y], row[VX], row[VY], row[SPIN]), contact, end)

@@ -1,0 +1,50 @@
+"""Forces on many shots, computed with arrays, and a check that this gives what they return for floats."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from sandbox.engine.many.in_flight import InFlight
+from sandbox.engine.many.stacking import Stack
+from sandbox.engine.model.tolerances import ROUNDING
+from sandbox.engine.motion.forces_on_ball import acceleration_function, by_cause
+from sandbox.physics.integrators import AccelerationFunction
+
+#: What a scene's own function may raise.
+FAILURES = (Exception, SystemExit)
+
+
+class NotVectorizable(Exception):
+    """Forces that cannot take arrays, or that return other values for arrays than for floats."""
+
+
+def accelerations(acceleration_at: AccelerationFunction, t: np.ndarray, state: np.ndarray) -> Any:
+    """The rows ax, ay (m/s^2) and alpha (rad/s^2) of all shots. Raises NotVectorizable for what is not a real number of
+    each shot, or of all."""
+    for array in (t := t.view(), state := state.view()):
+        array.flags.writeable = False  # ``vx -= wind`` in a force leaves a float as it was, but not an array
+    found = np.empty((3, len(t)))
+    try:
+        for row, part in zip(found, acceleration_at(t, tuple(state)), strict=True):
+            np.copyto(row, part)
+    except FAILURES as error:  # such as complex numbers, or arrays of the wrong shape
+        raise NotVectorizable from error
+    return found
+
+
+def check_forces(setups: Stack, flying: InFlight, lanes: np.ndarray, together: np.ndarray) -> None:
+    """Raise NotVectorizable if the accelerations of these lanes, computed ``together`` with arrays, differ from those
+    computed with floats, as if a force mixes up shots. If they are not numbers, the shot run alone reports why."""
+    for lane in lanes.tolist():
+        ball, state = setups[flying.shot[lane]].balls[0], tuple(flying.state[:, lane].tolist())
+        try:
+            alone = acceleration_function(ball)(t := float(flying.t[lane]), state)
+            off = max(abs(one - other) for one, other in zip(together[:, lane].tolist(), alone, strict=True))
+            if off > ROUNDING * sum(map(abs, alone)):  # they may cancel
+                size = sum(abs(fx) + abs(fy) for _, (fx, fy) in by_cause(ball.forces, t, state)) / ball.mass
+                if off > ROUNDING * (size + abs(alone[2])):
+                    raise NotVectorizable
+        except FAILURES as error:
+            raise NotVectorizable from error

@@ -1,0 +1,80 @@
+"""The record of a batch: events, pieces of path and counts of all its shots, from which their runs are made."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from sandbox.engine.many.arc_rows import Paths, arc_of, columns_of
+from sandbox.engine.many.continuation import ENDED, BatchExit, Continuation
+from sandbox.engine.many.stacking import Stack
+from sandbox.engine.model.accuracy import Accuracy
+from sandbox.engine.model.event import Event
+from sandbox.engine.model.setup_errors import setup_errors_named
+from sandbox.engine.paths.arc import Arc
+from sandbox.engine.paths.run import Numerics, Run
+
+#: Rows of the counts.
+STEPS, REFINED, IMPACTS, QUERIES = range(4)
+
+
+class BatchRecord:
+    """Events, arcs and counts of each shot so far."""
+
+    def __init__(self, setups: Stack, accuracy: Accuracy, evaluations: int) -> None:
+        """``evaluations`` of the forces are made in each step."""
+        self.setups = setups
+        self._accuracy = accuracy
+        self._evaluations = evaluations
+        self.events: list[list[Event]] = [[] for _ in setups]
+        self.counts = np.zeros((4, len(setups)), dtype=int)
+        self.contacts: list[Any] = []  # sustained ones, in the order in which they began
+        self.exits: dict[int, BatchExit] = {}  # by shot
+        self.pieces = 0  # of path, of all shots
+        self._paths = [(np.zeros(0, dtype=int), columns_of([], []))]  # shots, and the rows of their arcs as columns
+
+    def add_arcs(self, shots: np.ndarray, rows: np.ndarray) -> None:
+        """Add an arc to the path of each of these shots."""
+        self._paths.append((shots, rows))
+        self.pieces += len(shots)
+
+    def last_arc(self, shot: int) -> list[Arc]:
+        """The last arc of a shot, if it has one."""
+        for shots, rows in reversed(self._paths):
+            if shot in shots:
+                return [arc_of(rows[:, np.flatnonzero(shots == shot)[-1]].tolist(), self.contacts)]
+        return []
+
+    def runs(self, seconds: float) -> Iterator[Run | Exception]:
+        """Yield the run of each shot, in order, or the exception it ended with; the batch took so many ``seconds``."""
+        found = [self.run(shot, seconds / len(self.setups)) for shot in range(len(self.setups))]
+        shots = np.concatenate([shots for shots, _ in self._paths])
+        order = np.argsort(shots, kind="stable")
+        rows = np.concatenate([columns for _, columns in self._paths], axis=1)[:, order].T
+        paths = Paths(rows, np.cumsum(np.bincount(shots, minlength=len(self.setups))).tolist(), self.contacts)
+        for shot, run in enumerate(found):
+            if isinstance(run, Run):
+                run.arcs = {run.setup.balls[0].name: paths[shot]}
+            yield run
+
+    def run(self, shot: int, seconds: float) -> Run | Exception:
+        """The run of a shot, continued alone if it is not over, without its arcs, which become rows if they are
+        not."""
+        setup, left, events = self.setups[shot], self.exits[shot], self.events[shot]
+        steps, refined, impacts, queries = self.counts[:, shot].tolist()
+        evaluations = (self._evaluations + 1) * steps
+        numerics = Numerics(evaluations, steps, refined, impacts, impacts, queries, seconds)
+        if left.reason in ENDED:
+            return Run(setup, self._accuracy, {}, events, numerics, left.t, ENDED[left.reason])
+        try:
+            with setup_errors_named():
+                run = Continuation(setup, self._accuracy, numerics).resume(left, events)
+        except Exception as error:
+            return error
+        arcs = list(run.arcs[setup.balls[0].name])[len(left.arcs) :]
+        contacts = range(len(self.contacts), len(self.contacts) + len(arcs))
+        self.contacts += [arc.contact for arc in arcs]
+        self._paths.append((np.full(len(arcs), shot), columns_of(arcs, contacts)))
+        return run

@@ -1,0 +1,132 @@
+"""Balls and bodies: what moves, its state at the start, and the forces on it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol
+
+from sandbox.engine.model.nearest import Pose, nearest
+from sandbox.engine.model.shapes import Shape, Vector, disc
+from sandbox.engine.model.tolerances import ROUNDING
+from sandbox.physics.checks import check
+from sandbox.renamed import with_old_fields_named
+
+if TYPE_CHECKING:
+    from sandbox.physics.forces import MassLoss
+    from sandbox.physics.integrators import State
+
+_ORIGIN = Pose(0.0, 0.0, 0.0)
+
+#: Moment of inertia over m r^2.
+SOLID_SPHERE = 2 / 5
+HOLLOW_SPHERE = 2 / 3
+DISC = 1 / 2
+
+
+class Force(Protocol):
+    """Force on a ball in N, as (fx, fy). Time (s), components of position (m) and velocity (m/s), and the spin (rad/s,
+    counter-clockwise) are floats, or arrays of shape (n,) when many shots fly at once. It must depend on nothing
+    else, since steps may be repeated."""
+
+    def __call__(self, t: Any, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]: ...
+
+
+class Torque(Protocol):
+    """Torque on a ball in N m, counter-clockwise; arguments as for Force."""
+
+    def __call__(self, t: Any, position: Any, velocity: Any, spin: Any) -> Any: ...
+
+
+@with_old_fields_named
+@dataclass(frozen=True)
+class Ball:
+    """A ball, its state at the start, and the forces on it. Lengths in m, kg, s, rad; spin counter-clockwise."""
+
+    name: str
+    mass: float  # kg
+    radius: float  # m
+    position: Vector  # m
+    velocity: Vector = (0.0, 0.0)  # m/s
+    spin: float = 0.0  # rad/s, about the axis that points out of the picture
+    rolling_spin: Vector = (0.0, 0.0)  # rad/s, about x and y: only for a ball that rolls on a plane seen from above
+    inertia_factor: float = SOLID_SPHERE  # moment of inertia over m r^2
+    forces: Sequence[Force] = ()
+    torques: Sequence[Torque] = ()
+    loss: MassLoss | None = None  # ``mass`` is that at the start
+    inertia: float = field(init=False, repr=False)  # kg m^2, at the start
+    rotates: ClassVar[bool] = False  # its angle matters, and is a part of its state
+
+    @property
+    def initial_angle(self) -> tuple[float, ...]:
+        """The angle in rad at the start, of what turns."""
+        return ()
+
+    def mass_fraction(self, t: Any) -> Any:
+        """Share of its mass that it still has at time t in s."""
+        return 1.0 if self.loss is None else 1.0 - self.loss.lost(t) / self.mass
+
+    def __post_init__(self) -> None:
+        positive, points = ("mass", "radius", "inertia_factor"), ("position", "velocity", "rolling_spin")
+        lists = ["forces", "torques"]
+        check(f"ball {self.name!r}", self, positive=positive, points=points, finite=["spin"], lists=lists)
+        object.__setattr__(self, "inertia", self.inertia_factor * self.mass * self.radius * self.radius)
+
+
+@with_old_fields_named
+@dataclass(frozen=True, kw_only=True)
+class Body(Ball):
+    """Anything convex that moves and turns: ``Body("crate", position=(0.0, 1.0), shape=box(0.4, 0.3), mass=2.0)``.
+
+    Mass and moment of inertia follow from the outline and its ``density``, mass per area, or are given; ``center`` is
+    the centre of mass where it is not that of the outline. ``position`` is that of the centre of mass, ``angle`` says
+    how far the outline is turned at the start. A force on a body may read ``position.angle``.
+    """
+
+    rotates: ClassVar[bool] = True
+    shape: Shape
+    mass: float = 0.0  # kg
+    density: float = 0.0  # kg/m^2, in place of the mass
+    moment: float | None = None  # kg m^2, about the centre of mass; default: that of a plate of even thickness
+    center: Vector | None = None  # m, in the outline's coordinates
+    angle: float = 0.0  # rad, counter-clockwise
+    outline: Shape = field(init=False, repr=False)  # about the centre of mass
+    radius: float = field(init=False, repr=False)  # m, from the centre of mass to the farthest point
+    inertia_factor: float = field(init=False, repr=False)
+
+    @property
+    def initial_angle(self) -> tuple[float, ...]:
+        return (self.angle,)
+
+    def __post_init__(self) -> None:
+        area, center, moment = self.shape.mass_properties()
+        if area <= 0.0:
+            raise ValueError(f"body {self.name!r}: {self.shape} has no area: give it a radius")
+        if (self.mass > 0.0) == (self.density > 0.0):
+            raise ValueError(f"body {self.name!r}: give either mass or density, and more than 0")
+        mass = self.mass or self.density * area
+        x, y = center if self.center is None else self.center
+        outline = self.shape.moved(-x, -y)
+        if self.center is not None and nearest(disc(ROUNDING * outline.reach), _ORIGIN, outline, _ORIGIN).gap > 0.0:
+            raise ValueError(f"body {self.name!r}: center = {self.center} m must be inside its shape")
+        check(f"body {self.name!r}", self, finite=["angle"])
+        if self.rolling_spin != (0.0, 0.0):
+            raise ValueError(f"body {self.name!r}: rolling_spin = {self.rolling_spin} rad/s is only for balls")
+        about = mass * (moment / area + (center[0] - x) ** 2 + (center[1] - y) ** 2)
+        about = about if self.moment is None else self.moment
+        given = {"mass": mass, "density": 0.0, "outline": outline, "radius": outline.reach}
+        for name, value in {**given, "inertia_factor": about / (mass * outline.reach**2)}.items():
+            object.__setattr__(self, name, value)
+        super().__post_init__()
+
+
+def outline_of(ball: Ball) -> Shape:
+    """The outline of a ball or body about its centre."""
+    return ball.outline if isinstance(ball, Body) else disc(ball.radius)
+
+
+def kinetic(ball: Ball, state: State, t: float = 0.0) -> float:
+    """Kinetic energy in J, including rotation, of a ball in this state at time t in s."""
+    _, _, vx, vy, *spins = state[:5] if ball.rotates else state
+    energy = 0.5 * ball.mass * (vx * vx + vy * vy) + 0.5 * ball.inertia * sum(spin * spin for spin in spins)
+    return energy * float(ball.mass_fraction(t))

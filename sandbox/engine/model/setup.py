@@ -1,0 +1,212 @@
+"""The setup that a scene passes to the engine: balls, surfaces, and when the run ends."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from math import inf, isfinite
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+
+from sandbox.engine.model.ball import Ball
+from sandbox.engine.model.setup_errors import call_user_function
+from sandbox.engine.model.surface import ELASTIC, BounceLaw, Surface, Trap
+from sandbox.physics.checks import check
+from sandbox.physics.elementwise import maximum, minimum
+from sandbox.physics.hertz import PHENOLIC
+from sandbox.renamed import name_old_names, with_old_fields_named
+
+if TYPE_CHECKING:
+    from sandbox.engine.model.event import Event
+    from sandbox.physics.integrators import State
+    from sandbox.physics.plane import Plane
+
+
+class ForceRegion(NamedTuple):
+    """A region at whose border a force begins, ends or has a kink, such as a net: steps end there, and none through it
+    is longer than ``step``, so that none skips it."""
+
+    left: float  # m
+    bottom: float  # m
+    right: float  # m
+    top: float  # m
+    step: float  # s
+
+    def crossed(self, x: tuple[Any, ...], y: tuple[Any, ...]) -> Any:
+        """Return True if a path inside the hull of these points could cross the region; coordinates in m."""
+        beside = (minimum(*x) > self.right) | (maximum(*x) < self.left)
+        return (beside | (minimum(*y) > self.top) | (maximum(*y) < self.bottom)) ^ True
+
+    def holds(self, x: Any, y: Any) -> Any:
+        """Return True if a place in m is inside."""
+        return (self.left < x) & (x < self.right) & (self.bottom < y) & (y < self.top)
+
+
+class Bounds(NamedTuple):
+    """The world's edges in m: a ball outside them is an error."""
+
+    left: float = -1e5
+    bottom: float = -1e5
+    right: float = 1e5
+    top: float = 1e5
+
+    def hold(self, state: State) -> Any:
+        """Return True if a ball in this state is inside, and all its numbers are finite."""
+        x, y, vx, vy, spin = state[:5]
+        inside = (self.left <= x) & (x <= self.right) & (self.bottom <= y) & (y <= self.top)
+        motion = vx + vy + spin
+        return inside & (motion - motion == 0.0)
+
+    def describe_violation(self, state: State) -> str:
+        """Return what is wrong with a ball in a state that they do not hold."""
+        x, y, vx, vy, spin = state[:5]
+        wrong = (
+            f"is outside the world ({self.left:g} to {self.right:g} m, {self.bottom:g} to {self.top:g} m); shorten the "
+            "duration, or widen the scene's bounds"
+            if all(map(isfinite, state))
+            else "is not finite; check the forces, or lower accuracy.step or accuracy.tolerance"
+        )
+        return f"position ({x:.6g}, {y:.6g}) m, velocity ({vx:.6g}, {vy:.6g}) m/s, spin {spin:.6g} rad/s {wrong}"
+
+
+@dataclass(frozen=True)
+class ContactModel:
+    """The model of impacts of several balls at once.
+
+    ``name`` is "rigid" (one impact after another; balls that touch act as one), "hertz" (every impact of balls by
+    contact mechanics) or "auto" (contact mechanics only if a third body can be reached during the contact).
+    ``stiffness`` is that of a pair in N/m^1.5; None means phenolic resin. ``wall_stiffness`` is that of a ball and a
+    wall; 0 for walls, such as cushions, that are so much softer than balls that they push back after the balls have
+    separated.
+    """
+
+    name: Literal["auto", "rigid", "hertz"] = "auto"
+    stiffness: float | None = None
+    wall_stiffness: float = 0.0
+
+    def between(self, radius: float, other: float) -> float:
+        """Stiffness in N/m^1.5 of two balls with these radii in m."""
+        return PHENOLIC.between(radius, other) if self.stiffness is None else self.stiffness
+
+
+class Until:
+    """A condition for the end of a run that needs more than the latest event."""
+
+    def over(self, events: Sequence[Event]) -> bool:
+        """Return True if the run ends with the last of these events."""
+        raise NotImplementedError
+
+    def passed(self, start: State, end: State) -> Any:
+        """Return True if the run ends with a step between these states, without an event; floats, or arrays for many
+        shots."""
+        return False
+
+
+def is_over(until: Callable[[Event], bool] | Until | None, events: Sequence[Event]) -> bool:
+    """Return True if a run with this condition ends with the last of these events."""
+    if isinstance(until, Until):
+        return until.over(events)
+    return until is not None and call_user_function(until, "until is called as until(event)", events[-1])
+
+
+@dataclass(frozen=True)
+class Touches(Until):
+    """Ends a run when something is touched for the ``times``-th time: ``until=Touches("floor", 2)`` is the second
+    bounce.
+
+    ``what`` is the name of a surface, a ball or a trap.
+    """
+
+    what: str
+    times: int = 1
+
+    def over(self, events: Sequence[Event]) -> bool:
+        return self._counts(events[-1]) and sum(map(self._counts, events)) >= self.times
+
+    def _counts(self, event: Event) -> bool:
+        return event.kind not in ("leave", "rest") and self.what in (event.ball, event.partner)
+
+
+@with_old_fields_named
+@dataclass(frozen=True)
+class Setup:
+    """The initial state of a run. It ends when all balls rest, when ``until`` is met, or after ``duration`` s.
+
+    It is data: made of dataclasses, tuples and module functions, so it can be pickled, compared and stacked.
+    ``until`` is a function of the latest event, or an ``Until`` such as ``Touches``.
+    ``between_balls(normal_speed, slip_speed)`` returns the Bounce of two balls; ``pairs`` gives a law for two by name:
+    ``("ball", "keeper", law)``. With a ``plane`` the balls are seen from above, sliding and rolling on it by its law of
+    motion, or that in ``planes`` under a ball's name: ``("ball", law)``; their own forces are then ignored.
+    """
+
+    balls: Sequence[Ball]
+    surfaces: Sequence[Surface] = ()
+    duration: float = 60.0  # s
+    until: Callable[[Event], bool] | Until | None = None
+    between_balls: BounceLaw = ELASTIC
+    plane: Plane | None = None
+    traps: Sequence[Trap] = ()
+    bounds: Bounds = Bounds()
+    force_regions: Sequence[ForceRegion] = ()
+    contact: ContactModel = ContactModel()
+    pairs: Sequence[tuple[str, str, BounceLaw]] = ()
+    planes: Sequence[tuple[str, Plane]] = ()
+    discontinuities: Sequence[float] = ()  # s, growing: when forces may jump or bend; no step goes across
+
+    def __post_init__(self) -> None:
+        check(
+            "setup", self, lists=["balls", "surfaces", "traps", "force_regions", "pairs", "planes", "discontinuities"]
+        )
+        names = [ball.name for ball in self.balls]
+        if not names:
+            raise ValueError("a setup needs at least one ball")
+        for name in names:
+            if names.count(name) > 1:
+                raise ValueError(f"two balls are named {name!r}: names must be unique")
+        if self.planes and self.plane is None:
+            raise ValueError("a setup with planes for some balls needs a plane for all others")
+        if any(ball.rotates for ball in self.balls):
+            if self.plane is not None:
+                raise ValueError("bodies cannot move on a plane seen from above: only balls can")
+            if self.contact.name == "hertz":
+                raise ValueError('contact model "hertz" is for balls: bodies meet as rigid ones')
+            if cushion := next((surface.name for surface in self.surfaces if surface.nose_height is not None), None):
+                raise ValueError(f"surface {cushion!r} has a nose_height: only balls can meet it, no bodies")
+        if len(names) > 1 and (losing := next((ball.name for ball in self.balls if ball.loss is not None), None)):
+            raise ValueError(f"ball {losing!r} loses mass, so it must be the only ball")
+        if not 0.0 < self.duration < inf:
+            raise ValueError(f"duration = {self.duration} s must be positive and finite")
+        if isinstance(self.until, Touches) and self.until.what not in self.names:
+            raise ValueError(f"until = {self.until}: there are {', '.join(self.names)}")
+
+    @property
+    def names(self) -> list[str]:
+        """The names of all that can be touched."""
+        touched: list[Ball | Surface | Trap] = [*self.balls, *self.surfaces, *self.traps]
+        return list(dict.fromkeys(each.name for each in touched))
+
+    @property
+    def is_single_ball(self) -> bool:
+        """True if it has one ball among surfaces, and no more: many of these can be computed together."""
+        alone = len(self.balls) == 1 and not self.balls[0].rotates
+        return alone and len(self.surfaces) > 0 and self.plane is None and not self.traps
+
+    def between(self, one: str, other: str) -> BounceLaw:
+        """The law for impacts of two balls."""
+        return next((law for *pair, law in self.pairs if {*pair} == {one, other}), self.between_balls)
+
+    def plane_of(self, ball: str) -> Plane:
+        """Return the plane that a ball slides and rolls on, seen from above."""
+        assert self.plane is not None
+        return dict(self.planes).get(ball, self.plane)
+
+    def start_of(self, ball: Ball) -> State:
+        """The state of a ball at the start."""
+        rolls = self.plane is not None and self.plane_of(ball.name).rolls
+        return (*ball.position, *ball.velocity, ball.spin, *(ball.rolling_spin if rolls else ball.initial_angle))
+
+    def ends_with(self, events: Sequence[Event]) -> bool:
+        """Return True if the run is over with the last of these events."""
+        return is_over(self.until, events)
+
+
+name_old_names(__name__)

@@ -1,0 +1,119 @@
+"""Things that stand still: surfaces that balls bounce off, slide and roll on, and places that remove balls."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from math import hypot
+from typing import NamedTuple
+
+from sandbox.engine.model.shapes import Vector
+from sandbox.physics.checks import check
+
+
+def _check_shape(shape: Segment | Circle, *points: str) -> None:
+    """Raise ValueError for an invalid shape; convert its points to tuples."""
+    check(type(shape).__name__.lower(), shape, points=points, not_negative=["radius"])
+    for name in points:
+        object.__setattr__(shape, name, tuple(getattr(shape, name)))
+
+
+@dataclass(frozen=True)
+class Segment:
+    """A straight line from a to b with half thickness ``radius`` and rounded ends; can be touched from either side."""
+
+    a: Vector  # m
+    b: Vector  # m
+    radius: float = 0.0  # m
+
+    def __post_init__(self) -> None:
+        _check_shape(self, "a", "b")
+
+    @property
+    def length(self) -> float:
+        return hypot(self.b[0] - self.a[0], self.b[1] - self.a[1])
+
+
+@dataclass(frozen=True)
+class Circle:
+    """A fixed disc."""
+
+    center: Vector  # m
+    radius: float  # m
+
+    def __post_init__(self) -> None:
+        _check_shape(self, "center")
+
+
+class Bounce(NamedTuple):
+    """The response of a surface to one impact."""
+
+    restitution: float
+    friction: float
+    tilt: float = 0.0  # rad; the surface deforms and its normal tilts against the ball's motion along it
+    tangential: float = 0.0  # restitution along it: share of the slip that a single contact reverses
+
+
+#: A contact law: returns the bounce of one impact, at a normal and a tangential speed in m/s, both not negative.
+BounceLaw = Callable[[float, float], Bounce]
+
+
+@dataclass(frozen=True)
+class Surface:
+    """A fixed shape and its response: restitution and friction are those of the pair of ball and surface.
+
+    ``rolling_resistance`` c is the deceleration of a rolling ball divided by the normal force per mass: a = c N / m.
+    ``lowest_bounce`` is the height in m below which the surface absorbs a bounce and the ball rolls, as on grass.
+    ``law`` replaces restitution and friction at an impact by a function of the normal and the tangential speed (m/s).
+    ``nose_height`` is for balls seen from above: the height in m above their plane at which a cushion touches them.
+    """
+
+    name: str
+    shape: Segment | Circle
+    restitution: float
+    friction: float
+    rolling_resistance: float = 0.0
+    lowest_bounce: float = 0.0  # m
+    law: BounceLaw | None = None
+    nose_height: float | None = None  # m
+
+    def __post_init__(self) -> None:
+        numbers = ("friction", "rolling_resistance", "lowest_bounce")
+        check(f"surface {self.name!r}", self, fractions=["restitution"], not_negative=numbers)
+
+
+@dataclass(frozen=True)
+class ConstantBounce:
+    """The contact law with the same bounce at any speed."""
+
+    bounce: Bounce
+
+    def __call__(self, normal_speed: float, slip_speed: float) -> Bounce:
+        return self.bounce
+
+
+#: Elastic and frictionless: the default between two balls.
+ELASTIC = ConstantBounce(Bounce(1.0, 0.0))
+
+
+@dataclass(frozen=True)
+class Trap:
+    """A place that removes a ball once its centre is closer than ``radius``: a pocket; or a gutter, from ``center`` to
+    ``end``. It removes those named in ``only``, if any are."""
+
+    name: str
+    center: Vector  # m
+    radius: float  # m
+    end: Vector | None = None  # m
+    only: Sequence[str] = ()
+
+    def __post_init__(self) -> None:
+        check(f"trap {self.name!r}", self, points=["center"])
+
+    @property
+    def shape(self) -> Segment | Circle:
+        return Circle(self.center, self.radius) if self.end is None else Segment(self.center, self.end, self.radius)
+
+    def takes(self, ball: str) -> bool:
+        """Return True if it removes the ball of this name."""
+        return not self.only or ball in self.only

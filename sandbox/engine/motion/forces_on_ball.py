@@ -1,0 +1,124 @@
+"""Forces and torques on a ball, individually and summed, for one shot or for many at once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from math import isfinite
+from typing import Any
+
+from sandbox.engine.model.ball import Ball
+from sandbox.engine.model.setup_errors import failed, is_from_inside
+from sandbox.errors import RunError
+from sandbox.physics.forces import Gravity
+from sandbox.physics.integrators import Acceleration, AccelerationFunction, State
+
+#: Everyday names of causes.
+CALLED = {"magnus": "lift", "bullet drag": "drag"}
+
+
+class Turned(tuple[Any, Any]):
+    """The position of a body, (x, y) in m, which also says how far it is turned."""
+
+    angle: float  # rad
+
+
+def _position(state: State) -> tuple[Any, Any]:
+    """Return the position in m, as forces take it: that of a body has its angle."""
+    if len(state) == 5:
+        return state[0], state[1]
+    position = Turned(state[:2])
+    position.angle = state[5]
+    return position
+
+
+def acceleration_function(ball: Ball) -> AccelerationFunction:
+    """Return the acceleration of a ball in flight from its forces and torques, in m/s^2 and rad/s^2, by time and state.
+
+    It raises RunError if one of them returns anything but real numbers, or arrays for many shots.
+    """
+    mass, inertia, torques = ball.mass, ball.inertia, ball.torques
+    rotates, loses_mass = ball.rotates, ball.loss is not None
+    constant = [force(0.0, (0.0, 0.0), (0.0, 0.0), 0.0) for force in ball.forces if _is_constant(force)]
+    constant_x, constant_y = (sum(parts) for parts in zip((0.0, 0.0), *constant, strict=True))
+    forces = [force for force in ball.forces if not _is_constant(force)]
+
+    def acceleration(t: Any, state: State) -> Acceleration:
+        try:
+            position = _position(state) if rotates else (state[0], state[1])
+            velocity, spin = (state[2], state[3]), state[4]
+            fx, fy, torque = constant_x, constant_y, 0.0
+            for force in forces:
+                gx, gy = force(t, position, velocity, spin)
+                fx, fy = fx + gx, fy + gy
+            for turning in torques:
+                torque = torque + turning(t, position, velocity, spin)
+            if not isinstance(fx + fy + torque, float) and isinstance(spin, float):
+                raise force_error(ball, t, state)
+            if loses_mass:
+                left = ball.mass_fraction(t)
+                return fx / (mass * left), fy / (mass * left), torque / (inertia * left)
+            return fx / mass, fy / mass, torque / inertia
+        except (TypeError, ValueError, OverflowError) as error:
+            if is_from_inside(error):
+                raise
+            raise force_error(ball, t, state) from None
+
+    return acceleration
+
+
+def _is_constant(force: Any) -> bool:
+    """True for plain gravity, which is evaluated once; a scene's own kind of Gravity may not be constant."""
+    return type(force) is Gravity and force.loss is None
+
+
+def force_error(
+    ball: Ball, t: float, state: State, otherwise: str = "the sum of its forces and torques is not a real number"
+) -> RunError:
+    """Return an error that names the force or torque that does not return finite numbers in this state; or, if all do,
+    says what is wrong ``otherwise``."""
+    return failed(t, ball.name, _wrong_term(ball, t, state) or otherwise)
+
+
+def by_cause(terms: Sequence[Any], t: float, state: State) -> Iterator[tuple[str, Any]]:
+    """The name and value of each force or torque: (fx, fy) in N, or N m."""
+    arguments = _position(state), state[2:4], state[4]
+    for term in terms:
+        yield cause(term), term(t, *arguments)
+
+
+def cause(term: object) -> str:
+    """Display name of a force or torque: ``SpinDecay`` is "spin decay"; a function keeps its own name."""
+    words = "".join(f" {c.lower()}" if c.isupper() else c for c in _name(term)).replace("_", " ").strip()
+    return CALLED.get(words, words)
+
+
+def _wrong_term(ball: Ball, t: float, state: State) -> str | None:
+    """Describe the force or torque on a ball that does not return finite numbers; None if all do."""
+    arguments = _position(state), state[2:4], state[4]
+    for term, parts in (*((force, 2) for force in ball.forces), *((torque, 0) for torque in ball.torques)):
+        try:
+            found: Any = term(t, *arguments)
+            several = isinstance(found, tuple | list) or getattr(found, "shape", ()) != ()
+            right = all(map(_is_finite, found if several else (found,))) and parts == (several and len(found))
+        except (TypeError, ValueError, OverflowError) as error:
+            return f"{_rule(term)}: {error}"
+        if not right:
+            return f"{_rule(term)}, and returned {' '.join(repr(found).split()):.60}"
+    return None
+
+
+def _is_finite(part: Any) -> bool:
+    part = part.item() if getattr(part, "shape", None) == () else part
+    return isinstance(part, int | float) and isfinite(part)
+
+
+def _name(term: object) -> str:
+    return str(getattr(term, "__name__", type(term).__name__))
+
+
+def _rule(term: object) -> str:
+    """Say how a force or torque is called and what it must return, as part of an error message."""
+    return (
+        f"{_name(term)} is called with (t, position, velocity, spin) and must return (fx, fy) in N, a torque one "
+        "number in N m"
+    )

@@ -1,0 +1,340 @@
+"""One ball during a run: its state, its path, and how it moves in the plane of the picture.
+
+It flies under its forces, and slides, rolls and rests on surfaces. Both are the same integration: in sustained contact
+the surface adds a force, so a roll is as accurate as a flight.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import hypot
+from typing import NamedTuple
+
+from sandbox.engine.contact.surfaces import press, takeoff_speed
+from sandbox.engine.contact.touch import Near, Obstacle, flush, touched
+from sandbox.engine.model.accuracy import Accuracy
+from sandbox.engine.model.ball import Ball
+from sandbox.engine.model.setup import Setup
+from sandbox.engine.model.shapes import Vector
+from sandbox.engine.model.tolerances import CLOSING, PUSH, STILL, TOUCHING_GAP
+from sandbox.engine.motion.event_kind import EventKind
+from sandbox.engine.motion.forces_on_ball import acceleration_function, force_error
+from sandbox.engine.motion.step_control import StepControl, allowed, shortest
+from sandbox.engine.motion.sustained_contact import BECOMES, FLYING, RESTING, SustainedContact, motion_on, wedged
+from sandbox.engine.paths.arc import Arc, crossing, hermite_arc, resting_arc
+from sandbox.engine.paths.phase import Phase
+from sandbox.engine.paths.run import Numerics
+from sandbox.physics.integrators import Acceleration, AccelerationFunction, Method, State
+
+_TOO_FAST = (
+    "the velocity changes too fast for any step (down to {:.1e} s); look for a force that is not smooth, or raise "
+    "accuracy.tolerance"
+)
+
+
+class InCluster(NamedTuple):
+    """Value of ``Arc.contact`` for a ball in a simulated contact with others: when that begins and ends, in s."""
+
+    start: float
+    end: float
+
+    @property
+    def phase(self) -> Phase:
+        return Phase.CLUSTER
+
+    @property
+    def surface(self) -> None:
+        return None
+
+    @property
+    def span(self) -> tuple[float, float]:
+        return self.start, self.end
+
+    @property
+    def drift(self) -> Vector:
+        return 0.0, 0.0
+
+
+class InHeap(NamedTuple):
+    """Value of ``Arc.contact`` for a ball in a heap: how fast position correction moves it along the arc, in m/s; that
+    is no part of its velocity."""
+
+    vx: float = 0.0
+    vy: float = 0.0
+
+    @property
+    def phase(self) -> Phase:
+        return Phase.HEAP
+
+    @property
+    def surface(self) -> None:
+        return None
+
+    @property
+    def span(self) -> None:
+        return None
+
+    @property
+    def drift(self) -> Vector:
+        return self.vx, self.vy
+
+
+class MovingBall:
+    """A ball's state, the arc it is on, and the path behind it; a subclass is for bodies, another for planes."""
+
+    def __init__(
+        self,
+        ball: Ball,
+        state: State,
+        obstacles: Sequence[Obstacle],
+        traps: Sequence[Obstacle],
+        setup: Setup,
+        accuracy: Accuracy,
+        numerics: Numerics,
+    ) -> None:
+        self.ball = ball
+        self.obstacles = obstacles
+        self.traps = traps
+        self.state = state
+        self.contact: SustainedContact | None = None
+        self.arc = resting_arc(0.0, 0.0, state)  # the current arc
+        self.path: list[Arc] = []
+        self.version = 0  # of the arc: predictions for an earlier one are invalid
+        self.caught = False
+        self._setup = setup
+        self._accuracy = accuracy
+        self._numerics = numerics
+        self._acceleration_at = acceleration_function(ball)
+        self._control = StepControl(accuracy)
+        self._step = self._control.integrator.step_of(self._acceleration_at, ball.rotates)
+        self._known: tuple[State, Acceleration] = ((), (0.0, 0.0, 0.0))  # the end of the last step: the next start
+        self._slips = False  # it has just lost its grip
+        self.next_step = self._control.first  # s, to try
+
+    # ------------------------------------------------------------------ its path
+
+    def first_touch(self, obstacle: Obstacle, arc: Arc) -> float | None:
+        """The time in s at which it starts to touch on this arc, or None."""
+        u = obstacle.first_touch(arc)
+        return None if u is None else arc.t0 + u * (arc.t1 - arc.t0)
+
+    @property
+    def predicted_path(self) -> Arc:
+        """The path ahead: its arc, together with those after it that begin only because its spin ends."""
+        return self.arc
+
+    def end_spin(self, t: float) -> None:
+        """Begin the second arc of its way, where its spin has ended at t."""
+
+    @property
+    def on(self) -> str:
+        """The name of the surface that it is in sustained contact with, if any."""
+        return "" if self.contact is None else self.contact.obstacle.surface.name
+
+    def arrive(self, t: float, state: State) -> None:
+        """It has moved on its arc up to t, and is in this state there. After an event on its way the next step is no
+        longer than the one that it cut: an impact changes how long a step may be, and a quarter
+        of the steps were rejected."""
+        if t < self.arc.t1:
+            self.next_step = min(self.next_step, self.arc.t1 - self.arc.t0)
+        self._keep(t)
+        self.state = state
+
+    def _keep(self, t: float) -> None:
+        """Add the arc up to t to the path."""
+        if t < self.arc.t0:
+            return  # within a contact that is already in the path
+        arc = self.arc.until(t)
+        if arc.t1 > arc.t0 or not self.path:
+            self.path.append(arc)
+
+    def append_contact(self, t: float, arcs: Sequence[Arc]) -> None:
+        """Add the arc up to t, and those through a contact with others that begins then."""
+        self._keep(t)
+        self.path += arcs
+        until, self.state = arcs[-1].t1, arcs[-1].state(arcs[-1].t1)
+        self.arc = resting_arc(until, until, self.state)
+        self.version += 1
+
+    def finish(self, t: float) -> None:
+        """Add the rest of the path, as the run ends at t. The outcome of an impact at t is included, though no arc
+        follows."""
+        if t < self.arc.t0:  # within a contact
+            self.path = [arc.until(t) for arc in self.path if arc.t0 < t]
+            return
+        self._keep(t)
+        last, before = self.arc.until(t), self.path[-1]
+        if last.t1 == last.t0 and any(
+            abs(a - b) > CLOSING for a, b in zip(last.start[2:], before.state(t)[2:], strict=True)
+        ):
+            self.path.append(last)
+
+    def near(self, x: float, y: float, gap: float = TOUCHING_GAP) -> list[Near]:
+        """The surfaces that the ball touches at (x, y), up to a ``gap`` in m, each at its nearest feature."""
+        return touched(self.obstacles, x, y, gap)
+
+    # ------------------------------------------------------------------ one piece of path
+
+    def advance(self, t: float, until: float) -> tuple[Arc, EventKind]:
+        """The next arc from t, at most to ``until``, and why it ends.
+
+        Raises RunError with the time, the ball and the quantity if the state is not finite or out of bounds.
+        """
+        if self.contact is None:
+            return self._integrate(t, until, self._acceleration_at, self._step), EventKind.ARC_END
+        contact, ball = self.contact, self.ball
+        if contact.mode == RESTING:
+            return resting_arc(t, until, self.state, contact), EventKind.ARC_END
+        arc = self._under(lambda at, state: contact.forces(ball, self._acceleration_at(at, state), state)[0], t, until)
+        return self._cut_where_contact_changes(arc, contact)
+
+    def _under(self, acceleration_at: AccelerationFunction, t: float, until: float) -> Arc:
+        """A step under accelerations that are not those of the ball in flight."""
+        return self._integrate(
+            t, until, acceleration_at, self._control.integrator.step_of(acceleration_at, self.ball.rotates)
+        )
+
+    def _integrate(self, t: float, until: float, acceleration_at: AccelerationFunction, step: Method) -> Arc:
+        state, contact = self.state, self.contact
+        known, acceleration = self._known
+        if known is not state:
+            acceleration = acceleration_at(t, state)
+            self._numerics.force_evaluations += 1
+        wanted = self.next_step
+        h = allowed(self._setup, t, min(wanted, until - t), state, acceleration)
+        if contact is not None:
+            h = min(h, contact.longest(state))
+        ball, control = self.ball, self._control
+        while True:
+            fits, following, end, last = control.attempt(step, t, state, acceleration, h, wanted, ball.radius)
+            self._numerics.steps += 1
+            self._numerics.force_evaluations += control.evaluations
+            if fits:
+                break
+            if following < shortest(t):
+                self._check(t + h, end)
+                raise force_error(ball, t + h, end, _TOO_FAST.format(h))
+            self._numerics.refined_steps += 1
+            h = wanted = following
+        self.next_step = following
+        self._check(t + h, end)
+        self._known = (end, last)
+        return hermite_arc(t, h, state, acceleration, end, last, contact)
+
+    def _check(self, t: float, after: State) -> None:
+        """Raise RunError, which names a force that is not finite, if a state is outside the world or not finite."""
+        if not self._setup.bounds.hold(after):
+            raise force_error(self.ball, t, self.state, self._setup.bounds.describe_violation(after))
+
+    # ------------------------------------------------------------------ sustained contact
+
+    def _cut_where_contact_changes(self, arc: Arc, contact: SustainedContact) -> tuple[Arc, EventKind]:
+        def progress(t: float, state: State) -> float:
+            return contact.progress(self.ball, state)
+
+        def held(t: float, state: State) -> tuple[Acceleration, float, float]:
+            return contact.forces(self.ball, self.applied(t, state), state)
+
+        ends: list[tuple[float, EventKind]] = []
+        edge, last = contact.edge(self.ball, arc), arc.state(arc.t1)
+        if edge is not None:
+            ends.append((edge, EventKind.EDGE))
+        if progress(arc.t1, last) < 0.0:
+            ends.append((crossing(arc, progress), EventKind.MOTION_END))
+        _, normal, grip_margin = held(arc.t1, last)
+        if normal < 0.0:
+            ends.append((crossing(arc, lambda t, state: held(t, state)[1]), EventKind.LIFT_OFF))
+        if grip_margin < 0.0:
+            ends.append((crossing(arc, lambda t, state: held(t, state)[2]), EventKind.GRIP_LOSS))
+        t, kind = min(ends, key=lambda end: end[0], default=(arc.t1, EventKind.ARC_END))
+        return arc.until(t), kind
+
+    def snap_to_contact(self, kind: EventKind) -> None:
+        """Move the ball exactly onto its surface, which the arc follows only closely; make it exactly rolling, or
+        exactly at rest, if that is why the arc ended."""
+        if self.contact is not None:
+            mode = BECOMES[self.contact.mode] if kind is EventKind.MOTION_END else self.contact.mode
+            self.state = self.contact._replace(mode=mode).projected_onto_surface(self.ball, self.state)
+        self._slips = kind is EventKind.GRIP_LOSS
+
+    def settle(self, t: float, height: float) -> None:
+        """Find the contact that lasts after a touch, or None for flight.
+
+        A ball stays on a surface if it is pressed on it and would not bounce higher than ``height`` (m). A lower
+        bounce is removed from the state, as is the overlap, of at most TOUCHING_GAP, at which the surface was found.
+        """
+        self.contact = None
+        slips, self._slips = self._slips, False
+        near = self.near(*self.state[:2])
+        if not near:
+            return
+        x, y, vx, vy, spin = self.state
+        applied = self.applied(t, self.state)
+        kept: list[Near] = []
+        hardest = 0.0
+        for obstacle, touch in near:
+            by = press(self.state, applied, touch.nx, touch.ny, touch.curvature)
+            if vx * touch.nx + vy * touch.ny <= takeoff_speed(by, max(height, obstacle.surface.lowest_bounce)):
+                kept.append((obstacle, touch))
+                hardest = max(hardest, by)
+        if not kept:
+            self._known = self.state, applied
+            return
+        first = min(kept, key=lambda near: vx * near[1].nx + vy * near[1].ny)[1]
+        together = [(obstacle, touch) for obstacle, touch in kept if flush(touch, first)]
+        if len(together) < len(kept) and hypot(vx, vy) <= takeoff_speed(hardest, height):
+            vx = vy = 0.0  # held in two directions
+        else:  # along the surface that the ball leaves most slowly; it may leave the others, but not enter them
+            kept = together
+            for _, touch in kept:
+                leaving = vx * touch.nx + vy * touch.ny
+                vx, vy = vx - leaving * touch.nx, vy - leaving * touch.ny
+            if any(vx * other.nx + vy * other.ny < -STILL and not flush(other, first) for _, other in near):
+                return
+        self.state = (x, y, vx, vy, spin)
+        self._hold(kept, near, applied, slips, height)
+
+    def _hold(
+        self, kept: Sequence[Near], near: Sequence[Near], applied: Acceleration, slips: bool, height: float
+    ) -> None:
+        """Choose the contact among the surfaces that the ball stays on; a ball that ``slips`` has lost its grip.
+
+        Friction on one may press the ball on another that is ``near``: then it is wedged between the two.
+        """
+        ball, state = self.ball, self.state
+        x, y, vx, vy, spin = state
+        mx, my = (vx, vy) if vx or vy else applied[:2]  # direction in which it will move
+        held: list[SustainedContact] = []
+        for obstacle, touching in kept:
+            ahead = obstacle.next_feature(touching, x, y, mx, my)
+            mode, direction = motion_on(ball, state, obstacle.surface, ahead, applied, slips)
+            if mode != FLYING:
+                held.append(SustainedContact(mode, obstacle, ahead, direction))
+        # the next piece's side before this one's corner; of two that share the corner the one that it is above
+        held.sort(key=lambda by: (by.touching.curvature, by.obstacle.tilt_from_side(by.touching.nx, by.touching.ny)))
+        two = None
+        for contact in held:
+            (ax, ay, _), _, _ = contact.forces(ball, applied, state)
+            against = [
+                (obstacle, other)
+                for obstacle, other in near
+                if not flush(other, contact.touching)
+                and (by := -(ax * other.nx + ay * other.ny)) > PUSH
+                and vx * other.nx + vy * other.ny <= takeoff_speed(by, max(height, obstacle.surface.lowest_bounce))
+            ]
+            if not against:
+                self.state, self.contact = contact.projected_onto_surface(ball, state), contact
+                return
+            two = two or against[0]
+        if two:
+            one = held[0].obstacle, held[0].touching
+            self.contact = wedged(ball, spin, one, two, applied)
+            for obstacle, touching in (one, two):
+                gap = obstacle.on_feature(touching.feature, x, y).gap
+                x, y = x - gap * touching.nx, y - gap * touching.ny
+            self.state = (x, y, 0.0, 0.0, 0.0 if self.contact.mode == RESTING else spin)
+
+    def applied(self, t: float, state: State) -> Acceleration:
+        """Acceleration from the applied forces, without the contact's; m/s^2, rad/s^2. Counts evaluations."""
+        self._numerics.force_evaluations += 1
+        return self._acceleration_at(t, state)

@@ -1,0 +1,54 @@
+"""The phases of a ball's motion, and the public form of its contact along an arc."""
+
+from __future__ import annotations
+
+from enum import Enum
+from typing import Protocol
+
+from sandbox.engine.model.shapes import Vector
+from sandbox.engine.model.surface import Surface
+
+
+class Phase(Enum):
+    """The motion of a ball or body along an arc."""
+
+    FREE = ""
+    """It flies, or moves on a plane seen from above."""
+
+    SLIDING = "sliding"
+    """It slides on a surface."""
+
+    ROLLING = "rolling"
+    """It rolls on a surface, or a body turns about a point on it."""
+
+    PINNED = "pinned"
+    """It spins in place, wedged between two surfaces."""
+
+    RESTING = "resting"
+    """It rests on a surface."""
+
+    CLUSTER = "cluster"
+    """It is in a simulated contact with other balls."""
+
+    HEAP = "heap"
+    """It lies on or under others."""
+
+
+class ArcContact(Protocol):
+    """The contact of a ball along an arc."""
+
+    @property
+    def phase(self) -> Phase:
+        """The phase of the motion."""
+
+    @property
+    def surface(self) -> Surface | None:
+        """The surface that it slides, rolls or rests on."""
+
+    @property
+    def span(self) -> tuple[float, float] | None:
+        """When a simulated contact with others begins and ends, in s."""
+
+    @property
+    def drift(self) -> Vector:
+        """The velocity in m/s by position correction in a heap, which is no part of the ball's own."""

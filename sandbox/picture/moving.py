@@ -1,0 +1,269 @@
+"""Balls and bodies, and their paths, as a picture shows them: looks and turns, places in px, trails, marks."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from math import ceil, dist, inf
+
+import numpy as np
+import pygame
+
+from sandbox.engine.model.ball import Body
+from sandbox.picture.ball import Flat, Look, Silhouette, Turning, mark_radius, turned
+from sandbox.picture.camera import Camera
+from sandbox.picture.marks import Ghost, draw_trace, is_under
+from sandbox.picture.options import P, SceneOptions
+from sandbox.picture.painter import Painter, Point
+from sandbox.picture.palette import palette
+from sandbox.picture.path import FINEST, Mark, Path, apart, slow_motion
+from sandbox.picture.sheet import Sheet
+from sandbox.picture.vectors import Vectors
+from sandbox.sport.amounts import nice
+
+RIM = palette("trace")["rim"]
+
+#: In frames the ball is at least so much larger than it has to be to be seen.
+LARGER = 1.3
+#: A ball that is larger by less than this factor is not said to be.
+NOT_WORTH_NOTING = 1.05
+#: Of impacts that are nearer to each other than this, in px on 720 rows, the hardest is marked.
+APART = 20
+#: At most so many balls are drawn along a path, or along that part of it that matters.
+BALLS = 14
+#: Radius of a bead on the path: at most so much of that of the balls there, and so many px on 720 rows.
+BEAD, LARGEST_BEAD = 0.5, 3.0
+#: Width of a string, px on 720 rows.
+STRING = 1.5
+
+
+class BallDrawing(SceneOptions[P]):
+    """Draws all that moves in a run."""
+
+    ghosts: list[Ghost]  # other runs
+    trace: np.ndarray  # the path of the ball that is played where it was drawn last, in px, shape (n, 2)
+
+    # Which
+
+    @property
+    def thing(self) -> str:
+        """The name of what is played, for notes."""
+        return self.THING or ("body" if isinstance(self.looks[self.ball], Flat) else "ball")
+
+    @property
+    def things(self) -> str:
+        """Several of them."""
+        return "bodies" if self.thing == "body" else f"{self.thing}s"
+
+    @cached_property
+    def caught(self) -> dict[str, float]:
+        """The time at which each ball is caught, in s; inf for one that is not."""
+        caught = {event.ball: event.t for event in self.run.events if event.kind == "caught"}
+        return {name: caught.get(name, inf) for name in self.balls}
+
+    def present(self, t: float) -> list[str]:
+        """The balls that are seen at time t in s: those not caught, and the one that is played, where it was."""
+        return [name for name in self.balls if t < self.caught[name] or name == self.ball]
+
+    @cached_property
+    def paths(self) -> dict[str, Path]:
+        """The path of each ball that is drawn."""
+        return {name: Path(self.run, name, self.story_end) for name in self.balls}
+
+    @property
+    def path(self) -> Path:
+        """The path of the ball that is played."""
+        return self.paths[self.ball]
+
+    @cached_property
+    def vectors(self) -> Vectors:
+        """Velocity and forces of the ball that is played."""
+        return Vectors(self.run, self.ball)
+
+    @cached_property
+    def slow_motion(self) -> int:
+        """The factor by which animations are slower."""
+        return slow_motion(self.run, self.ball)
+
+    # How
+
+    @cached_property
+    def looks(self) -> dict[str, Look]:
+        """The look of everything that moves: balls as they look, bodies as their outline in that colour."""
+        looks = {name: self.look_of(name) for name in self.balls}
+        for body in (ball for ball in self.run.setup.balls if isinstance(ball, Body) and ball.name in looks):
+            if not isinstance(looks[body.name], Silhouette):
+                rim = [(x / body.radius, y / body.radius) for x, y in body.outline.rim(1e-3 * body.radius)]
+                looks[body.name] = Flat(looks[body.name].colour, rim)
+        return looks
+
+    def thickness(self, name: str) -> float:
+        """The thickness of a ball's path, as a share of that of one alone."""
+        return 1.0 if name == self.ball and not isinstance(self.looks[name], Flat) else self.OTHERS
+
+    def turn(self, name: str, t: float) -> np.ndarray:
+        """The matrix by which a ball is turned at time t in s: where it rolls, about level axes, too."""
+        t = min(t, self.caught[name])
+        if not self.rolls(name):
+            return turned((0.0, 0.0, self.run.angle(name, t))) @ self.lying(name)
+        return self._turnings[name].at(t)
+
+    @cached_property
+    def _turnings(self) -> dict[str, Turning]:
+        """The orientations of the balls that roll on a plane."""
+        run = self.run
+
+        def turning(name: str) -> Turning:
+            times = [*(arc.t0 for arc in run.arcs[name]), run.arcs[name][-1].t1]
+            return Turning(lambda t: (*run.rolling_spin(name, t), run.state(name, t)[4]), times, self.lying(name))
+
+        return {name: turning(name) for name in self.balls}
+
+    def draw_ball(self, painter: Painter, camera: Camera, name: str, t: float, at: Point, radius: float) -> None:
+        """A ball at time t in s; a lone one that is drawn larger than it is has a ring around it that says so."""
+        larger = len(self.balls) == 1 and radius > NOT_WORTH_NOTING * self.radii[name] * camera.scale
+        self.looks[name].draw(painter, at, radius, self.turn(name, t), self.unit, larger)
+
+    def _least(self, in_frame: bool) -> float:
+        """The least radius of a ball in px: of one alone, larger in frames."""
+        return self.least * (LARGER if in_frame and len(self.balls) == 1 else 1.0)
+
+    # Where
+
+    def spots(self, camera: Camera, points: np.ndarray, radius: float) -> np.ndarray:
+        """The places in px of balls of ``radius`` px at points in m, both of shape (n, 2)."""
+        return camera.pixels(points)
+
+    def shadow(self, painter: Painter, camera: Camera, name: str, t: float, at: Point, radius: float) -> None:
+        """Draw the shadow of a ball at time t in s that is drawn at ``at`` with ``radius`` (px)."""
+
+    def kept_clear(self, camera: Camera, t: float) -> list[pygame.Rect]:
+        """The balls at time t in s, holes, and what is aimed at, in px: nothing may lie over them."""
+        corners = [(*camera.pixel(box.left, box.top), *camera.pixel(box.right, box.bottom)) for box in self.aims]
+        aims = [pygame.Rect(round(a), round(b), ceil(c - a) + 1, ceil(d - b) + 1) for a, b, c, d in corners]
+        traps = [trap for trap in self.run.setup.traps if trap.end is None]
+        holes = [(camera.pixel(*trap.center), trap.radius * camera.scale) for trap in traps]
+        round_ones = [*self._placed(camera, t).values(), *holes]
+        squares = [pygame.Rect(round(x - r), round(y - r), ceil(2 * r), ceil(2 * r)) for (x, y), r in round_ones]
+        return [*squares, *aims]
+
+    def _placed(self, camera: Camera, t: float, in_frame: bool = False) -> dict[str, tuple[Point, float]]:
+        """The place and radius, in px, of each ball that is seen at time t in s."""
+        placed, least = {}, self._least(in_frame)
+        for name in self.present(t):
+            radius = max(self.radii[name] * camera.scale, least)
+            x, y = self.spots(camera, np.array([self.run.state(name, t)[:2]]), radius)[0]
+            placed[name] = (float(x), float(y)), radius
+        return placed
+
+    def last(self, camera: Camera) -> tuple[Point, float]:
+        """The last place of the ball that is played, and the radius to which it hides what is behind it, in px."""
+        at, radius = self._placed(camera, self.story_end)[self.ball]
+        return at, radius * self.looks[self.ball].solid
+
+    def place_balls(self, painter: Painter, camera: Camera, t: float) -> None:
+        """All that are there at time t in s, over their shadows."""
+        placed = self._placed(camera, t)
+        for draw in (self.shadow, self.draw_ball):
+            for name, spot in placed.items():
+                draw(painter, camera, name, t, *spot)
+
+    # Paths
+
+    def traced(self, camera: Camera, points: np.ndarray) -> np.ndarray:
+        """A path in px, in as many points as can be told apart."""
+        traced = self.spots(camera, points, 0.0)
+        return traced[apart(traced, FINEST)]
+
+    def _traces(self, sheet: Sheet, camera: Camera) -> None:
+        """All paths, other runs' below; that of the ball that is played is kept as ``trace``, in px."""
+        traces = {name: self.traced(camera, path.points) for name, path in self.paths.items()}
+        self.trace = traces.pop(self.ball)
+        for ghost in self.ghosts:
+            ghost.draw(sheet, self.traced(camera, ghost.points))
+        for name, points in traces.items():
+            draw_trace(sheet, points, self.colour_of(name), self.thickness(name))
+        draw_trace(sheet, self.trace, self.colour_of(self.ball), self.thickness(self.ball))
+
+    def strobe(self, sheet: Sheet, camera: Camera) -> list[str]:
+        """A lone ball at even times, a bead in its place where balls would overlap; what to note of that."""
+        if len(self.balls) > 1:
+            return []
+        painter = sheet.painter
+        every = nice(max(self.span, 0.01) / BALLS)
+        moments = [i * every for i in range(max(1, ceil(self.story_end / every - 1e-9)))]
+        radius, look = max(self.radius * camera.scale, mark_radius(self.rows)), self.looks[self.ball]
+        states = np.array([self.run.state(self.ball, t)[:2] for t in [*moments, self.story_end]])
+        *places, end = self.spots(camera, states, radius)
+        over = self.last(camera)
+        bead, last, crowded = min(BEAD * radius, max(2.0, LARGEST_BEAD * self.unit)), None, False
+        for t, at in zip(moments, places, strict=True):
+            near = [2.2 * radius > dist(at, other) for other in ([end] if last is None else [end, last])]
+            if t > 0 and any(near):
+                painter.disc(at, bead + max(0.7, 0.8 * self.unit), RIM, 0.8)
+                painter.disc(at, bead, look.colour)
+                crowded |= not is_under(at, over, self.unit)
+            else:
+                look.draw(painter, at, radius, self.turn(self.ball, t), self.unit)
+                last = at
+        return [
+            f"a {self.thing} every {every:g} s",
+            *([f"a bead where {self.things} would overlap"] if crowded else []),
+        ]
+
+    def impacts(self, camera: Camera) -> list[Mark]:
+        """The impacts that are marked."""
+        marked: list[Mark] = []
+        for mark in sorted(self.path.marks(), key=lambda mark: -mark.hardness):
+            near = (dist(mark.at, other.at) * camera.scale < APART * self.unit for other in marked)
+            if mark.hardness >= max(self.LEAST_IMPACT, self.SOFT * [*marked, mark][0].hardness) and not any(near):
+                marked.append(mark)
+        return sorted(marked, key=lambda mark: mark.t)
+
+    def _strings(self, painter: Painter, camera: Camera, t: float) -> None:
+        """Draw the strings of balls that hang."""
+        for name, (x, y) in self.strings:
+            ends = [camera.pixel(x, y), camera.pixel(*self.run.state(name, t)[:2])]
+            painter.line(ends, STRING * self.unit, self.STRING)
+
+    def _trails(self, sheet: Sheet, camera: Camera, t: float) -> None:
+        """Draw where the balls have been: a thin line, and a thick one of late; and where those of other runs are. All
+        under the headline."""
+        painter = sheet.painter
+        sheet.surface.set_clip((0, sheet.top_row, *self.size))
+        for ghost in self.ghosts:
+            ghost.draw_in_frame(sheet, self.traced(camera, ghost.points), self.spots(camera, ghost.at(t), 0.0)[0])
+        for name, (moments, places) in self._tracks.items():
+            if t <= self.story_end:
+                been = np.vstack([places[: np.searchsorted(moments, t)], self.run.state(name, t)[:2]])
+                painter.thread(self.spots(camera, been, 0.0), self.unit, self.faint_of(name))
+            self.trail(painter, camera, name, t)
+        sheet.surface.set_clip(None)
+
+    def trail(self, painter: Painter, camera: Camera, name: str, t: float) -> None:
+        """Draw where a ball has been of late, at time t in s."""
+        path = self.paths[name]
+        first, last = np.searchsorted(path.samples[:, 0], (t - self.TRAIL, t))
+        late = self.spots(camera, np.vstack([path.points[first:last], self.run.state(name, t)[:2]]), 0.0)
+        if np.ptp(late, axis=0).max() > 2:
+            width = 1.1 * max(self.radii[name] * camera.scale, self.least)
+            painter.fading(late[apart(late, 3.0)], width, self.colour_of(name), 0.9)
+
+    @cached_property
+    def _tracks(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+        """Times (s) and places (m) along each ball's path that can be told apart where frames begin."""
+        camera, found = self.view(0.0), {}
+        for name, path in self.paths.items():
+            some = apart(camera.pixels(path.points), 4.0)
+            found[name] = path.samples[some, 0], path.points[some]
+        return found
+
+    # Cameras
+
+    @property
+    def camera(self) -> Camera:
+        """The poster's camera."""
+        raise NotImplementedError
+
+    def view(self, t: float) -> Camera:
+        """The camera of ``frame(t)``."""
+        return self.camera

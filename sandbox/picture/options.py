@@ -1,0 +1,252 @@
+"""Scene options: what the picture of a scene may say of itself. Everything has a default; the rest of a picture is the
+same for all scenes.
+
+A scene's ``Picture`` is a :class:`~sandbox.picture.side.SideView` or a view from above, and overrides some of these
+constants and methods; the views have a few more of their own, in their sections "scene options". Lengths are in m,
+times in s, and px are those of the picture.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import cached_property, wraps
+from math import atan2, degrees, hypot, pi
+from typing import Any, ClassVar, Generic, TypeVar
+
+import numpy as np
+import pygame
+
+from sandbox.errors import RequestError, RunError
+from sandbox.parameters import Group
+from sandbox.picture.ball import SMALLEST, Look, least_radius, seams
+from sandbox.picture.camera import Box, Camera
+from sandbox.picture.painter import Painter
+from sandbox.picture.palette import Colour, palette
+from sandbox.picture.sheet import Entry, Sheet
+from sandbox.renamed import OPTIONS
+from sandbox.scene.scene_run import SceneRun
+from sandbox.sport.amounts import amount, metres, signed
+from sandbox.text import shortened
+from sandbox.tracebacks import is_ours
+
+CARD, PLAIN = palette("card"), palette("plain")
+TRACES = palette("trace")["colours"]
+
+#: A run that is shorter, in s, is told in ms.
+INSTANT = 0.1
+
+P = TypeVar("P", bound=Group)
+
+
+def _function(member: Any) -> Any:
+    """The function of a method, property or cached property."""
+    return getattr(member, "fget", None) or getattr(member, "func", member)
+
+
+def _returning(needed: str, how: Callable[..., Any]) -> Callable[..., Any]:
+    """The function, which raises RunError where it returns None, or no surface where one is needed."""
+
+    @wraps(how)
+    def checked(*arguments: Any, **named: Any) -> Any:
+        value = how(*arguments, **named)
+        if value is None or (needed == "pygame.Surface" and not isinstance(value, pygame.Surface)):
+            file = f"{how.__code__.co_filename}, line {how.__code__.co_firstlineno}"
+            raise RunError(f"{file}: {how.__qualname__} must return a {needed}, and returned {shortened(repr(value))}")
+        return value
+
+    return checked
+
+
+class SceneOptions(Generic[P]):
+    """Everything that a scene may override, with defaults, and what it may ask for: run and size of the picture."""
+
+    run: SceneRun
+    parameters: P
+    size: tuple[int, int]  # px
+    sheet: Sheet  # the one drawn last
+    unit: float  # what 1 px is on a picture of 720 rows
+    rows: int  # for which letters and lines are made
+    radii: dict[str, float]  # m, of each ball
+    radius: float  # m, of the ball that is played
+
+    # Colours and words
+
+    #: How the ball looks, and what it is called: "" for a ball, or a body where it is a ``Body``.
+    LOOK: ClassVar[Look] = Look(PLAIN["ball"], seams(PLAIN["marks"]))
+    THING: ClassVar[str] = ""
+    #: What must be said of the result wherever it is shown, such as that nothing measured stands behind it.
+    CAVEAT: ClassVar[str] = ""
+    #: Colours of the path, of the thin line of it that stays behind in frames (None: the same), and of other runs.
+    TRACE: ClassVar[Colour] = TRACES[0]
+    FAINT: ClassVar[Colour | None] = None
+    EARLIER: ClassVar[Sequence[Colour]] = TRACES[1:]
+    #: What a spin below and one above zero is called.
+    SPINS: ClassVar[tuple[str, str]] = ("topspin", "backspin")
+    #: What is stretched where a camera stretches one.
+    STRETCHED: ClassVar[str] = "heights"
+    #: The colour of strings.
+    STRING: ClassVar[Colour] = CARD["quiet"]
+    #: True if text stands on dark ground, where the scene does not decide by the shot.
+    ON_DARK: ClassVar[bool] = True
+
+    # How much is drawn
+
+    #: s of path that the trail behind the ball shows.
+    TRAIL: ClassVar[float] = 0.5
+    #: The balls along the path are spread over at least this share of it.
+    LEAST_SPAN: ClassVar[float] = 0.25
+    #: Impacts are marked that are at least so hard, in m/s, and as a share of the hardest.
+    LEAST_IMPACT: ClassVar[float] = 0.3
+    SOFT: ClassVar[float] = 0.03
+    #: The paths of balls besides the one that is played, and those of bodies, which may be thin, are so much as thick.
+    OTHERS: ClassVar[float] = 0.6
+    #: True if all runs stand on the same ground, so that one cannot be moved up or down to lie over another.
+    ONE_GROUND: ClassVar[bool] = False
+
+    # What is shown
+
+    @property
+    def on_dark(self) -> bool:
+        """True if text stands on dark ground."""
+        return self.ON_DARK
+
+    @property
+    def ball(self) -> str:
+        """The ball that is played: its path is the picture's."""
+        return self.run.setup.balls[0].name
+
+    @property
+    def balls(self) -> list[str]:
+        """All that are drawn as balls."""
+        return [ball.name for ball in self.run.setup.balls]
+
+    @property
+    def least(self) -> float:
+        """The least radius of a ball in px: several may lie close together, and are not drawn so large as one alone."""
+        return least_radius(self.rows) if len(self.balls) == 1 else SMALLEST / 2
+
+    @cached_property
+    def story_end(self) -> float:
+        """The time in s at which the path ends and the verdict is in."""
+        return self.run.duration
+
+    @cached_property
+    def span(self) -> float:
+        """The time in s over which the balls along the path are spread: until the first touch, unless that is soon."""
+        touches = (event.t for event in self.run.events if self.ball in (event.ball, event.partner))
+        return max(min(next(touches, self.story_end), self.story_end), self.LEAST_SPAN * self.story_end)
+
+    @property
+    def moment(self) -> float:
+        """The time in s at which the poster shows what moves besides the balls."""
+        return 0.0
+
+    @property
+    def datum(self) -> tuple[tuple[float, float], str]:
+        """The point in m that runs have in common when they are compared, and what it is."""
+        return (0.0, 0.0), "the start"
+
+    @property
+    def strings(self) -> Sequence[tuple[str, tuple[float, float]]]:
+        """The balls that hang on a string, each with the point in m where that is tied."""
+        return ()
+
+    def look_of(self, name: str) -> Look:
+        """The look of a ball."""
+        return self.LOOK
+
+    def colour_of(self, name: str) -> Colour:
+        """The colour of the path of a ball, or of anything else that moves."""
+        others = [ball.name for ball in self.run.setup.balls if ball.name != self.ball]
+        return self.TRACE if name == self.ball else self.EARLIER[others.index(name) % len(self.EARLIER)]
+
+    def faint_of(self, name: str) -> Colour:
+        """The colour of the thin line that stays where a ball has been, in frames."""
+        return self.FAINT if self.FAINT and name == self.ball else self.colour_of(name)
+
+    def lying(self, name: str) -> np.ndarray:
+        """The matrix by which a ball is turned at the start."""
+        return np.eye(3)
+
+    # What is written
+
+    def progress(self, t: float) -> tuple[str, str]:
+        """Headline and note of a frame at time t in s, before the verdict is in."""
+        return self.clock(t), ""
+
+    def clock(self, t: float) -> str:
+        """A time in s, in ms where all is over in an instant."""
+        return f"{1e3 * t:.2f} ms" if self.run.duration < INSTANT else f"{t:.2f} s"
+
+    def position(self, t: float) -> list[Entry]:
+        """Entries of the frame's card for the ball's position."""
+        x, y, *_ = self.run.state(self.ball, t)
+        return [("x", metres(x)), ("y", metres(y))]
+
+    def moving(self, name: str, t: float) -> list[Entry]:
+        """Speed, direction and spin of a ball at time t in s."""
+        _, _, vx, vy, spin = self.run.state(name, t)
+        speed = hypot(vx, vy)
+        way = self.heading_text(degrees(atan2(vy, vx))) if speed > 0.01 else "–"
+        turning = "side spin" if self.rolls(name) else "spin"
+        return [("speed", amount(speed, "m/s")), ("direction", way), (turning, self.spin_text(spin))]
+
+    def heading_text(self, angle: float) -> str:
+        """A direction in deg, counter-clockwise from straight ahead, for people."""
+        return signed(f"{angle:.0f}") + "°"
+
+    def spin_text(self, spin: float) -> str:
+        """A spin in rad/s for people."""
+        rpm, (below, above) = spin * 30 / pi, self.SPINS
+        return f"{abs(rpm):.0f} rpm {above if rpm > 0.0 else below}" if abs(rpm) >= 0.5 else "none"
+
+    def remarks(self, camera: Camera) -> list[str]:
+        """Notes on what of the place is not drawn as it is, or not seen."""
+        return []
+
+    # What is drawn, from the lowest layer up
+
+    def backdrop(self, painter: Painter, camera: Camera) -> None:
+        """Draw what stands still, all of it behind the ball."""
+
+    def behind(self, painter: Painter, camera: Camera, t: float) -> None:
+        """Draw what moves behind the ball, at time t in s."""
+
+    def before(self, painter: Painter, camera: Camera, t: float) -> None:
+        """Draw what hides the ball, at time t in s."""
+
+    def landmarks(self, sheet: Sheet, camera: Camera) -> None:
+        """Write the labels of the place, whatever the shot."""
+
+    def annotate(self, sheet: Sheet, camera: Camera) -> None:
+        """Draw what only this sport has on its poster."""
+
+    @property
+    def aims(self) -> Sequence[Box]:
+        """What is aimed at, in m, such as a goal: the window covers none of it."""
+        return ()
+
+    def inset(self, sheet: Sheet, camera: Camera, t: float | None) -> pygame.Rect | None:
+        """Draw a small picture in the upper right corner, at time t in s or on the poster; where it is."""
+        return None
+
+    def rolls(self, name: str) -> bool:
+        """True if a ball turns about level axes, too."""
+        setup = self.run.setup
+        return setup.plane is not None and bool(setup.plane_of(name).rolls)
+
+    def __init_subclass__(cls) -> None:
+        """Report a forgotten ``return`` where a user's own picture overrides what has a value, and names of before."""
+        super().__init_subclass__()
+        for old, new in OPTIONS.items():
+            if old in vars(cls):
+                raise RequestError(f"{cls.__module__}: {cls.__qualname__}.{old} is now {new}")
+        for name, member in list(vars(cls).items()):
+            how, inherited = _function(member), _function(getattr(super(cls, cls), name, None))
+            needed = str(getattr(inherited, "__annotations__", {}).get("return"))
+            if hasattr(how, "__code__") and not is_ours(how.__code__.co_filename) and "None" not in needed:
+                returning: Any = _returning(needed, how)
+                if how is not member:  # a property
+                    returning = type(member)(returning)
+                    getattr(returning, "__set_name__", lambda *_: None)(cls, name)
+                setattr(cls, name, returning)

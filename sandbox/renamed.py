@@ -1,0 +1,121 @@
+"""Names of an earlier version that scenes and scripts may still use: each gives an error that says the new one."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from functools import wraps
+from typing import Any, NoReturn, TypeVar
+
+T = TypeVar("T")
+
+_PACKAGE = "sandbox."
+
+#: Modules of the package, by their old names.
+MODULES = {
+    "engine.setup": "engine.model.ball, engine.model.surface and engine.model.setup",
+    "engine.accuracy": "engine.model.accuracy",
+    "engine.shapes": "engine.model.shapes",
+    "engine.event": "engine.model.event",
+    "engine.run": "engine.paths.run",
+    "engine.path": "engine.paths.path",
+    "engine.arc": "engine.paths.arc",
+    "engine.acting": "engine.motion.forces_on_ball",
+}
+
+_ELEMENTWISE = {"least": "minimum", "most": "maximum", "choose": "where"}
+
+#: Functions and classes, by module of the package and old name.
+NAMES: dict[str, dict[str, str]] = {
+    "engine.model.setup": {
+        **dict.fromkeys(
+            ("Body", "Force", "Torque", "SOLID_SPHERE", "HOLLOW_SPHERE", "DISC", "kinetic", "outline_of"),
+            "in engine.model.ball",
+        ),
+        **dict.fromkeys(("Segment", "Circle"), "in engine.model.surface"),
+        "Vector": "in engine.model.shapes",
+        "Catch": "engine.model.surface.Trap",
+        "Always": "engine.model.surface.ConstantBounce",
+        "Patch": "ForceRegion",
+    },
+    "parameters": {"word": "text", "either": "one_of"},
+    "kit": {
+        "Catch": "Trap",
+        "Always": "ConstantBounce",
+        "Patch": "ForceRegion",
+        "word": "text",
+        "either": "one_of",
+        **_ELEMENTWISE,
+        "stamp": "text_mask",
+    },
+    "physics.elementwise": _ELEMENTWISE,
+}
+
+#: Arguments and attributes, by class and old name.
+FIELDS: dict[str, dict[str, str]] = {
+    "Ball": {"turns": "rotates", "turned": "initial_angle", "left": "mass_fraction"},
+    "Body": {"turns": "rotates", "turned": "initial_angle", "left": "mass_fraction"},
+    "Setup": {
+        "catches": "traps",
+        "patches": "force_regions",
+        "breaks": "discontinuities",
+        "is_flight": "is_single_ball",
+    },
+}
+
+#: What a scene's picture overrides, by old name.
+OPTIONS = {"told": "story_end", "company": "must_be_visible"}
+
+
+class _MovedModules:
+    """Finds no module: an import of one that has moved is an error that says where it is now."""
+
+    @staticmethod
+    def find_spec(name: str, path: object, target: object = None) -> None:
+        now = MODULES.get(name.removeprefix(_PACKAGE))
+        if now is not None:
+            raise ModuleNotFoundError(f"{name} is now {now.replace('engine', f'{_PACKAGE}engine')}", name=name)
+
+
+def name_old_modules() -> None:
+    """From now on the import of a module by its old name says the new one."""
+    if _MovedModules not in sys.meta_path:
+        sys.meta_path.append(_MovedModules)
+
+
+def name_old_names(module: str) -> None:
+    """From now on an import of an old name from this module says the new one."""
+
+    def missing(name: str) -> NoReturn:
+        raise_if_old(module, name)
+        raise AttributeError(f"module {module!r} has no attribute {name!r}")
+
+    sys.modules[module].__dict__["__getattr__"] = missing
+
+
+def raise_if_old(module: str, name: str) -> None:
+    """Raise ImportError with the new name if this one, which the module does not have, is an old one."""
+    now = NAMES[module.removeprefix(_PACKAGE)].get(name)
+    if now is not None:
+        raise ImportError(f"{name} is now {now.replace('engine', f'{_PACKAGE}engine')}", name=module)
+
+
+def with_old_fields_named(cls: type[T]) -> type[T]:
+    """Return a class that names the new argument or attribute where an old one is used: a TypeError that says so."""
+    names, made = FIELDS[cls.__name__], cls.__init__
+
+    @wraps(made)
+    def init(self: Any, *arguments: Any, **named: Any) -> None:
+        if not names.keys().isdisjoint(named):
+            old = next(name for name in named if name in names)
+            raise TypeError(f"{cls.__name__}: {old} is now {names[old]}")
+        made(self, *arguments, **named)
+
+    def missing(self: Any, name: str) -> NoReturn:
+        now = f" is now {names[name]}" if name in names else f": {cls.__name__!r} object has no attribute {name!r}"
+        raise AttributeError(f"{cls.__name__}.{name}{now}")
+
+    made_to_name: dict[str, Callable[..., Any]] = {"__init__": init, "__getattr__": missing}
+    for name, function in made_to_name.items():
+        setattr(cls, name, function)
+    return cls

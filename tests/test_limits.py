@@ -1,0 +1,119 @@
+"""Limits of the machine and of files: memory, open files, room on a disk, pipes, endless chains of files."""
+
+from __future__ import annotations
+
+import os
+import resource
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from sandbox.files import write_together
+from tests.own_scene import BUILD, COMMAND, DROP, Outcome, assert_refused, change
+
+Call = Callable[..., Outcome]
+
+
+def limited(limits: dict[int, int], *args: object) -> Outcome:
+    """Of the program in a process with these limits."""
+    done = subprocess.run(
+        [*COMMAND, *map(str, args)],
+        capture_output=True,
+        text=True,
+        preexec_fn=lambda: [resource.setrlimit(which, (most, most)) for which, most in limits.items()] and None,
+    )
+    return Outcome(done.returncode, done.stdout, done.stderr)
+
+
+def test_too_little_memory_is_a_line(tmp_path: Path):
+    outcome = limited({resource.RLIMIT_AS: 80_000_000}, "run", DROP, "--poster", tmp_path / "x.png")
+    assert_refused(outcome, "", 1)
+    assert not (tmp_path / "x.png").exists()
+
+
+def test_too_few_files_for_workers_is_a_line(tmp_path: Path):
+    sweep = ("sweep", DROP, "--over", "launch.height=1:2:3", "--out", tmp_path / "x.csv", "--jobs", 2)
+    assert_refused(limited({resource.RLIMIT_NOFILE: 9}, *sweep), "a worker process cannot be started: too many", 1)
+
+
+def test_help_on_a_full_disk_is_a_line():
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run([*COMMAND, "run", "--help"], stdout=full, stderr=subprocess.PIPE, text=True)
+    assert (done.returncode, done.stderr) == (1, "error: stdout: no space left on device\n")
+
+
+def test_a_video_takes_no_devices_place(call: Call):
+    assert_refused(call("run", DROP, "--video", "/dev/null"), "--video /dev/null: is no file", 2)
+    assert Path("/dev/null").is_char_device()
+
+
+def test_a_pipe_is_no_scene_file(call: Call, tmp_path: Path):
+    os.mkfifo(tmp_path / "pipe.toml")
+    assert_refused(call("run", tmp_path / "pipe.toml"), "pipe.toml: is a pipe or a device; a file is needed")
+    (tmp_path / "link.toml").symlink_to("/dev/zero")
+    assert_refused(call("run", tmp_path / "link.toml"), "is a pipe or a device; a file is needed")
+
+
+def test_a_huge_scene_file_is_refused_unread(call: Call, tmp_path: Path):
+    with (tmp_path / "huge.toml").open("wb") as file:
+        file.truncate(100_000_000)
+    assert_refused(call("run", tmp_path / "huge.toml"), "huge.toml: has 100 MB; such a file has at most 1 MB")
+
+
+def test_a_chain_of_scene_files_has_an_end(call: Call, drop: Path):
+    for number in range(1_200):
+        (drop / "presets" / f"p{number}.toml").write_text(f'scene = "drop/p{number + 1}"', "utf-8")
+    assert_refused(call("run", drop / "p0"), "p0.toml: is based on more than 30 files, one on the other")
+
+
+def test_a_new_scene_needs_a_folder_that_can_be_written(call: Call):
+    assert_refused(call("new", "/proc/mine"), "new /proc/mine: cannot write into /proc: ")
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_a_scene_cannot_copy_the_program(drop: Path, tmp_path: Path, jobs: int):
+    change(drop / "scene.py", BUILD, f"{BUILD}    import os; os.fork()\n")
+    sweep = ("--over", "launch.height=1:2:3", "--out", tmp_path / "x.csv", "--jobs", jobs)
+    script = "import sys; sys.argv[0] = 'sandbox'; from sandbox.cli import main; sys.exit(main())"
+    done = subprocess.run(
+        [sys.executable, "-c", script, "sweep", *map(str, (drop, *sweep))], capture_output=True, text=True
+    )
+    assert done.returncode == 1
+    assert done.stderr.count("RuntimeError: os.fork: a scene must not copy the program") == 1
+
+
+def test_a_second_ctrl_c_ends_a_call_of_c_without_an_end(drop: Path, tmp_path: Path):
+    endless = f"    open({str(tmp_path / 'there')!r}, 'w').close(); sum(range(10**12))\n"
+    change(drop / "scene.py", BUILD, BUILD + endless)
+    process = subprocess.Popen([*COMMAND, "run", str(drop)], start_new_session=True)
+    while not (tmp_path / "there").exists():
+        time.sleep(0.01)
+    time.sleep(0.1)
+    process.send_signal(signal.SIGINT)
+    with pytest.raises(subprocess.TimeoutExpired):
+        process.wait(0.2)
+    process.send_signal(signal.SIGINT)
+    assert process.wait(5.0) == -signal.SIGINT
+
+
+def test_files_written_together_are_all_there_or_none(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """A full disk while the second is written; and Ctrl-C between the two renames."""
+    (tmp_path / "file").touch()
+    with pytest.raises(OSError, match="ot a directory"):
+        write_together({tmp_path / "a.png": b"a", tmp_path / "file" / "b.json": b"b"})
+    assert [path.name for path in tmp_path.iterdir()] == ["file"]
+    replace = Path.replace
+
+    def interrupted(part: Path, target: Path) -> Path:
+        os.kill(os.getpid(), signal.SIGINT)
+        return replace(part, target)
+
+    monkeypatch.setattr(Path, "replace", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        write_together({tmp_path / "a.png": b"a", tmp_path / "b.json": b"b"})
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.png", "b.json", "file"]
