@@ -34,15 +34,15 @@ class QueuedEvent(NamedTuple):
 class EventQueue:
     """Predicted events of balls, earliest first."""
 
-    def __init__(self, tracks: Sequence[MovingBall]) -> None:
-        self._tracks = tracks
+    def __init__(self, movers: Sequence[MovingBall]) -> None:
+        self._movers = movers
         self._heap: list[QueuedEvent] = []
         self._order = count()
 
     def push(self, t: float, kind: EventKind, ball: int, other: int = NO_BALL) -> None:
         """Add an event at t that holds as long as its balls are on their present arcs."""
-        other_version = 0 if other == NO_BALL else self._tracks[other].version
-        event = QueuedEvent(t, next(self._order), kind, ball, self._tracks[ball].version, other, other_version)
+        other_version = 0 if other == NO_BALL else self._movers[other].version
+        event = QueuedEvent(t, next(self._order), kind, ball, self._movers[ball].version, other, other_version)
         heapq.heappush(self._heap, event)
 
     def pop(self) -> QueuedEvent | None:
@@ -50,8 +50,8 @@ class EventQueue:
         while self._heap:
             event = heapq.heappop(self._heap)
             _, _, _, ball, version, other, other_version = event
-            if self._tracks[ball].version == version and (
-                other == NO_BALL or self._tracks[other].version == other_version
+            if self._movers[ball].version == version and (
+                other == NO_BALL or self._movers[other].version == other_version
             ):
                 return event
         return None

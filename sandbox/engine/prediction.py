@@ -19,9 +19,9 @@ InContact = Callable[[Obstacle | int], bool]
 class Prediction:
     """Predicts events of the balls of a run and puts them into its queue."""
 
-    def __init__(self, tracks: Sequence[MovingBall], queue: EventQueue, numerics: Numerics, skin: float) -> None:
+    def __init__(self, movers: Sequence[MovingBall], queue: EventQueue, numerics: Numerics, skin: float) -> None:
         """``skin`` is the overlap in m at which two shapes touch."""
-        self._tracks = tracks
+        self._movers = movers
         self._queue = queue
         self._numerics = numerics
         self._skin = skin
@@ -29,36 +29,36 @@ class Prediction:
     def predict(self, index: int, t: float, kind: EventKind, in_contact: InContact, others: Sequence[int]) -> None:
         """Predict the first event from t on a ball's new arc, which ends as ``kind`` says: alone, or with ``others``.
         It does not meet what it is ``in_contact`` with."""
-        track = self._tracks[index]
-        arc = track.predicted_path
+        mover = self._movers[index]
+        arc = mover.predicted_path
         at = arc.t1
-        touch = self.first_touch(index, arc, track.obstacles, at, in_contact)
+        touch = self.first_touch(index, arc, mover.obstacles, at, in_contact)
         if touch is not None:
             at, kind = touch, EventKind.TOUCH
-        if track.traps and (caught := self.first_touch(index, arc, track.traps, at)) is not None:
+        if mover.traps and (caught := self.first_touch(index, arc, mover.traps, at)) is not None:
             at, kind = caught, EventKind.TRAP
         self._queue.push(at, kind, index)
-        if track.arc.t1 < at:
-            self._queue.push(track.arc.t1, EventKind.SPIN_END, index)
+        if mover.arc.t1 < at:
+            self._queue.push(mover.arc.t1, EventKind.SPIN_END, index)
         if others:
             self._predict_pairs(index, t, at, in_contact, others)
 
     def _predict_pairs(self, index: int, t: float, until: float, in_contact: InContact, others: Sequence[int]) -> None:
         """Predict where a ball first touches each of the others, from t until ``until``."""
-        track = self._tracks[index]
-        left, bottom, right, top = track.predicted_path.box()
+        mover = self._movers[index]
+        left, bottom, right, top = mover.predicted_path.box()
         for other in others:
-            neighbour = self._tracks[other]
+            neighbour = self._movers[other]
             if other == index or neighbour.caught:
                 continue
-            reach = track.ball.radius + neighbour.ball.radius
+            reach = mover.ball.radius + neighbour.ball.radius
             a, b, c, d = neighbour.predicted_path.box()
             if left <= c + reach and right >= a - reach and bottom <= d + reach and top >= b - reach:
                 dx, dy = max(0.0, left - c, a - right), max(0.0, bottom - d, b - top)
                 if dx * dx + dy * dy > reach * reach or in_contact(other):
                     continue
                 self._numerics.queries += 1
-                at = pair_touches(track, neighbour, max(t, neighbour.arc.t0), self._skin)
+                at = pair_touches(mover, neighbour, max(t, neighbour.arc.t0), self._skin)
                 if at is not None and at <= until:
                     self._queue.push(at, EventKind.TOUCH, index, other)
 
@@ -76,7 +76,7 @@ class Prediction:
             west, south, east, north = obstacle.box
             if right >= west and left <= east and bottom <= north and top >= south and not in_contact(obstacle):
                 self._numerics.queries += 1
-                touch = self._tracks[index].first_touch(obstacle, arc)
+                touch = self._movers[index].first_touch(obstacle, arc)
                 if touch is not None and touch <= until:
                     first = until = touch
                     arc.truncate_at(touch)
@@ -89,11 +89,11 @@ class Prediction:
 
         Found by sweeping along x.
         """
-        lasts = [self._tracks[index].arc.t1 - t for index in stepped]
+        lasts = [self._movers[index].arc.t1 - t for index in stepped]
         ranges, longest = [], max(lasts, default=0.0)  # at rest, to the run's end
-        for index, track in enumerate(self._tracks):
-            if not track.caught:
-                arc, radius = track.arc, track.ball.radius
+        for index, mover in enumerate(self._movers):
+            if not mover.caught:
+                arc, radius = mover.arc, mover.ball.radius
                 left, bottom, right, top = arc.box() if index in stepped else arc.box_within(t, longest)
                 ranges.append((left - radius, right + radius, bottom - radius, top + radius, index))
         found: dict[int, list[int]] = {index: [] for index in stepped}

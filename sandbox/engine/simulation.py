@@ -65,12 +65,12 @@ class Simulation:
         self._numerics = Numerics() if numerics is None else numerics
         self._events: list[Event] = []
         self._over = False
-        self._tracks = self._make_tracks()
-        self._moving = {*range(len(self._tracks))}  # the balls that neither rest nor are caught
-        self._queue = EventQueue(self._tracks)
-        self._prediction = Prediction(self._tracks, self._queue, self._numerics, accuracy.skin)
+        self._movers = self._make_movers()
+        self._moving = {*range(len(self._movers))}  # the balls that neither rest nor are caught
+        self._queue = EventQueue(self._movers)
+        self._prediction = Prediction(self._movers, self._queue, self._numerics, accuracy.skin)
         slowest = 0.0 if setup.plane is None else slowest_hop(setup, accuracy.hop)
-        self._impacts = Impacts(setup, self._tracks, self._numerics, slowest)
+        self._impacts = Impacts(setup, self._movers, self._numerics, slowest)
         self._all_round = all_round(*setup.balls)
         self._moment, self._in_place = 0.0, 0  # s, since when time stands still, and events since
 
@@ -79,7 +79,7 @@ class Simulation:
         with self._uncounted():  # here, not above: it brings numpy, which a run in which no balls meet does not need
             from sandbox.engine.impact.cluster_search import ClusterSearch
 
-        return ClusterSearch(self._setup, self._tracks, self._accuracy.contact_step)
+        return ClusterSearch(self._setup, self._movers, self._accuracy.contact_step)
 
     @cached_property
     def _heap(self) -> Heap | None:
@@ -89,7 +89,7 @@ class Simulation:
         with self._uncounted():  # here, not above: no run of one ball needs it
             from sandbox.engine.heap.heap import Heap
 
-        return Heap(self._setup, self._tracks, self._accuracy, self._numerics)
+        return Heap(self._setup, self._movers, self._accuracy, self._numerics)
 
     @contextmanager
     def _uncounted(self) -> Iterator[None]:
@@ -98,40 +98,40 @@ class Simulation:
         yield
         self._numerics.wall_s -= perf_counter() - started
 
-    def _make_tracks(self) -> list[MovingBall]:
+    def _make_movers(self) -> list[MovingBall]:
         setup = self._setup
         obstacles: dict[float, list[Obstacle]] = {}
         skin = self._accuracy.skin
         traps = [(each, Obstacle(Surface(each.name, each.shape, 0.0, 0.0), 0.0, skin)) for each in setup.traps]
         for radius in {ball.radius for ball in setup.balls}:
             obstacles[radius] = [Obstacle(surface, radius, skin) for surface in setup.surfaces]
-        tracks: list[MovingBall] = []
+        movers: list[MovingBall] = []
         for ball, (x, y) in zip(setup.balls, starts(setup.balls, obstacles), strict=True):
             state: State = (x, y, *map(float, setup.start_of(ball)[2:]))
             kind = OnPlane if setup.plane is not None else MovingBody if ball.rotates else MovingBall
             near = [place for trap, place in traps if trap.takes(ball.name)]
-            tracks.append(kind(ball, state, obstacles[ball.radius], near, setup, self._accuracy, self._numerics))
-        return tracks
+            movers.append(kind(ball, state, obstacles[ball.radius], near, setup, self._accuracy, self._numerics))
+        return movers
 
     # ------------------------------------------------------------------ the algorithm
 
     def run(self) -> Run:
         """Run from start to end."""
         started = perf_counter()
-        for index, track in enumerate(self._tracks):
-            if track.version == 0:
+        for index, mover in enumerate(self._movers):
+            if mover.version == 0:
                 self._collide(0.0, [index])  # contacts at the start come first
         return self._finish(0.0, started)
 
     def _finish(self, t: float, started: float) -> Run:
         """Go on from t to the end of the run; ``started`` is the clock time of its start."""
         t, ended = self._loop(t)
-        for track in self._tracks:
-            if not track.caught:
-                track.finish(t)
+        for mover in self._movers:
+            if not mover.caught:
+                mover.finish(t)
         self._numerics.wall_s += perf_counter() - started
         self._events.sort(key=lambda event: event.t)  # a contact with a duration is noted at its start
-        arcs = {track.ball.name: Path(track.path) for track in self._tracks}
+        arcs = {mover.ball.name: Path(mover.path) for mover in self._movers}
         return Run(self._setup, self._accuracy, arcs, self._events, self._numerics, t, ended)
 
     def _loop(self, t: float) -> tuple[float, str]:
@@ -166,20 +166,20 @@ class Simulation:
     def _end_spin(self, t: float, index: int) -> None:
         """Go on along the predicted path, without spin: what is on it is known."""
         self._arrive_at_end(t, index, EventKind.SPIN_END)
-        self._tracks[index].end_spin(t)
+        self._movers[index].end_spin(t)
 
     def _arrive_at_end(self, t: float, index: int, kind: EventKind) -> None:
-        track = self._tracks[index]
+        mover = self._movers[index]
         self._over = self._passes(t, index)
-        track.arrive(t, track.arc.state(t))
-        track.snap_to_contact(kind)
+        mover.arrive(t, mover.arc.state(t))
+        mover.snap_to_contact(kind)
 
     def _change_contact(self, t: float, index: int, kind: EventKind) -> None:
         """Go on where an arc ends because the contact with a surface changes."""
-        track = self._tracks[index]
-        track.arrive(t, track.arc.state(t))
-        track.snap_to_contact(kind)
-        track.arc = resting_arc(t, t, track.state)
+        mover = self._movers[index]
+        mover.arrive(t, mover.arc.state(t))
+        mover.snap_to_contact(kind)
+        mover.arc = resting_arc(t, t, mover.state)
         self._collide(t, [index])
 
     def _touch(self, t: float, balls: Sequence[int]) -> None:
@@ -190,18 +190,18 @@ class Simulation:
 
     def _catch(self, t: float, index: int) -> None:
         """Remove a ball that is caught."""
-        track = self._tracks[index]
-        track.finish(t)
-        x, y, vx, vy = track.path[-1].state(t)[:4]
-        track.version += 1
-        track.caught = True
+        mover = self._movers[index]
+        mover.finish(t)
+        x, y, vx, vy = mover.path[-1].state(t)[:4]
+        mover.version += 1
+        mover.caught = True
         self._moving.discard(index)
-        nearest = min(track.traps, key=lambda trap: trap.near(x, y).gap)
-        self._note(t, "caught", track, nearest.surface.name, (x, y), (vx * vx + vy * vy) ** 0.5)
+        nearest = min(mover.traps, key=lambda trap: trap.near(x, y).gap)
+        self._note(t, "caught", mover, nearest.surface.name, (x, y), (vx * vx + vy * vy) ** 0.5)
 
     def _passes(self, t: float, index: int) -> bool:
         """True if the run ends with a ball's arc up to t, without an event."""
-        arc, until = self._tracks[index].arc, self._setup.until
+        arc, until = self._movers[index].arc, self._setup.until
         return isinstance(until, Until) and bool(until.passed(arc.start, arc.state(t)))
 
     # ------------------------------------------------------------------ impacts, clusters and heaps
@@ -224,7 +224,7 @@ class Simulation:
             self._go_through(t, touching, outcome)
             return
         for index, state in outcome.states.items():
-            self._tracks[index].arrive(t, state)
+            self._movers[index].arrive(t, state)
         held: Collection[int] = ()
         if self._heap and self._heap.belongs_in_heap(t, outcome.states, self._impacts.pairs):
             held = self._step_heap(t, outcome.states.keys())
@@ -247,15 +247,15 @@ class Simulation:
         if heap:
             heap.release(parted.states.keys())
         for index, arcs in parted.arcs.items():
-            track = self._tracks[index]
-            track.append_contact(t, arcs)
+            mover = self._movers[index]
+            mover.append_contact(t, arcs)
             self._queue.push(parted.t, EventKind.CLUSTER_END, index)
-            caught = (self._prediction.first_touch(index, arc, track.traps, arc.t1) for arc in arcs)
+            caught = (self._prediction.first_touch(index, arc, mover.traps, arc.t1) for arc in arcs)
             at = next((at for at in caught if at is not None), inf)
             if at < self._setup.duration:
                 self._queue.push(at, EventKind.TRAP, index)
         for index in touching.keys() - parted.states.keys() - (heap.members if heap else set()):
-            self._tracks[index].arrive(t, touching[index])
+            self._movers[index].arrive(t, touching[index])
             self._resume(index, t)
         if heap and heap.members:
             self._step_heap(t, ())
@@ -267,12 +267,12 @@ class Simulation:
         heap.wake(joining)
         members = set(heap.members)
         for index in members - set(joining):
-            self._tracks[index].arrive(t, self._tracks[index].arc.state(t))
-        states = {index: self._tracks[index].state for index in sorted(members.union(joining))}
+            self._movers[index].arrive(t, self._movers[index].arc.state(t))
+        states = {index: self._movers[index].state for index in sorted(members.union(joining))}
         stepped = heap.step(t, self._setup.duration, states)
         for index, arc in stepped.items():
-            self._tracks[index].version += 1
-            self._tracks[index].arc = arc
+            self._movers[index].version += 1
+            self._movers[index].arc = arc
         for index, others in self._prediction.neighbours(stepped.keys(), t).items():
             self._note_rest(index, t)
             self._prediction.predict(index, t, EventKind.HEAP_STEP, partial(heap.keeps_apart, index), others)
@@ -284,37 +284,37 @@ class Simulation:
 
     def _resume(self, index: int, t: float) -> None:
         """Continue from the ball's state: find its contacts and plan its next arc."""
-        track = self._tracks[index]
-        was = track.on
-        track.settle(t, self._accuracy.settle)
-        if was and was != track.on:
-            self._note(t, "leave", track, was, track.state)
-        if track.contact is not None and was != track.on and track.contact.mode != RESTING:
-            self._note(t, "contact", track, track.on, track.state)
+        mover = self._movers[index]
+        was = mover.on
+        mover.settle(t, self._accuracy.settle)
+        if was and was != mover.on:
+            self._note(t, "leave", mover, was, mover.state)
+        if mover.contact is not None and was != mover.on and mover.contact.mode != RESTING:
+            self._note(t, "contact", mover, mover.on, mover.state)
         self._plan(index, t)
 
     def _plan(self, index: int, t: float) -> None:
         """Create a new arc from the ball's state at t, and predict the first event on it."""
-        track, kind = self._tracks[index], EventKind.ARC_END
-        track.version += 1
+        mover, kind = self._movers[index], EventKind.ARC_END
+        mover.version += 1
         if t < self._setup.duration and not self._over:
-            track.arc, kind = track.advance(t, self._setup.duration)
+            mover.arc, kind = mover.advance(t, self._setup.duration)
         else:
-            track.arc = resting_arc(t, t, track.state, track.contact)
+            mover.arc = resting_arc(t, t, mover.state, mover.contact)
         if self._over:
             return  # nothing left to plan
         self._note_rest(index, t)
-        own = None if track.contact is None else track.contact.obstacle
-        everyone = range(len(self._tracks))
+        own = None if mover.contact is None else mover.contact.obstacle
+        everyone = range(len(self._movers))
         self._prediction.predict(index, t, kind, lambda other: other is own, everyone if len(everyone) > 1 else ())
 
     # ------------------------------------------------------------------ noting
 
     def _note(
-        self, t: float, kind: str, track: MovingBall, partner: str, at: Sequence[float], speed: float = 0.0
+        self, t: float, kind: str, mover: MovingBall, partner: str, at: Sequence[float], speed: float = 0.0
     ) -> None:
         """Note an event of the ball ``at`` a place, in m."""
-        self._events.append(Event(t, kind, track.ball.name, partner, speed, at[0], at[1]))
+        self._events.append(Event(t, kind, mover.ball.name, partner, speed, at[0], at[1]))
         if self._setup.ends_with(self._events):
             self._over = True
 
@@ -322,19 +322,19 @@ class Simulation:
         """Note the contacts that closed in an impact at t of balls that were ``touching`` then."""
         for hit in hits:
             self._numerics.impacts += 1
-            track = self._tracks[hit.ball]
-            at = touching[hit.ball][:2] if hit.ball in touching else track.arc.position(t)
-            self._note(hit.t, "impact", track, hit.partner, at, hit.speed)
+            mover = self._movers[hit.ball]
+            at = touching[hit.ball][:2] if hit.ball in touching else mover.arc.position(t)
+            self._note(hit.t, "impact", mover, hit.partner, at, hit.speed)
 
     def _note_rest(self, index: int, t: float) -> None:
         """Note if a ball has come to rest, or moves again."""
-        track = self._tracks[index]
-        if not track.arc.rests:
+        mover = self._movers[index]
+        if not mover.arc.rests:
             self._moving.add(index)
         elif index in self._moving:
             self._moving.discard(index)
-            if t > 0.0 or track.on:
-                self._note(t, "rest", track, track.on, track.state)
+            if t > 0.0 or mover.on:
+                self._note(t, "rest", mover, mover.on, mover.state)
 
     # ------------------------------------------------------------------ guards
 
@@ -347,13 +347,13 @@ class Simulation:
             raise self._stalled(event.t, event.ball)
         if self._numerics.steps > MOST_STEPS:
             remedy = "its forces are very stiff: raise accuracy.tolerance, or shorten the duration"
-            name = self._tracks[event.ball].ball.name
+            name = self._movers[event.ball].ball.name
             raise failed(event.t, name, f"{MOST_STEPS:,} steps and still not finished; {remedy}")
 
     def _stalled(self, t: float, index: int) -> RunError:
-        track = self._tracks[index]
-        x, y = track.arc.state(t)[:2]
-        name = track.ball.name
+        mover = self._movers[index]
+        x, y = mover.arc.state(t)[:2]
+        name = mover.ball.name
         where = f"t = {t:.6g} s, ball {name!r} at ({x:.4g}, {y:.4g}) m"
         last = next((event for event in reversed(self._events) if name in (event.ball, event.partner)), None)
         if last is None or last.t < t - _STANDSTILL:

@@ -15,7 +15,7 @@ import pytest
 from sandbox.engine import simulate
 from sandbox.engine.contact import turning_touch
 from sandbox.engine.contact.manifold import meeting
-from sandbox.engine.contact.turning_touch import Mover, first_touch, pose_of
+from sandbox.engine.contact.turning_touch import OutlineOnArc, first_touch, pose_of
 from sandbox.engine.ledger import ledger
 from sandbox.engine.model.accuracy import LEVELS
 from sandbox.engine.model.ball import Ball, Body, kinetic
@@ -206,7 +206,7 @@ def test_no_touch_of_spinning_outlines_is_missed():
     """Between the start and the time found, sampled finely, they are apart; then they overlap by the skin."""
     rng, hits = random.Random(8), 0
     for _ in range(60):
-        one, other = (Mover(random_outline(rng), swinging(rng, way, 0.6)) for way in (-1.0, 1.0))
+        one, other = (OutlineOnArc(random_outline(rng), swinging(rng, way, 0.6)) for way in (-1.0, 1.0))
         t = first_touch(one, other, 0.0, 0.6)
         gaps = [
             nearest(one.shape, pose_of(one.arc.state(at)), other.shape, pose_of(other.arc.state(at))).gap
@@ -226,7 +226,7 @@ def test_the_spin_of_a_disc_costs_nothing_where_it_moves_in_touch_with_a_body(mo
     start = [(-0.2, 0.1, 1.5, 0.0, 0.0, 0.0), (-1e-7, 0.1, 1.5, 0.0, -20.0)]
     ends = [(state[0] + 1.5 * 0.1, *state[1:]) for state in start]
     arcs = [hermite_arc(0.0, 0.1, *pair, (0.0,) * 3) for pair in zip(start, [(0.0,) * 3] * 2, ends, strict=True)]
-    assert first_touch(Mover(box(0.2, 0.2), arcs[0]), Mover(disc(0.1), arcs[1]), 0.0, 0.1) is None
+    assert first_touch(OutlineOnArc(box(0.2, 0.2), arcs[0]), OutlineOnArc(disc(0.1), arcs[1]), 0.0, 0.1) is None
     assert len(asked) < 10
 
 

@@ -9,7 +9,7 @@ from typing import NamedTuple, Protocol
 
 from sandbox.engine.contact.surfaces import speeds_where_touching, takeoff_speed
 from sandbox.engine.contact.touch import Near, Obstacle, balls_touch, touched
-from sandbox.engine.contact.turning_touch import Mover, first_touch, fixed, pose_of
+from sandbox.engine.contact.turning_touch import OutlineOnArc, first_touch, fixed, pose_of
 from sandbox.engine.model.ball import Ball, outline_of
 from sandbox.engine.model.nearest import Pose, meeting_points, nearest
 from sandbox.engine.model.shapes import Polygon, Shape, Vector
@@ -236,12 +236,12 @@ def pair_touches(one: Moving, other: Moving, t: float, skin: float) -> float | N
     until = min(one.arc.t1, other.arc.t1)
     if until <= t:
         return None
-    first, second = (Mover(outline_of(track.ball), track.arc) for track in (one, other))
+    first, second = (OutlineOnArc(outline_of(mover.ball), mover.arc) for mover in (one, other))
     return first_touch(first, second, t, until, skin)
 
 
 @lru_cache(maxsize=4096)
-def fixed_outline(shape: Segment | Circle) -> Mover:
+def fixed_outline(shape: Segment | Circle) -> OutlineOnArc:
     """A fixed shape as an outline that stays in place."""
     points = (shape.center,) if isinstance(shape, Circle) else (shape.a, shape.b)
     return fixed(Polygon(tuple(dict.fromkeys(points)), shape.radius))

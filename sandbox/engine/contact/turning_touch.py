@@ -33,7 +33,7 @@ _MOST = 20_000
 _EVER = 1e300
 
 
-class Mover(NamedTuple):
+class OutlineOnArc(NamedTuple):
     """An outline, and its path; or its place, if it does not move."""
 
     shape: Shape
@@ -65,9 +65,9 @@ class _Bounds(NamedTuple):
         return max([abs(ax * nx + ay * ny) for ax, ay in self.accelerations], default=0.0)
 
 
-def fixed(shape: Shape) -> Mover:
+def fixed(shape: Shape) -> OutlineOnArc:
     """An outline that stays where it is."""
-    return Mover(shape, resting_arc(_EVER, _EVER, (0.0, 0.0, 0.0, 0.0, 0.0)))
+    return OutlineOnArc(shape, resting_arc(_EVER, _EVER, (0.0, 0.0, 0.0, 0.0, 0.0)))
 
 
 def pose_of(state: State) -> Pose:
@@ -76,7 +76,7 @@ def pose_of(state: State) -> Pose:
 
 
 def first_touch(
-    one: Mover, other: Mover, t: float, until: float, skin: float = SKIN, direction: float | None = None
+    one: OutlineOnArc, other: OutlineOnArc, t: float, until: float, skin: float = SKIN, direction: float | None = None
 ) -> float | None:
     """The first time from t on at which two outlines overlap by ``skin`` (m), or None. Where they overlap by more at
     t, it is when they come to overlap by more than then. ``direction`` is a guess of that of the normal, in rad."""

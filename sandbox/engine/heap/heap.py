@@ -77,9 +77,9 @@ _APART = 1e-2
 class Heap:
     """All balls of a run that press on one another, in one heap or in several; they are stepped together."""
 
-    def __init__(self, setup: Setup, tracks: Sequence[MovingBall], accuracy: Accuracy, numerics: Numerics) -> None:
+    def __init__(self, setup: Setup, movers: Sequence[MovingBall], accuracy: Accuracy, numerics: Numerics) -> None:
         self._setup = setup
-        self._tracks = tracks
+        self._movers = movers
         self._longest = accuracy.step
         self._settle = accuracy.settle
         self._numerics = numerics
@@ -108,7 +108,7 @@ class Heap:
     def note_energy(self, states: Mapping[int, State]) -> None:
         """Note how much kinetic energy these balls have: what a heap creates is compared with the most."""
         for index, state in states.items():
-            self._stepper.note_energy(self._tracks[index].ball, state, index)
+            self._stepper.note_energy(self._movers[index].ball, state, index)
 
     def wake(self, indices: Collection[int]) -> None:
         """Step the heaps again in which these balls lie at rest."""
@@ -124,7 +124,7 @@ class Heap:
         members, pressing = self._members.keys(), {frozenset((i,)) for i, a in states.items() if self._lies(i, t, a)}
         forced = {index: self._forced_in_a_step(index, t, state) for index, state in states.items()}
         for i, j in pairs:
-            a, b, balls = states[i], states[j], (self._tracks[i].ball, self._tracks[j].ball)
+            a, b, balls = states[i], states[j], (self._movers[i].ball, self._movers[j].ball)
             met = meeting(balls[0], a, balls[1], b, self.margin)
             if (
                 -met.closing < max(forced[i], forced[j])
@@ -138,7 +138,7 @@ class Heap:
     def _come_back(self, t: float, indices: Sequence[int], states: Sequence[State], met: ContactManifold) -> bool:
         """True if bodies that touch and part touch again at once, as they turn."""
         applied = [self._applied(index, t, state) for index, state in zip(indices, states, strict=True)]
-        one, other = (outline_of(self._tracks[index].ball) for index in indices)
+        one, other = (outline_of(self._movers[index].ball) for index in indices)
         return touches_again((one, other), states, applied, met, self._settle)
 
     def slow(self, t: float, states: Mapping[int, State]) -> float:
@@ -156,7 +156,7 @@ class Heap:
     def _forced_in_a_step(self, index: int, t: float, state: State) -> float:
         """The speed in m/s that forces give in a step: for a body at least what is rounding, while rounding does not
         press balls on each other."""
-        ball = self._tracks[index].ball
+        ball = self._movers[index].ball
         least = -inf if all_round(ball) else rounding(ball, state)
         forced = hypot(*self._applied(index, t, state)[:2])
         speed = forced * min(self._longest, self._lasting(self._share, forced))
@@ -165,13 +165,13 @@ class Heap:
     def _lies(self, index: int, t: float, state: State) -> bool:
         """True if a body leaves surfaces too slowly for a bounce that counts: at two points or more, or at one that its
         own path cannot follow."""
-        track = self._tracks[index]
-        if all_round(track.ball):
+        mover = self._movers[index]
+        if all_round(mover.ball):
             return False
         applied = self._applied(index, t, state)
         within = self.margin if index in self._members else TOUCHING_GAP
-        found = resting_points(track.ball, track.obstacles, state, within, applied, self._settle)
-        alone = len(found) == 1 and body_point_contact(track.ball, state, *found[0], applied) is not None
+        found = resting_points(mover.ball, mover.obstacles, state, within, applied, self._settle)
+        alone = len(found) == 1 and body_point_contact(mover.ball, state, *found[0], applied) is not None
         return bool(found) and not alone
 
     def step(self, t: float, until: float, states: Mapping[int, State]) -> dict[int, Arc]:
@@ -241,11 +241,11 @@ class Heap:
 
     def _resist_at_once(self, index: int, t: float, state: State) -> None:
         """Resist the rolling of a ball that has come into the heap, by what presses it on surfaces now."""
-        ball, track = self._tracks[index].ball, self._tracks[index]
+        ball, mover = self._movers[index].ball, self._movers[index]
         if ball.rotates:
             return
         applied = self._applied(index, t, state)
-        for obstacle, touching in track.near(state[0], state[1], self.margin):
+        for obstacle, touching in mover.near(state[0], state[1], self.margin):
             pushed = press(state, applied, touching.nx, touching.ny, touching.curvature)
             self._members[index].resist(obstacle.surface, ball.mass * max(0.0, pushed), ball.radius)
 
@@ -270,7 +270,7 @@ class Heap:
 
     def _refuse_leap(self, index: int, arc: Arc) -> None:
         """Raise RunError if a body's centre passed through a surface: it was too thin for the step."""
-        ball = self._tracks[index].ball
+        ball = self._movers[index].ball
         passed = self._stepper.world.passed(arc.position(arc.t0), arc.position(arc.t1)) if ball.rotates else None
         if passed is not None:
             what = f"it is so thin that others pressed it through {self._setup.surfaces[passed].name!r}"
@@ -287,14 +287,14 @@ class Heap:
         return hypot(*applied[:2]) + member.swing(state[4])
 
     def _applied(self, index: int, t: float, state: State) -> Acceleration:
-        return self._tracks[index].applied(t, state)
+        return self._movers[index].applied(t, state)
 
     def _take(self, indices: Collection[int]) -> None:
         """Make these balls the members."""
         for index in self._members.keys() - indices:
             self._stepper.remove(self._members.pop(index))
         for index in indices - self._members.keys():
-            member = Member(index, self._tracks[index], self._stepper.world, self._stepper.unit, self._t or -inf)
+            member = Member(index, self._movers[index], self._stepper.world, self._stepper.unit, self._t or -inf)
             self._members[index] = member
             self._stepper.add(member)
 

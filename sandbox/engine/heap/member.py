@@ -21,18 +21,18 @@ class Member:
     Chipmunk's unit of time is ``unit`` s.
     """
 
-    def __init__(self, index: int, track: MovingBall, world: PymunkWorld, unit: float, since: float) -> None:
+    def __init__(self, index: int, mover: MovingBall, world: PymunkWorld, unit: float, since: float) -> None:
         self.index = index
-        self.track = track
-        self.ball = track.ball
+        self.mover = mover
+        self.ball = mover.ball
         self.since = since  # s, when it came to press on others; from the start, forever
         self.slow_for = 0.0  # s
         self.resistance = 0.0  # N m, of rolling, by the pressure of the step before
         self.touching: set[Obstacle | int] = set()  # obstacles, and balls by index, in this step
         self.before: set[Obstacle | int] = set()  # the same in the step before
         self.left_out: set[Obstacle | int] = set()  # what it met too fast in this step: left to an impact
-        self.start: State = track.state
-        self.end: State = track.state
+        self.start: State = mover.state
+        self.end: State = mover.state
         self.applied: Acceleration | None = None  # by forces in the middle of the last step, in m/s^2 and rad/s^2
         self.body, self.disc = world.add(self.ball)
         self.brake = pymunk.SimpleMotor(self.body, world.space.static_body, 0.0)  # rolling resistance
@@ -46,7 +46,7 @@ class Member:
         turned = [angle[0] + 0.5 * h * spin] if angle else []
         middle = (x + 0.5 * h * vx, y + 0.5 * h * vy, vx, vy, spin, *turned)
         self.start, self._h = state, h
-        self.applied = ax, ay, turning = self.track.applied(t + 0.5 * h, middle)
+        self.applied = ax, ay, turning = self.mover.applied(t + 0.5 * h, middle)
         body.position = (x - 0.5 * h * vx, y - 0.5 * h * vy)
         body.angle = angle[0] - 0.5 * h * spin if angle else 0.0
         body.velocity, body.angular_velocity = (unit * vx, unit * vy), unit * spin

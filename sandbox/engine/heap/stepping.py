@@ -233,7 +233,7 @@ class Stepper:
         first, second = arbiter.shapes
         here, there = self._of_disc[first], self._of_disc.get(second)
         place = -1 if there is not None else self.world.surface_of[second]
-        other = here.track.obstacles[place] if there is None else there.index
+        other = here.mover.obstacles[place] if there is None else there.index
         approach, along, slip = (speed / self.unit for speed in _speeds(arbiter, here, there))
         arbiter.process_collision = other in here.before or approach <= self._impact_speed  # it is remembered
         if not arbiter.process_collision:

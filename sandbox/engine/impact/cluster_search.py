@@ -49,10 +49,10 @@ class _Blow(NamedTuple):
 class ClusterSearch:
     """Finds clusters among the balls of a run, according to its contact model."""
 
-    def __init__(self, setup: Setup, tracks: Sequence[MovingBall], step: float) -> None:
+    def __init__(self, setup: Setup, movers: Sequence[MovingBall], step: float) -> None:
         """``step`` is a fraction of the shortest possible contact."""
         self._setup = setup
-        self._tracks = tracks
+        self._movers = movers
         self._step = step
 
     def resolve(
@@ -95,7 +95,7 @@ class ClusterSearch:
                 return None if alone else parted
             met |= late
             for index in frozenset().union(*late) - members.keys():
-                members[index] = self._tracks[index].arc.state(t)
+                members[index] = self._movers[index].arc.state(t)
 
     def _hardest_blow(self, t: float, touching: dict[int, State], slowest: float) -> _Blow | None:
         """The hardest blow among balls that touch; None if all are slower than ``slowest`` (m/s), or if other forces
@@ -108,13 +108,13 @@ class ClusterSearch:
         speed, i, j = max(struck, default=(0.0, 0, 0))
         if speed <= slowest:
             return None
-        first, second = self._tracks[i].ball, self._tracks[j].ball
+        first, second = self._movers[i].ball, self._movers[j].ball
         stiffness = self._setup.contact.between(first.radius, second.radius)
         lasts = contact_time(first.mass * second.mass / (first.mass + second.mass), stiffness, speed)
-        pushed = [(*touching[index][:2], *self._tracks[index].arc.acceleration(t)) for index in (i, j)]
+        pushed = [(*touching[index][:2], *self._movers[index].arc.acceleration(t)) for index in (i, j)]
         if self._approach(*pushed) * lasts > speed:  # accelerations in place of velocities
             return None
-        moving = max(track.arc.fastest() for track in self._tracks if not track.caught)
+        moving = max(mover.arc.fastest() for mover in self._movers if not mover.caught)
         fastest = 2.0 * max(speed, moving) * max(first.mass, second.mass) / (first.mass + second.mass)
         return _Blow(speed, stiffness, lasts, fastest)
 
@@ -122,7 +122,7 @@ class ClusterSearch:
 
     def _gap(self, i: int, a: State, j: int, b: State) -> float:
         """The gap in m between two balls in these states."""
-        return hypot(a[0] - b[0], a[1] - b[1]) - self._tracks[i].ball.radius - self._tracks[j].ball.radius
+        return hypot(a[0] - b[0], a[1] - b[1]) - self._movers[i].ball.radius - self._movers[j].ball.radius
 
     @staticmethod
     def _approach(a: State, b: State) -> float:
@@ -137,14 +137,14 @@ class ClusterSearch:
         while waiting and members.keys().isdisjoint(fresh):
             index = waiting.pop()
             state = members[index]
-            for other, track in enumerate(self._tracks):
-                if other in members or track.caught:
+            for other, mover in enumerate(self._movers):
+                if other in members or mover.caught:
                     continue
-                x, y = track.arc.position(t)
-                apart = track.ball.radius + self._tracks[index].ball.radius
+                x, y = mover.arc.position(t)
+                apart = mover.ball.radius + self._movers[index].ball.radius
                 if abs(x - state[0]) + abs(y - state[1]) > 2.0 * apart + 2.0 * blow.fastest * blow.lasts:
                     continue
-                there = track.arc.state(t)
+                there = mover.arc.state(t)
                 towards = max(0.0, self._approach(state, there))
                 if self._gap(index, state, other, there) <= (blow.fastest + towards) * blow.lasts:
                     members[other] = there
@@ -158,7 +158,7 @@ class ClusterSearch:
         near: list[tuple[int, Obstacle]] = []
         room = dict.fromkeys(members, inf)
         for index, (x, y, *_) in members.items():
-            for obstacle in self._tracks[index].obstacles:
+            for obstacle in self._movers[index].obstacles:
                 left, bottom, right, top = obstacle.box
                 if max(left - x, x - right, bottom - y, y - top) > max(reach, room[index]):
                     continue  # farther than that
@@ -166,7 +166,7 @@ class ClusterSearch:
                 if gap <= reach:
                     near.append((index, obstacle))
                 if gap > reach or not hard:
-                    room[index] = min(room[index], gap + deep * self._tracks[index].ball.radius)
+                    room[index] = min(room[index], gap + deep * self._movers[index].ball.radius)
         return near, room
 
     def _pairs(self, members: dict[int, State], blow: _Blow, met: set[frozenset[int]]) -> list[tuple[int, int]]:
@@ -182,21 +182,21 @@ class ClusterSearch:
         """The pairs, of a ball that was touched and any other, that come to overlap on straight lines from t until the
         balls have separated."""
         lines = {}
-        for index, track in enumerate(self._tracks):
-            if not track.caught:
-                end = parted.states[index][:2] if index in parted.states else track.arc.position(parted.t)
-                lines[index] = (*track.arc.position(t), *end)
+        for index, mover in enumerate(self._movers):
+            if not mover.caught:
+                end = parted.states[index][:2] if index in parted.states else mover.arc.position(parted.t)
+                lines[index] = (*mover.arc.position(t), *end)
         pairs = set()
         for index in parted.states:
             x, y, u, v = lines[index]
             for other, (ox, oy, ou, ov) in lines.items():
                 ax, ay, bx, by = x - ox, y - oy, u - ou, v - ov
-                reach = self._tracks[index].ball.radius + self._tracks[other].ball.radius - TOUCHING_GAP
+                reach = self._movers[index].ball.radius + self._movers[other].ball.radius - TOUCHING_GAP
                 if other != index and _nearest(ax, ay, bx - ax, by - ay) < reach:
                     pairs.add(frozenset((index, other)))
         return pairs
 
-    # ------------------------------------------------------------------ from tracks to the cluster and back
+    # ------------------------------------------------------------------ from movers to the cluster and back
 
     def _simulate(
         self,
@@ -212,7 +212,7 @@ class ClusterSearch:
         """The outcome of the cluster of these members, walls and pairs."""
         place = {index: number for number, index in enumerate(members)}
         balls = [self._ball(t, index, state, room[index]) for index, state in members.items()]
-        contacts = [(i, self._tracks[j].ball.name, self._link(place, members, i, j, blow.speed)) for i, j in pairs]
+        contacts = [(i, self._movers[j].ball.name, self._link(place, members, i, j, blow.speed)) for i, j in pairs]
         for index, obstacle in walls:
             link = self._wall_link(place[index], members[index], obstacle, wall_stiffness)
             contacts.append((index, obstacle.surface.name, link))
@@ -229,13 +229,13 @@ class ClusterSearch:
         return Outcome(until, {index: each[-1].state(until) for index, each in arcs.items()}, sorted(hits), arcs)
 
     def _ball(self, t: float, index: int, state: State, room: float) -> ClusterBall:
-        track = self._tracks[index]
-        ball, acceleration = track.ball, track.arc.acceleration(t)
+        mover = self._movers[index]
+        ball, acceleration = mover.ball, mover.arc.acceleration(t)
         spin = (*state[5:7], state[4]) if len(state) > 5 else (0.0, 0.0, state[4])
         return ClusterBall(ball.mass, ball.radius, ball.inertia, state[:2], state[2:4], spin, acceleration, room)
 
     def _link(self, place: dict[int, int], members: dict[int, State], i: int, j: int, speed: float) -> Link:
-        first, second = self._tracks[i].ball, self._tracks[j].ball
+        first, second = self._movers[i].ball, self._movers[j].ball
         approach = max(speed, self._approach(members[i], members[j]))
         bounce = bounce_of_balls(self._setup, approach, 0.0, first.name, second.name)
         law = self._setup.between(first.name, second.name)

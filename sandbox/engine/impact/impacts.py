@@ -75,9 +75,9 @@ ResolveCluster = Callable[[float, dict[int, State]], Outcome | None]
 class Impacts:
     """Resolves impacts among the balls of a run."""
 
-    def __init__(self, setup: Setup, tracks: Sequence[MovingBall], numerics: Numerics, slowest_hop: float) -> None:
+    def __init__(self, setup: Setup, movers: Sequence[MovingBall], numerics: Numerics, slowest_hop: float) -> None:
         self._setup = setup
-        self._tracks = tracks
+        self._movers = movers
         self._numerics = numerics
         self.gap = TOUCHING_GAP  # m, up to which shapes touch; wider in a heap
         self.pairs: list[tuple[int, int]] = []  # of balls that touch, of those found last
@@ -126,7 +126,7 @@ class Impacts:
         """Raise RunError if the bodies that touch at t have more energy after their impact than before."""
         had, has = self._energy(before), self._energy(after)
         if has - had > _CREATED * had + len(hits) * self._heaviest * self._slowest_hop**2:
-            names = {self._tracks[index].ball.name for index in before} | {hit.partner for hit in hits}
+            names = {self._movers[index].ball.name for index in before} | {hit.partner for hit in hits}
             raise RunError(
                 f"t = {t:.6g} s: {has - had:.3g} J appeared from nothing in the impact of "
                 f"{', '.join(sorted(map(repr, names)))}, whose kinetic energy was {had:.3g} J; "
@@ -135,7 +135,7 @@ class Impacts:
 
     def _any_body(self, indices: Iterable[int]) -> bool:
         """True if some of these are bodies, not balls."""
-        return not self._all_round and any(self._tracks[index].ball.rotates for index in indices)
+        return not self._all_round and any(self._movers[index].ball.rotates for index in indices)
 
     def _close_at_once(self, states: dict[int, State], soft: bool | None) -> list[Contact]:
         """Close all contacts of balls with each other and with soft or hard walls, or both, at once; returns those that
@@ -174,19 +174,19 @@ class Impacts:
             index = waiting.pop(0)
             if index in states:
                 continue
-            track = self._tracks[index]
-            states[index] = state = track.arc.state(t)
-            for other, neighbour in enumerate(self._tracks):
+            mover = self._movers[index]
+            states[index] = state = mover.arc.state(t)
+            for other, neighbour in enumerate(self._movers):
                 if other in states or neighbour.caught or neighbour.arc.t0 > t:
                     continue
-                reach = track.ball.radius + neighbour.ball.radius + self.gap
+                reach = mover.ball.radius + neighbour.ball.radius + self.gap
                 left, bottom, right, top = neighbour.arc.box()
                 if not (left - reach <= state[0] <= right + reach and bottom - reach <= state[1] <= top + reach):
                     continue
                 x, y = neighbour.arc.position(t)
                 if (x - state[0]) ** 2 + (y - state[1]) ** 2 <= reach * reach and (
-                    all_round(track.ball, neighbour.ball)
-                    or meeting(track.ball, state, neighbour.ball, neighbour.arc.state(t)).gap <= self.gap
+                    all_round(mover.ball, neighbour.ball)
+                    or meeting(mover.ball, state, neighbour.ball, neighbour.arc.state(t)).gap <= self.gap
                 ):
                     waiting.append(other)
                     pairs.append((index, other))
@@ -200,24 +200,24 @@ class Impacts:
         """The contacts with soft or hard walls, or both, each from the states when it is asked for. Where two surfaces
         join, a point of both counts once, for the surface whose side it is less far ``off``."""
         for index in states:
-            track = self._tracks[index]
+            mover = self._movers[index]
             met: dict[tuple[float, ...], tuple[Obstacle, ContactManifold, int]] = {}
             asked = (index, soft)
             if asked not in self._walls:
-                self._walls[asked] = [o for o in track.obstacles if soft is None or self._soft(o.surface) is soft]
+                self._walls[asked] = [o for o in mover.obstacles if soft is None or self._soft(o.surface) is soft]
             if not self._walls[asked]:
                 continue
-            for obstacle, found in surfaces_met(track.ball, self._walls[asked], states[index], self.gap):
+            for obstacle, found in surfaces_met(mover.ball, self._walls[asked], states[index], self.gap):
                 for number, point in enumerate(found.points):
-                    place = *point, *(track.ball.radius * part for part in found.normal)
-                    near = (each for each in met if dist(place, each) <= _SAME_POINT * track.ball.radius)
+                    place = *point, *(mover.ball.radius * part for part in found.normal)
+                    near = (each for each in met if dist(place, each) <= _SAME_POINT * mover.ball.radius)
                     place = next(near, place)
                     tilt = obstacle.tilt_from_side(*found.normal)
                     if place not in met or tilt < met[place][0].tilt_from_side(*met[place][1].normal):
                         met[place] = obstacle, found, number
             for obstacle, found, number in met.values():
                 yield self._hopping(
-                    contact_with_surface(index, track.ball, states[index], obstacle.surface, found, number)
+                    contact_with_surface(index, mover.ball, states[index], obstacle.surface, found, number)
                 )
 
     def _soft(self, surface: Surface) -> bool:
@@ -225,7 +225,7 @@ class Impacts:
 
     def _contacts_of_balls(self, states: dict[int, State]) -> Iterator[Contact]:
         for pair in self.pairs:
-            balls = [self._tracks[index].ball for index in pair]
+            balls = [self._movers[index].ball for index in pair]
             found = meeting(balls[0], states[pair[0]], balls[1], states[pair[1]], self.gap)
             for number in range(len(found.points)) if found.gap <= self.gap else ():
                 yield self._hopping(contact_of_two(pair, balls, self._setup, found, number))
@@ -253,7 +253,7 @@ class Impacts:
         is reduced: with both at zero no energy is gained. Chipmunk sees only the plane, so the upward part of the
         friction comes afterwards.
         """
-        balls = [track.ball for track in self._tracks]
+        balls = [mover.ball for mover in self._movers]
         most = (1.0 + _GAIN) * self._energy(states) + len(found) * self._heaviest * self._slowest_hop**2
         wanted = [
             (contact.bounce.restitution, friction_in_plane(contact.bounce.friction, *contact.speeds[1:]))
@@ -292,7 +292,7 @@ class Impacts:
         )
 
     def _balls(self, contact: Contact) -> list[Ball]:
-        return [self._tracks[index].ball for index in contact.balls]
+        return [self._movers[index].ball for index in contact.balls]
 
     def _hopping(self, contact: Contact) -> Contact:
         """The contact with enough restitution to separate no slower than the slowest hop."""
@@ -311,7 +311,7 @@ class Impacts:
 
     def _energy(self, states: dict[int, State]) -> float:
         """Kinetic energy in J, including rotation."""
-        return sum(kinetic(self._tracks[index].ball, state) for index, state in states.items())
+        return sum(kinetic(self._movers[index].ball, state) for index, state in states.items())
 
 
 def contact_with_surface(

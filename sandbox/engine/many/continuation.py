@@ -69,12 +69,12 @@ class Continuation(Simulation):
             return self.run()
         started = perf_counter()
         t, reason, state, step, contact, arcs = left
-        track = self._tracks[0]
+        mover = self._movers[0]
         if contact is not None:
             surface = contact.obstacle.surface
-            contact = contact._replace(obstacle=next(each for each in track.obstacles if each.surface is surface))
-        track.arc, track.state, track.path = resting_arc(t, t, state, contact), state, [*arcs]
-        track.next_step, track.contact = step, contact
+            contact = contact._replace(obstacle=next(each for each in mover.obstacles if each.surface is surface))
+        mover.arc, mover.state, mover.path = resting_arc(t, t, state, contact), state, [*arcs]
+        mover.next_step, mover.contact = step, contact
         self._events = events
         if reason is ExitReason.AFTER_IMPACT and events:
             self._over = self._setup.ends_with(events)  # the earlier events were checked before

@@ -6,7 +6,7 @@ from math import atan2
 
 from sandbox.engine.contact.manifold import fixed_outline, resting_points
 from sandbox.engine.contact.touch import Obstacle
-from sandbox.engine.contact.turning_touch import Mover, first_touch
+from sandbox.engine.contact.turning_touch import OutlineOnArc, first_touch
 from sandbox.engine.model.ball import outline_of
 from sandbox.engine.model.tolerances import TOUCHING_GAP
 from sandbox.engine.motion.body_point_contact import body_point_contact
@@ -43,5 +43,5 @@ class MovingBody(MovingBall):
                 return None
             start += u * (arc.t1 - arc.t0)
         near = obstacle.near(*arc.position(start))
-        one, other = Mover(outline_of(self.ball), arc), fixed_outline(obstacle.surface.shape)
+        one, other = OutlineOnArc(outline_of(self.ball), arc), fixed_outline(obstacle.surface.shape)
         return first_touch(one, other, start, arc.t1, self._accuracy.skin, atan2(near.ny, near.nx))
