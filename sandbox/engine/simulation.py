@@ -23,14 +23,13 @@ from sandbox.engine.model.event import Event
 from sandbox.engine.model.setup import Setup, Until
 from sandbox.engine.model.setup_errors import failed
 from sandbox.engine.model.surface import Surface
-from sandbox.engine.model.tolerances import TOUCHING_GAP
 from sandbox.engine.motion.event_kind import EventKind
 from sandbox.engine.motion.moving_ball import MovingBall
 from sandbox.engine.motion.moving_body import MovingBody
 from sandbox.engine.motion.on_plane import OnPlane, slowest_hop
-from sandbox.engine.motion.sustained_contact import RESTING
 from sandbox.engine.paths.arc import resting_arc
 from sandbox.engine.paths.path import Path
+from sandbox.engine.paths.phase import Phase
 from sandbox.engine.paths.run import Numerics, Run
 from sandbox.engine.prediction import Prediction
 from sandbox.engine.start import starts
@@ -209,39 +208,38 @@ class Simulation:
     def _collide(self, t: float, seeds: Sequence[int]) -> None:
         """Resolve the impact of all that touch at t, directly or through others, the balls in ``seeds``: by impulses,
         or through a contact that lasts, or as sustained contact in a heap."""
-        self._impacts.gap = TOUCHING_GAP
-        touching = self._impacts.touching(t, seeds)
+        group = self._impacts.touching(t, seeds)
         if self._heap:
-            self._heap.note_energy(touching)
-        outcome = self._resolve_cluster(t, touching)
+            self._heap.note_energy(group.states)
+        outcome = self._resolve_cluster(t, group.states)
         if outcome is None:
             if self._heap and self._heap.has(seeds):
-                self._impacts.gap = self._heap.margin
-                touching = self._impacts.touching(t, seeds)
-            outcome = self._impacts.exchange(t, touching, self._resolve_cluster)
-        self._note_hits(t, outcome.hits, touching)
+                group = self._impacts.touching(t, seeds, self._heap.margin)
+            outcome = self._impacts.exchange(t, group, self._resolve_cluster)
+        self._note_hits(t, outcome.hits, group.states)
         if outcome.t > t:
-            self._go_through(t, touching, outcome)
+            self._apply_cluster(t, group.states, outcome)
             return
         for index, state in outcome.states.items():
             self._movers[index].arrive(t, state)
         held: Collection[int] = ()
-        if self._heap and self._heap.belongs_in_heap(t, outcome.states, self._impacts.pairs):
+        if self._heap and self._heap.belongs_in_heap(t, outcome.states, group.pairs):
             held = self._step_heap(t, outcome.states.keys())
         for index in outcome.states:
             if index not in held:
                 self._resume(index, t)
 
-    def _resolve_cluster(self, t: float, touching: dict[int, State]) -> Outcome | None:
-        """The outcome of balls that touch, by contact mechanics; None if impulses are right."""
-        if not self._all_round or len(touching) < 2:
+    def _resolve_cluster(self, t: float, states: dict[int, State]) -> Outcome | None:
+        """The outcome of balls that touch in these states, by contact mechanics; None if impulses are right."""
+        if not self._all_round or len(states) < 2:
             return None
         heap = self._heap
-        slow, fresh = (heap.slow(t, touching), heap.fresh(t)) if heap else (0.0, set[int]())
-        return self._clusters.resolve(t, touching, slow, fresh)
+        slow, fresh = (heap.slow(t, states), heap.fresh(t)) if heap else (0.0, set[int]())
+        return self._clusters.resolve(t, states, slow, fresh)
 
-    def _go_through(self, t: float, touching: dict[int, State], parted: Outcome) -> None:
-        """Apply the outcome of a contact that lasts from t until the balls separate: then they go on."""
+    def _apply_cluster(self, t: float, states: dict[int, State], parted: Outcome) -> None:
+        """Follow the outcome of a contact that lasts from t until the balls separate; those that touched them in
+        these ``states`` without taking part go on at once."""
         self._numerics.clusters += 1
         heap = self._heap
         if heap:
@@ -254,8 +252,8 @@ class Simulation:
             at = next((at for at in caught if at is not None), inf)
             if at < self._setup.duration:
                 self._queue.push(at, EventKind.TRAP, index)
-        for index in touching.keys() - parted.states.keys() - (heap.members if heap else set()):
-            self._movers[index].arrive(t, touching[index])
+        for index in states.keys() - parted.states.keys() - (heap.members if heap else set()):
+            self._movers[index].arrive(t, states[index])
             self._resume(index, t)
         if heap and heap.members:
             self._step_heap(t, ())
@@ -286,10 +284,10 @@ class Simulation:
         """Continue from the ball's state: find its contacts and plan its next arc."""
         mover = self._movers[index]
         was = mover.on
-        mover.settle(t, self._accuracy.settle)
+        mover.find_sustained_contact(t, self._accuracy.settle)
         if was and was != mover.on:
             self._note(t, "leave", mover, was, mover.state)
-        if mover.contact is not None and was != mover.on and mover.contact.mode != RESTING:
+        if mover.contact is not None and was != mover.on and mover.contact.phase is not Phase.RESTING:
             self._note(t, "contact", mover, mover.on, mover.state)
         self._plan(index, t)
 
@@ -318,12 +316,12 @@ class Simulation:
         if self._setup.ends_with(self._events):
             self._over = True
 
-    def _note_hits(self, t: float, hits: Sequence[Hit], touching: dict[int, State]) -> None:
-        """Note the contacts that closed in an impact at t of balls that were ``touching`` then."""
+    def _note_hits(self, t: float, hits: Sequence[Hit], states: dict[int, State]) -> None:
+        """Note the contacts that closed in an impact at t of balls that touched in these states."""
         for hit in hits:
             self._numerics.impacts += 1
             mover = self._movers[hit.ball]
-            at = touching[hit.ball][:2] if hit.ball in touching else mover.arc.position(t)
+            at = states[hit.ball][:2] if hit.ball in states else mover.arc.position(t)
             self._note(hit.t, "impact", mover, hit.partner, at, hit.speed)
 
     def _note_rest(self, index: int, t: float) -> None:

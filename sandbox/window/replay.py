@@ -20,6 +20,7 @@ from sandbox.engine.motion.moving_ball import InCluster, InHeap
 from sandbox.engine.motion.sustained_contact import SustainedContact
 from sandbox.engine.paths.arc import Arc
 from sandbox.engine.paths.path import Path as Arcs
+from sandbox.engine.paths.phase import Phase
 from sandbox.engine.paths.run import Event, Numerics
 from sandbox.errors import RequestError
 from sandbox.files import atomic_write, read_given, writing
@@ -159,8 +160,8 @@ _NAMES = {kind: name for name, kind in _WITH_BALLS.items()}
 def _arc_data(arc: Arc, places: dict[int, int]) -> tuple[Any, ...]:
     contact: Any = arc.contact
     if isinstance(contact, SustainedContact):
-        mode, obstacle, touching, direction, spin_rate = contact
-        contact = mode, places[id(obstacle.surface)], tuple(touching), direction, spin_rate
+        phase, obstacle, touching, direction, spin_rate = contact
+        contact = phase.value, places[id(obstacle.surface)], tuple(touching), direction, spin_rate
     elif contact is not None:
         contact = _NAMES[type(contact)], *contact
     return arc.t0, arc.t1, arc.start, arc.curves, contact, arc.end
@@ -177,10 +178,10 @@ def _arc(item: Any, setup: Setup, ball: Ball) -> Arc:
             raise ValueError("a contact contains something that is not a number")
         contact = _WITH_BALLS[kind](*moved)
     elif contact is not None:
-        mode, place, (gap, nx, ny, curvature, center, feature), direction, spin_rate = contact
+        phase, place, (gap, nx, ny, curvature, center, feature), direction, spin_rate = contact
         touching = Touching(gap, nx, ny, curvature, tuple(center), feature)
         kind = BodyPointContact if ball.rotates else SustainedContact
-        contact = kind(mode, Obstacle(setup.surfaces[place], ball.radius), touching, direction, spin_rate)
+        contact = kind(Phase(phase), Obstacle(setup.surfaces[place], ball.radius), touching, direction, spin_rate)
     last = None if end is None else tuple(end)
     return Arc(t0, t1, tuple(start), tuple(map(tuple, curves)), contact, last)
 

@@ -23,8 +23,8 @@ from sandbox.engine.model.nearest import Pose, nearest
 from sandbox.engine.model.setup import ContactModel, Setup
 from sandbox.engine.model.shapes import Ellipse, Polygon, Shape, box, capsule, disc, regular
 from sandbox.engine.model.surface import Bounce, ConstantBounce, Segment, Surface
-from sandbox.engine.motion.sustained_contact import SLIDING
 from sandbox.engine.paths.arc import Arc, hermite_arc
+from sandbox.engine.paths.phase import Phase
 from sandbox.engine.paths.run import Run
 from sandbox.errors import RequestError, RunError
 from sandbox.physics.forces import Gravity
@@ -557,7 +557,7 @@ def test_an_ellipse_slips_and_leaves_where_its_energy_says():
     for friction in (0.4, 3.0):
         floor = [Surface("slope", Segment(*surface), 0.0, friction)]
         run = run_of([thrown(Ellipse(a, b), position=(x, y), angle=start - slope, mass=mass)], 1.5, floor)
-        slips = next(arc.t0 for arc in run.arcs["body"] if getattr(arc.contact, "mode", None) == SLIDING)
+        slips = next(arc.t0 for arc in run.arcs["body"] if arc.phase is Phase.SLIDING)
         expected = turn[np.argmax(np.abs(along) > friction * push)]
         assert run.angle("body", slips) + slope == pytest.approx(expected, abs=1e-4)
         assert run.state("body", slips)[4] ** 2 == pytest.approx(spin2[np.argmax(turn <= expected)], rel=1e-4)

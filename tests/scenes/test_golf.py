@@ -16,6 +16,7 @@ from scipy.integrate import solve_ivp
 import sandbox
 from sandbox.engine import simulate
 from sandbox.engine.model.accuracy import resolve
+from sandbox.engine.paths.phase import Phase
 from sandbox.engine.paths.run import Run
 from sandbox.lab.validate import PUBLISHED
 from sandbox.physics import coefficients
@@ -81,9 +82,9 @@ def misfit(tour: str, **changes: Any) -> np.ndarray:
 def test_a_ball_that_the_wind_pulls_out_of_its_roll_goes_on_sliding():
     """Its path follows spin and speed only to the tolerance: the slip they differ by must not choose its direction."""
     run = play(**{"air.wind": [-100.0, -100.0]})
-    modes = [arc.contact.mode for arc in run.arcs["ball"] if arc.contact is not None]
-    changes = [mode for mode, before in zip(modes, ["", *modes], strict=False) if mode != before]
-    assert changes == ["sliding", "rolling", "sliding", "rolling"]
+    phases = [arc.phase for arc in run.arcs["ball"] if arc.contact is not None]
+    changes = [phase for phase, before in zip(phases, [None, *phases], strict=False) if phase is not before]
+    assert changes == [Phase.SLIDING, Phase.ROLLING, Phase.SLIDING, Phase.ROLLING]
 
 
 @pytest.mark.parametrize(("tour", "most"), [("PGA", [2.0, 1.9, 3.3]), ("LPGA", [2.5, 2.0, 4.1])])  # LPGA: not fitted

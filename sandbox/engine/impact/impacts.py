@@ -50,6 +50,14 @@ _SAME_POINT = 2e-6
 _FAINT = 1e-4
 
 
+class ImpactGroup(NamedTuple):
+    """Balls that touch at one time, directly or through others."""
+
+    states: dict[int, State]  # by index into the balls of the setup
+    pairs: list[tuple[int, int]]
+    gap: float = TOUCHING_GAP  # m, up to which shapes touch; wider in a heap
+
+
 class Hit(NamedTuple):
     """One contact that closed."""
 
@@ -68,7 +76,7 @@ class Outcome(NamedTuple):
     arcs: Mapping[int, Sequence[Arc]] = {}  # their paths through a contact that lasts
 
 
-#: What simulates the contact at t of balls in these states; None if impulses are right.
+#: Simulates the contact at t of balls in these states; returns None if impulses are right.
 ResolveCluster = Callable[[float, dict[int, State]], Outcome | None]
 
 
@@ -79,8 +87,6 @@ class Impacts:
         self._setup = setup
         self._movers = movers
         self._numerics = numerics
-        self.gap = TOUCHING_GAP  # m, up to which shapes touch; wider in a heap
-        self.pairs: list[tuple[int, int]] = []  # of balls that touch, of those found last
         self._slowest_hop = slowest_hop  # m/s, minimum speed at which balls on cloth separate
         # Walls softer than balls push back after the balls have separated.
         model = setup.contact
@@ -90,19 +96,20 @@ class Impacts:
         self._all_round = all_round(*setup.balls)
         self._heaviest = max(ball.mass for ball in setup.balls)  # kg
 
-    def exchange(self, t: float, states: dict[int, State], resolve_cluster: ResolveCluster) -> Outcome:
-        """The outcome of the impact at t of balls that touch, directly or through others.
+    def exchange(self, t: float, group: ImpactGroup, resolve_cluster: ResolveCluster) -> Outcome:
+        """The outcome of the impact at t of balls that touch.
 
         Balls and hard walls exchange impulses at once; soft walls push back afterwards, one after another, and so on
         until nothing closes; balls that a wall sends on others that touch still others may form a cluster. If that
         takes too many turns, or in a heap, all exchange impulses at once instead.
         """
-        start = states
+        start = states = group.states
         hits: list[Hit] = []  # not list[Hit](), which takes thirty times as long, here and below
-        last = _TURNS if self._some_soft and self.gap == TOUCHING_GAP and not self._any_body(states) else 0
+        last = _TURNS if self._some_soft and group.gap == TOUCHING_GAP and not self._any_body(states) else 0
         for turn in range(last + 1):
             if turn in (0, last):
                 states, hits = dict(start), []
+                group = group._replace(states=states)
             elif turn % 2 == 0 and (parted := resolve_cluster(t, states)) is not None:
                 marker = InCluster(t, parted.t)
                 others = {i: [uniform_arc(t, parted.t, state, marker)] for i, state in states.items()}
@@ -111,9 +118,9 @@ class Impacts:
                 return Outcome(parted.t, ends, hits + parted.hits, arcs)
             before = dict(states)
             if turn < last and turn % 2:
-                closed = self._close_soft_walls(states)
+                closed = self._close_soft_walls(group)
             else:
-                closed = self._close_at_once(states, None if turn == last else False)
+                closed = self._close_at_once(group, None if turn == last else False)
             if turn > 0 and not closed:
                 break
             if closed and self._slowest_hop > 0.0:
@@ -137,10 +144,11 @@ class Impacts:
         """True if some of these are bodies, not balls."""
         return not self._all_round and any(self._movers[index].ball.rotates for index in indices)
 
-    def _close_at_once(self, states: dict[int, State], soft: bool | None) -> list[Contact]:
+    def _close_at_once(self, group: ImpactGroup, soft: bool | None) -> list[Contact]:
         """Close all contacts of balls with each other and with soft or hard walls, or both, at once; returns those that
         were closing. If a ball closes one, and does not come to close the others by that, these do not act."""
-        found = [*self._contacts_with_surfaces(states, soft), *self._contacts_of_balls(states)]
+        states = group.states
+        found = [*self._contacts_with_surfaces(group, soft), *self._contacts_of_balls(group)]
         closed = [contact for contact in found if contact.speed > CLOSING]
         if len(closed) == 1 == min(len(found), len(states)) and not self._any_body(states):
             before = dict(states)
@@ -156,17 +164,17 @@ class Impacts:
         balls, meeting = self._balls(contact), [states[index] for index in contact.balls]
         return speeds_where_touching(balls, meeting, contact.nx, contact.ny, contact.sine)[0] > CLOSING
 
-    def _close_soft_walls(self, states: dict[int, State]) -> list[Contact]:
+    def _close_soft_walls(self, group: ImpactGroup) -> list[Contact]:
         """Close the contacts with soft walls, one after another; returns them."""
         closed = []
-        for contact in self._contacts_with_surfaces(states, True):
+        for contact in self._contacts_with_surfaces(group, True):
             if contact.speed > CLOSING:
-                self._exchange_alone(states, contact)
+                self._exchange_alone(group.states, contact)
                 closed.append(contact)
         return closed
 
-    def touching(self, t: float, seeds: Sequence[int]) -> dict[int, State]:
-        """The states at t of all balls that touch those in ``seeds``, directly or through others."""
+    def touching(self, t: float, seeds: Sequence[int], gap: float = TOUCHING_GAP) -> ImpactGroup:
+        """All balls that touch those in ``seeds`` at t, directly or through others, up to a ``gap`` in m."""
         states: dict[int, State] = {}
         waiting = list(seeds)
         pairs: list[tuple[int, int]] = []
@@ -179,35 +187,35 @@ class Impacts:
             for other, neighbour in enumerate(self._movers):
                 if other in states or neighbour.caught or neighbour.arc.t0 > t:
                     continue
-                reach = mover.ball.radius + neighbour.ball.radius + self.gap
+                reach = mover.ball.radius + neighbour.ball.radius + gap
                 left, bottom, right, top = neighbour.arc.box()
                 if not (left - reach <= state[0] <= right + reach and bottom - reach <= state[1] <= top + reach):
                     continue
                 x, y = neighbour.arc.position(t)
                 if (x - state[0]) ** 2 + (y - state[1]) ** 2 <= reach * reach and (
                     all_round(mover.ball, neighbour.ball)
-                    or meeting(mover.ball, state, neighbour.ball, neighbour.arc.state(t)).gap <= self.gap
+                    or meeting(mover.ball, state, neighbour.ball, neighbour.arc.state(t)).gap <= gap
                 ):
                     waiting.append(other)
                     pairs.append((index, other))
         place = {index: number for number, index in enumerate(states)}
-        self.pairs = sorted(pairs, key=lambda pair: (place[pair[0]], place[pair[1]]))
-        return states
+        pairs.sort(key=lambda pair: (place[pair[0]], place[pair[1]]))
+        return ImpactGroup(states, pairs, gap)
 
     # ------------------------------------------------------------------ contacts
 
-    def _contacts_with_surfaces(self, states: dict[int, State], soft: bool | None) -> Iterator[Contact]:
-        """The contacts with soft or hard walls, or both, each from the states when it is asked for. Where two surfaces
-        join, a point of both counts once, for the surface whose side it is less far ``off``."""
+    def _contacts_with_surfaces(self, group: ImpactGroup, soft: bool | None) -> Iterator[Contact]:
+        """The contacts with soft or hard walls, or both, each from the states at the time when it is yielded. Where two
+        surfaces join, a point of both counts once, for the surface with the least ``tilt_from_side``."""
+        states = group.states
         for index in states:
             mover = self._movers[index]
             met: dict[tuple[float, ...], tuple[Obstacle, ContactManifold, int]] = {}
-            asked = (index, soft)
-            if asked not in self._walls:
-                self._walls[asked] = [o for o in mover.obstacles if soft is None or self._soft(o.surface) is soft]
-            if not self._walls[asked]:
-                continue
-            for obstacle, found in surfaces_met(mover.ball, self._walls[asked], states[index], self.gap):
+            walls = self._walls.get((index, soft))
+            if walls is None:
+                walls = [o for o in mover.obstacles if soft is None or self._soft(o.surface) is soft]
+                self._walls[index, soft] = walls
+            for obstacle, found in surfaces_met(mover.ball, walls, states[index], group.gap):
                 for number, point in enumerate(found.points):
                     place = *point, *(mover.ball.radius * part for part in found.normal)
                     near = (each for each in met if dist(place, each) <= _SAME_POINT * mover.ball.radius)
@@ -223,11 +231,12 @@ class Impacts:
     def _soft(self, surface: Surface) -> bool:
         return self._all_soft or surface.nose_height is not None
 
-    def _contacts_of_balls(self, states: dict[int, State]) -> Iterator[Contact]:
-        for pair in self.pairs:
+    def _contacts_of_balls(self, group: ImpactGroup) -> Iterator[Contact]:
+        states, pairs, gap = group
+        for pair in pairs:
             balls = [self._movers[index].ball for index in pair]
-            found = meeting(balls[0], states[pair[0]], balls[1], states[pair[1]], self.gap)
-            for number in range(len(found.points)) if found.gap <= self.gap else ():
+            found = meeting(balls[0], states[pair[0]], balls[1], states[pair[1]], gap)
+            for number in range(len(found.points)) if found.gap <= gap else ():
                 yield self._hopping(contact_of_two(pair, balls, self._setup, found, number))
 
     # ------------------------------------------------------------------ impulses

@@ -119,7 +119,7 @@ class Batch:
         flying = self._flying
         known = accelerations(flying.acceleration_at, flying.t, flying.state)
         check_forces(self.setups, flying, np.array([watched]), known)
-        self._contacts.settle(known)
+        self._contacts.find_next_motions(known)
         known = known[:, self._drop()]
         if not len(flying):
             return

@@ -19,15 +19,8 @@ from sandbox.engine.model.ball import Ball
 from sandbox.engine.model.event import Event
 from sandbox.engine.model.tolerances import SEAM
 from sandbox.engine.motion.forces_on_ball import acceleration_function
-from sandbox.engine.motion.sustained_contact import (
-    BECOMES,
-    FLYING,
-    RESTING,
-    ROLLING,
-    SLIDING,
-    SustainedContact,
-    motion_on,
-)
+from sandbox.engine.motion.sustained_contact import BECOMES, SustainedContact, motion_on
+from sandbox.engine.paths.phase import Phase
 
 
 class _Held(NamedTuple):
@@ -38,7 +31,7 @@ class _Held(NamedTuple):
     contact: SustainedContact
 
 
-class _Settled(NamedTuple):
+class _NextMotion(NamedTuple):
     """The motion of shots that have met a surface, or whose slide or roll has ended: masks, and arrays."""
 
     shots: np.ndarray
@@ -49,7 +42,7 @@ class _Settled(NamedTuple):
     holds: np.ndarray  # it slides or rolls
     rests: np.ndarray
     state: np.ndarray  # without speed away from the surface
-    mode: np.ndarray
+    phase: np.ndarray
     direction: np.ndarray
 
 
@@ -57,12 +50,12 @@ class BatchContacts:
     """The shots of a batch that slide or roll. What does so elsewhere than within a straight side is to be continued
     alone."""
 
-    def __init__(self, flying: InFlight, outlines: BatchSurfaces, record: BatchRecord, settle: float) -> None:
-        """A bounce that is lower than ``settle`` (m) counts as sustained contact."""
+    def __init__(self, flying: InFlight, outlines: BatchSurfaces, record: BatchRecord, bounce_height: float) -> None:
+        """A bounce that is lower than ``bounce_height`` (m) counts as sustained contact."""
         self._flying = flying
         self._outlines = outlines
         self._record = record
-        self._settle = settle
+        self._bounce_height = bounce_height
         self._held: list[_Held] = []
 
     @property
@@ -75,16 +68,16 @@ class BatchContacts:
     def hold(self) -> None:
         """Find the shots that slide or roll now, and place them exactly on their surfaces."""
         flying = self._flying
-        kinds = set(flying.mode[flying.surface >= 0].tolist())
-        self._held = [self._placed(flying.mode == mode, mode) for mode in sorted(kinds)]
+        phases = set(flying.phase[flying.surface >= 0].tolist())
+        self._held = [self._placed(flying.phase == phase, phase) for phase in Phase if phase in phases]
 
-    def _placed(self, mask: np.ndarray, mode: str) -> _Held:
-        """The shots of this mask, placed exactly on their surfaces as moving or resting there."""
+    def _placed(self, mask: np.ndarray, phase: Phase) -> _Held:
+        """The shots of this mask, projected onto their surfaces in this phase of motion."""
         flying = self._flying
         lanes = mask.nonzero()[0]
         shots, state = flying.shot[lanes], tuple(flying.state[:, lanes])
         obstacles, ball = self._outlines.of(flying.surface[lanes], shots), flying.ball_of(shots)
-        contact = SustainedContact(mode, obstacles, obstacles.on_feature(SIDE, *state[:2]), flying.direction[lanes])
+        contact = SustainedContact(phase, obstacles, obstacles.on_feature(SIDE, *state[:2]), flying.direction[lanes])
         for row, part in zip(flying.state, contact.projected_onto_surface(ball, state), strict=True):
             row[lanes] = part
         return _Held(lanes, ball, contact)
@@ -127,30 +120,30 @@ class BatchContacts:
         if self._held:
             flying.motion_ended[lanes] = ended
             for held in self._held:
-                some = flying.motion_ended & (flying.mode == held.contact.mode)
+                some = flying.motion_ended & (flying.phase == held.contact.phase)
                 if some.any():
-                    self._placed(some, BECOMES[held.contact.mode])
+                    self._placed(some, BECOMES[held.contact.phase])
 
     # ------------------------------------------------------------------ where contact begins or changes
 
-    def settle(self, acceleration: np.ndarray) -> None:
+    def find_next_motions(self, acceleration: np.ndarray) -> None:
         """Let shots that have met a surface, or whose slide or roll has ended, fly on, or slide, roll or rest."""
         flying = self._flying
         lanes = ((flying.met >= 0) | flying.motion_ended).nonzero()[0]
         if not len(lanes):
             return
-        found = self._settled(lanes, acceleration)
+        found = self._next_motion(lanes, acceleration)
         flying.met[lanes], flying.motion_ended[lanes] = -1, False
         flying.surface[lanes] = np.where(found.flies, -1, found.surface)
-        flying.mode[lanes[found.flies]] = FLYING
+        flying.phase[lanes[found.flies]] = Phase.FREE
         alone = np.where(found.hit, ExitReason.AFTER_IMPACT, ExitReason.CONTACT_CHANGE)
         flying.exit[lanes[~found.flies]] = alone[~found.flies]  # unless it is clear, below, how it goes on
         here = lanes[found.holds]
-        flying.state[:, here], flying.mode[here] = found.state[:, found.holds], found.mode[found.holds]
+        flying.state[:, here], flying.phase[here] = found.state[:, found.holds], found.phase[found.holds]
         flying.direction[here] = found.direction[found.holds]
         self._note(lanes, found)
 
-    def _settled(self, lanes: np.ndarray, acceleration: np.ndarray) -> _Settled:
+    def _next_motion(self, lanes: np.ndarray, acceleration: np.ndarray) -> _NextMotion:
         """Return how these lanes go on, with the accelerations (m/s^2, rad/s^2) that they would have in flight."""
         flying = self._flying
         hit, held, shots = flying.met[lanes] >= 0, flying.surface[lanes] >= 0, flying.shot[lanes]
@@ -161,7 +154,7 @@ class BatchContacts:
             nx, ny, curvature = np.where(held, obstacles.near(x, y)[1:4], flying.normal[:, lanes])
         pressed = press((x, y, vx, vy, spin), applied, nx, ny, curvature)
         away = vx * nx + vy * ny
-        stays = away <= takeoff_speed(pressed, np.maximum(self._settle, obstacles.surface.lowest_bounce))
+        stays = away <= takeoff_speed(pressed, np.maximum(self._bounce_height, obstacles.surface.lowest_bounce))
         clear = ~(hit & held)
         if not clear.all():
             most = abs(applied[0]) + abs(applied[1]) + obstacles.surface.friction * pressed
@@ -169,24 +162,25 @@ class BatchContacts:
         flies = hit & ~stays & clear
         state, none = np.array((x, y, vx - away * nx, vy - away * ny, spin)), np.zeros(len(lanes), dtype=bool)
         if flies.all():
-            return _Settled(shots, surface, hit, held, flies, none, none, state, none, none)
-        mode, direction = motion_on(
+            return _NextMotion(shots, surface, hit, held, flies, none, none, state, none, none)
+        phase, direction = motion_on(
             flying.ball_of(shots), tuple(state), obstacles.surface, obstacles.near(x, y), applied
         )
         along = obstacles.outline.along(x, y)
         inside = clear & stays & (along > SEAM) & (along < obstacles.outline.length - SEAM)
-        holds, rests = inside & ((mode == SLIDING) | (mode == ROLLING)), inside & ~hit & (mode == RESTING)
-        return _Settled(shots, surface, hit, held, flies, holds, rests, state, mode, direction)
+        holds = inside & ((phase == Phase.SLIDING) | (phase == Phase.ROLLING))
+        rests = inside & ~hit & (phase == Phase.RESTING)
+        return _NextMotion(shots, surface, hit, held, flies, holds, rests, state, phase, direction)
 
     def _leaves(self, lanes: np.ndarray, most: np.ndarray) -> np.ndarray:
         """A mask of the shots that leave what they have met, on which no more than this presses them, in m/s^2."""
         flying = self._flying
         (x, y, vx, vy, _), met = flying.state[:, lanes], self._outlines.of(flying.met[lanes], flying.shot[lanes])
-        near, height = met.near(x, y), np.maximum(self._settle, met.surface.lowest_bounce)
+        near, height = met.near(x, y), np.maximum(self._bounce_height, met.surface.lowest_bounce)
         leaves: np.ndarray = vx * near.nx + vy * near.ny > takeoff_speed(most, height)
         return leaves
 
-    def _note(self, lanes: np.ndarray, found: _Settled) -> None:
+    def _note(self, lanes: np.ndarray, found: _NextMotion) -> None:
         """Note what is clear to become of these lanes, as events and contacts."""
         flying, record = self._flying, self._record
         some = (found.flies | found.holds | found.rests).nonzero()[0]
@@ -202,7 +196,7 @@ class BatchContacts:
             if not flies:
                 obstacle = self._outlines.obstacle(surface, shot)
                 side = obstacle.on_feature(SIDE, float(found.state[0, i]), float(found.state[1, i]))
-                contact = SustainedContact(str(found.mode[i]), obstacle, side, float(found.direction[i]))
+                contact = SustainedContact(found.phase[i], obstacle, side, float(found.direction[i]))
                 record.contacts.append(contact)
         if found.rests.any():
             shots, (x, y) = found.shots[found.rests], found.state[:2, None, found.rests]

@@ -10,13 +10,13 @@ from sandbox.engine.many.continuation import ExitReason
 from sandbox.engine.many.stacking import Stack, selector
 from sandbox.engine.model.ball import Ball
 from sandbox.engine.motion.forces_on_ball import acceleration_function
-from sandbox.engine.motion.sustained_contact import FLYING
+from sandbox.engine.paths.phase import Phase
 
 #: Attributes of InFlight that are arrays with shots along the last axis.
 _ARRAYS = (
     *("shot", "t", "state", "next_step", "repeats", "exit"),
     *("met", "normal"),
-    *("surface", "mode", "direction", "contact", "motion_ended"),
+    *("surface", "phase", "direction", "contact", "motion_ended"),
 )
 
 
@@ -41,7 +41,7 @@ class InFlight:
         self.normal = np.zeros((3, count))  # of that: nx, ny and the curvature of the ball's path along it in 1/m
         # in sustained contact
         self.surface = np.full(count, -1)  # on which it slides or rolls; -1 in flight
-        self.mode = np.full(count, FLYING, dtype="U8")
+        self.phase = np.full(count, Phase.FREE, dtype=object)
         self.direction = np.zeros(count)  # of the motion in contact, as in SustainedContact
         self.contact = np.full(count, -1)  # place in the record's contacts
         self.motion_ended = np.zeros(count, dtype=bool)  # its sliding or rolling has just ended

@@ -26,8 +26,9 @@ from sandbox.engine.contact.touch import SIDE, Obstacle, Touching
 from sandbox.engine.model.ball import Ball, outline_of
 from sandbox.engine.model.shapes import Polygon, Vector
 from sandbox.engine.model.tolerances import GAP_ROUNDING, PUSH, ROUNDING, STILL
-from sandbox.engine.motion.sustained_contact import RESTING, ROLLING, SLIDING, SustainedContact
+from sandbox.engine.motion.sustained_contact import SustainedContact
 from sandbox.engine.paths.arc import Arc, crossing
+from sandbox.engine.paths.phase import Phase
 from sandbox.physics.integrators import Acceleration, State
 
 #: Share of the inertia against the normal force that friction may take away from a sliding body. Where it takes all of
@@ -67,7 +68,7 @@ class BodyPointContact(SustainedContact):
     def progress(self, ball: Ball, state: State) -> float:
         """Return the slip in m/s, or a spin in rad/s that is resisted: when it falls to zero this motion ends."""
         surface = self.obstacle.surface
-        if self.mode == SLIDING:
+        if self.phase is Phase.SLIDING:
             return self.direction * self.slip(ball, state) if surface.friction > 0.0 else inf
         resisted = surface.rolling_resistance > 0.0 and self.arm(ball, state).bend > 0.0
         return self.direction * float(state[4]) if resisted else inf
@@ -80,7 +81,7 @@ class BodyPointContact(SustainedContact):
 
     def forces(self, ball: Ball, applied: Acceleration, state: State) -> tuple[Acceleration, float, float]:
         """Acceleration in contact; the normal force and the remaining grip, both divided by the mass, in m/s^2."""
-        if self.mode == RESTING:
+        if self.phase is Phase.RESTING:
             return (0.0, 0.0, 0.0), inf, inf
         nx, ny = self.touching.nx, self.touching.ny
         (ax, ay, turning), (along, height, bend) = applied, self.arm(ball, state)
@@ -97,7 +98,7 @@ class BodyPointContact(SustainedContact):
             rub = (against * across - into * pressing * height / inertia) / determinant
             return normal, rub, pressing * normal
 
-        if self.mode == SLIDING:
+        if self.phase is Phase.SLIDING:
             normal = into / (1.0 + along * along / inertia - self.direction * friction * lever)
             rub, moment, grip_margin = -self.direction * friction * normal, along * normal, 0.0
         else:
@@ -147,12 +148,12 @@ class BodyPointContact(SustainedContact):
         outline = self.obstacle.outline
         gap = abs(outline.across(x, y)) - (outline.reach - ball.radius) - height
         x, y = x - gap * nx, y - gap * ny
-        if self.mode == RESTING:
+        if self.phase is Phase.RESTING:
             return x, y, 0.0, 0.0, 0.0, angle
         inertia, vn, vt = ball.inertia / ball.mass, vx * nx + vy * ny, vx * ny - vy * nx
-        level = height if self.mode == ROLLING else 0.0
+        level = height if self.phase is Phase.ROLLING else 0.0
         spin = (inertia * spin - along * vn - level * vt) / (inertia + along * along + level * level)
-        vn, vt = -along * spin, -height * spin if self.mode == ROLLING else vt
+        vn, vt = -along * spin, -height * spin if self.phase is Phase.ROLLING else vt
         return x, y, vn * nx + vt * ny, vn * ny - vt * nx, spin, angle
 
 
@@ -173,7 +174,7 @@ def body_point_contact(
     down = atan2(-ny, -nx) - state[5]
     core = min(shape.candidates(down), key=lambda place: _off(place, state, point, shape.radius, met.normal))
     touching = Touching(met.gap, nx, ny, 0.0, core, SIDE)
-    rolling = BodyPointContact(ROLLING, obstacle, touching)
+    rolling = BodyPointContact(Phase.ROLLING, obstacle, touching)
     if lifts_off(ball, state, point, met.normal, applied):
         return None
     slip, speed = rolling.slip(ball, state), abs(state[2] * ny - state[3] * nx) + ball.radius * abs(state[4])
@@ -187,7 +188,7 @@ def body_point_contact(
         rub = (ax - applied[0]) * ny - (ay - applied[1]) * nx  # against the way in which it starts to slip
         return _sliding(rolling, ball, state, -1.0 if rub > 0.0 else 1.0)
     if at_rest and ball.radius * rolling.direction * turning <= PUSH:
-        return BodyPointContact(RESTING, obstacle, touching)
+        return BodyPointContact(Phase.RESTING, obstacle, touching)
     return rolling
 
 
@@ -197,7 +198,7 @@ def _sliding(rolling: BodyPointContact, ball: Ball, state: State, direction: flo
     inertia, lever = ball.inertia / ball.mass, rolling.obstacle.surface.friction * arm.along * arm.height
     if direction * lever > _JAMS * (inertia + arm.along**2):
         return None
-    return rolling._replace(mode=SLIDING, direction=direction)
+    return rolling._replace(phase=Phase.SLIDING, direction=direction)
 
 
 def _off(core: Vector, state: State, point: Vector, radius: float, normal: Vector) -> float:

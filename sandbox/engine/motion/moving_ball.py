@@ -20,7 +20,7 @@ from sandbox.engine.model.tolerances import CLOSING, PUSH, STILL, TOUCHING_GAP
 from sandbox.engine.motion.event_kind import EventKind
 from sandbox.engine.motion.forces_on_ball import acceleration_function, force_error
 from sandbox.engine.motion.step_control import StepControl, allowed, shortest
-from sandbox.engine.motion.sustained_contact import BECOMES, FLYING, RESTING, SustainedContact, motion_on, wedged
+from sandbox.engine.motion.sustained_contact import BECOMES, SustainedContact, motion_on, wedged
 from sandbox.engine.paths.arc import Arc, crossing, hermite_arc, resting_arc
 from sandbox.engine.paths.phase import Phase
 from sandbox.engine.paths.run import Numerics
@@ -183,7 +183,7 @@ class MovingBall:
         if self.contact is None:
             return self._integrate(t, until, self._acceleration_at, self._step), EventKind.ARC_END
         contact, ball = self.contact, self.ball
-        if contact.mode == RESTING:
+        if contact.phase is Phase.RESTING:
             return resting_arc(t, until, self.state, contact), EventKind.ARC_END
         arc = self._under(lambda at, state: contact.forces(ball, self._acceleration_at(at, state), state)[0], t, until)
         return self._cut_where_contact_changes(arc, contact)
@@ -253,12 +253,12 @@ class MovingBall:
         """Move the ball exactly onto its surface, which the arc follows only closely; make it exactly rolling, or
         exactly at rest, if that is why the arc ended."""
         if self.contact is not None:
-            mode = BECOMES[self.contact.mode] if kind is EventKind.MOTION_END else self.contact.mode
-            self.state = self.contact._replace(mode=mode).projected_onto_surface(self.ball, self.state)
+            phase = BECOMES[self.contact.phase] if kind is EventKind.MOTION_END else self.contact.phase
+            self.state = self.contact._replace(phase=phase).projected_onto_surface(self.ball, self.state)
         self._slips = kind is EventKind.GRIP_LOSS
 
-    def settle(self, t: float, height: float) -> None:
-        """Find the contact that lasts after a touch, or None for flight.
+    def find_sustained_contact(self, t: float, height: float) -> None:
+        """Find the sustained contact after a touch; None in flight.
 
         A ball stays on a surface if it is pressed on it and would not bounce higher than ``height`` (m). A lower
         bounce is removed from the state, as is the overlap, of at most TOUCHING_GAP, at which the surface was found.
@@ -307,9 +307,9 @@ class MovingBall:
         held: list[SustainedContact] = []
         for obstacle, touching in kept:
             ahead = obstacle.next_feature(touching, x, y, mx, my)
-            mode, direction = motion_on(ball, state, obstacle.surface, ahead, applied, slips)
-            if mode != FLYING:
-                held.append(SustainedContact(mode, obstacle, ahead, direction))
+            phase, direction = motion_on(ball, state, obstacle.surface, ahead, applied, slips)
+            if phase is not Phase.FREE:
+                held.append(SustainedContact(phase, obstacle, ahead, direction))
         # the next piece's side before this one's corner; of two that share the corner the one that it is above
         held.sort(key=lambda by: (by.touching.curvature, by.obstacle.tilt_from_side(by.touching.nx, by.touching.ny)))
         two = None
@@ -332,7 +332,7 @@ class MovingBall:
             for obstacle, touching in (one, two):
                 gap = obstacle.on_feature(touching.feature, x, y).gap
                 x, y = x - gap * touching.nx, y - gap * touching.ny
-            self.state = (x, y, 0.0, 0.0, 0.0 if self.contact.mode == RESTING else spin)
+            self.state = (x, y, 0.0, 0.0, 0.0 if self.contact.phase is Phase.RESTING else spin)
 
     def applied(self, t: float, state: State) -> Acceleration:
         """Acceleration from the applied forces, without the contact's; m/s^2, rad/s^2. Counts evaluations."""

@@ -17,9 +17,9 @@ from sandbox.engine.paths.arc import Arc
 class MovingBody(MovingBall):
     """A body: its path, and when it touches what stands still."""
 
-    def settle(self, t: float, height: float) -> None:
-        """Find the contact that lasts after a touch: at one point of a straight side, left no faster than for a bounce
-        of ``height`` (m). What is touched at more points, or elsewhere, is left to the heap."""
+    def find_sustained_contact(self, t: float, height: float) -> None:
+        """Find the sustained contact after a touch: at one point of a straight side, left no faster than for a
+        bounce of ``height`` (m). What is touched at more points, or elsewhere, is left to the heap."""
         self.contact = None
         slips, self._slips = self._slips, False
         applied = self.applied(t, self.state)

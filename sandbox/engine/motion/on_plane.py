@@ -104,8 +104,8 @@ class OnPlane(MovingBall):
         if self._ends_spin:
             self.state = (*self.state[:4], 0.0)
 
-    def settle(self, t: float, height: float) -> None:
-        """Nothing lasts."""
+    def find_sustained_contact(self, t: float, height: float) -> None:
+        """There is none: what it slides on is the plane."""
 
 
 def _leaves(arc: Arc, low: float, high: float) -> float | None:

@@ -21,10 +21,8 @@ from sandbox.engine.paths.phase import Phase
 from sandbox.physics.elementwise import clip, where
 from sandbox.physics.integrators import Acceleration, State
 
-FLYING, SLIDING, ROLLING, PINNED, RESTING = "", "sliding", "rolling", "pinned", "resting"
-
-#: What a motion becomes where its slip or speed has fallen to zero.
-BECOMES = {SLIDING: ROLLING, ROLLING: RESTING, PINNED: RESTING}
+#: The phase that follows where slip or speed has fallen to zero.
+BECOMES = {Phase.SLIDING: Phase.ROLLING, Phase.ROLLING: Phase.RESTING, Phase.PINNED: Phase.RESTING}
 
 #: Largest angle in rad that one arc covers around a round feature: a quintic follows a circle to 1e-9 of its radius
 #: for an eighth of a turn or less.
@@ -35,15 +33,11 @@ class SustainedContact(NamedTuple):
     """A ball's sustained contact with a surface, and how it moves there; or many balls that move alike on straight
     sides, with arrays for numbers."""
 
-    mode: str
+    phase: Phase
     obstacle: Obstacle
     touching: Touching  # at the start of the contact: normal, curvature, feature
     direction: Any = 0.0  # sign of the slip if sliding, of the motion if rolling, of the spin if pinned
     spin_rate: float = 0.0  # rad/s^2, at which the spin of a pinned ball decays
-
-    @property
-    def phase(self) -> Phase:
-        return Phase(self.mode)
 
     @property
     def surface(self) -> Surface:
@@ -67,18 +61,18 @@ class SustainedContact(NamedTuple):
         """Return the slip or speed in m/s, or the spin of a wedged ball in rad/s, whose fall to zero ends this
         motion."""
         _, _, vx, vy, spin = state
-        if self.mode == PINNED:
+        if self.phase is Phase.PINNED:
             return self.direction * spin
         nx, ny, _ = self.touching.normal_at(state[0], state[1])
         speed = vx * ny - vy * nx
-        return self.direction * (speed + ball.radius * spin if self.mode == SLIDING else speed)
+        return self.direction * (speed + ball.radius * spin if self.phase is Phase.SLIDING else speed)
 
     def forces(self, ball: Ball, applied: Acceleration, state: State) -> tuple[Acceleration, Any, Any]:
         """Acceleration in contact; the normal force and the remaining grip, both divided by the mass, in m/s^2.
 
         ``applied`` is the acceleration that the ball would have in flight.
         """
-        if self.mode in (PINNED, RESTING):
+        if self.phase in (Phase.PINNED, Phase.RESTING):
             return (0.0, 0.0, -self.direction * self.spin_rate), inf, inf
         surface = self.obstacle.surface
         nx, ny, curvature = self.touching.normal_at(state[0], state[1])
@@ -86,7 +80,7 @@ class SustainedContact(NamedTuple):
         along = applied[0] * tx + applied[1] * ty
         normal = press(state, applied, nx, ny, curvature)
         pressed = where(normal > 0.0, normal, 0.0)
-        if self.mode == SLIDING:
+        if self.phase is Phase.SLIDING:
             friction = -self.direction * surface.friction * pressed
             a = along + friction
             alpha = applied[2] + friction / (ball.inertia_factor * ball.radius)
@@ -109,9 +103,9 @@ class SustainedContact(NamedTuple):
         gap, nx, ny = self.obstacle.on_feature(self.touching.feature, x, y)[:3]
         leaving = vx * nx + vy * ny
         x, y, vx, vy = x - gap * nx, y - gap * ny, vx - leaving * nx, vy - leaving * ny
-        if self.mode == RESTING:
+        if self.phase is Phase.RESTING:
             return x, y, 0.0, 0.0, 0.0
-        if self.mode == ROLLING:
+        if self.phase is Phase.ROLLING:
             spin = -(vx * ny - vy * nx) / ball.radius
         return x, y, vx, vy, spin
 
@@ -119,8 +113,10 @@ class SustainedContact(NamedTuple):
 def motion_on(
     ball: Ball, state: State, surface: Surface, touching: Touching, applied: Acceleration, slips: bool = False
 ) -> tuple[Any, Any]:
-    """Return how a ball moves on one surface, FLYING if nothing presses it on, and in which direction. A ball that
-    ``slips`` has just lost its grip, whatever rounding says."""
+    """Return the phase of a ball on one surface, FREE if nothing presses it on, and the direction of its motion.
+
+    One that ``slips`` has just lost its grip, whatever rounding says.
+    """
     _, _, vx, vy, spin = state
     ax, ay, turning = applied
     nx, ny = touching.nx, touching.ny
@@ -135,9 +131,9 @@ def motion_on(
     slides = abs(slip) > STILL * (1.0 + abs(speed))
     lost = (grip_margin < 0.0) | ((grip_margin == 0.0) & (needed != 0.0)) | slips
     rests = stands & (direction * a <= STILL)
-    mode = where(slides | lost, SLIDING, where(rests, RESTING, ROLLING))
+    phase = where(slides | lost, Phase.SLIDING, where(rests, Phase.RESTING, Phase.ROLLING))
     direction = where(slides, where(slip > 0.0, 1.0, -1.0), where(lost, where(needed < 0.0, 1.0, -1.0), direction))
-    return where(pressed > ROUNDING * (abs(ax) + abs(ay)), mode, FLYING), direction
+    return where(pressed > ROUNDING * (abs(ax) + abs(ay)), phase, Phase.FREE), direction
 
 
 def wedged(
@@ -150,10 +146,10 @@ def wedged(
     on_first = max(0.0, (-ax * b.ny + ay * b.nx) / determinant)
     on_second = max(0.0, (-ay * a.nx + ax * a.ny) / determinant)
     if abs(spin) <= STILL:
-        return SustainedContact(RESTING, obstacle, a)
+        return SustainedContact(Phase.RESTING, obstacle, a)
     friction = obstacle.surface.friction * on_first + other.surface.friction * on_second
     rate = friction / (ball.inertia_factor * ball.radius)
-    return SustainedContact(PINNED, obstacle, a, 1.0 if spin > 0.0 else -1.0, rate)
+    return SustainedContact(Phase.PINNED, obstacle, a, 1.0 if spin > 0.0 else -1.0, rate)
 
 
 def _rolling(
