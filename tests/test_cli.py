@@ -160,7 +160,7 @@ def test_an_impact_has_the_speed_of_the_whole_motion(call):
     assert len(speeds) > 3
 
 
-def test_the_card_names_the_preset_and_check_adds_errors_and_the_verdict(call):
+def test_the_card_names_the_preset_and_check_adds_errors(call):
     assert call("run", DROP / "moon").out.startswith("drop/moon: The same drop on the moon.")
     out = call("run", DROP, "--check").out
     assert "1.21 m ± less than 0.001 mm" in out
@@ -419,7 +419,7 @@ def test_an_unreadable_file_is_refused(call, tmp_path: Path):
         (["--frames", "/proc/some/frames"], "--frames: cannot write into /proc"),
     ],
 )
-def test_an_output_that_cannot_be_written_is_refused_before_the_run(
+def test_an_unwritable_output_is_refused_before_the_run(
     call, drop: Path, tmp_path: Path, monkeypatch, args: list[str], expected: str
 ):
     change(drop / "scene.py", BUILD, f"{BUILD}    1 / 0\n")
@@ -435,7 +435,7 @@ def test_a_name_may_be_as_long_as_the_system_allows(call, tmp_path: Path):
     assert [path.name for path in tmp_path.iterdir()] == [file.name]
 
 
-def test_frames_that_somebody_else_made_are_neither_overwritten_nor_removed(call, tmp_path: Path):
+def test_frames_made_by_others_are_kept(call, tmp_path: Path):
     assert call("run", DROP, "--frames", tmp_path, "--fps", 10).code == 0
     (tmp_path / "frame_99999.png").write_bytes(b"mine")
     (tmp_path / "frame_1.png").write_bytes(b"of another kind")
@@ -557,7 +557,7 @@ def test_python_runs_the_module():
 
 
 @pytest.mark.parametrize("program", ["../sandbox", "-m sandbox"])
-def test_modules_in_the_current_folder_do_not_replace_those_of_python(tmp_path: Path, program: str):
+def test_modules_in_the_current_folder_shadow_none_of_pythons(tmp_path: Path, program: str):
     """Neither in the program nor in the processes of a sweep."""
     (tmp_path / "sandbox").write_text(f"if __name__ == '__main__':\n    {COMMAND[-1]}")
     (here := tmp_path / "here").mkdir()
@@ -681,7 +681,7 @@ def test_ctrl_c_is_not_lost_where_python_drops_exceptions(monkeypatch, dropped: 
         signal.signal(signal.SIGTERM, signal.SIG_DFL)
 
 
-def test_a_folder_of_parts_goes_though_its_removal_is_interrupted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+def test_a_folder_of_parts_is_removed_despite_an_interrupt(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     def interrupted(folder: Path, **_: Any) -> None:
         monkeypatch.undo()
         raise KeyboardInterrupt

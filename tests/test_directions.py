@@ -253,3 +253,15 @@ def test_engine_and_physics_run_no_python_from_strings():
         if isinstance(node, ast.Name) and node.id in ("exec", "eval", "compile")
     ]
     assert written == []
+
+
+def test_names_of_tests_have_at_most_60_characters():
+    """A name that says one behaviour is short; ``pytest -k`` finds it."""
+    longer = [
+        f"{path.relative_to(ROOT)}, line {node.lineno}: {node.name}"
+        for folder in ("tests", "template", "template_above")
+        for path in sorted((ROOT / folder).rglob("*.py"))
+        for node in ast.walk(ast.parse(path.read_text("utf-8")))
+        if isinstance(node, ast.FunctionDef) and node.name.startswith("test_") and len(node.name) > 60
+    ]
+    assert longer == []

@@ -150,7 +150,7 @@ def test_the_walk_through_works_as_it_stands(golden, tmp_path: Path):
         assert subprocess.run(command, cwd=tmp_path, capture_output=True).returncode == 0
 
 
-def test_what_the_guide_and_the_templates_make_passes_strict_types(tmp_path: Path):
+def test_scenes_of_guide_and_templates_pass_strict_types(tmp_path: Path):
     written: set[Path] = set()
     for language, text in blocks(WALK):
         first, _, rest = text.partition("\n")

@@ -68,7 +68,7 @@ def test_off_the_keeper(golden):
 
 
 @pytest.mark.parametrize("key", ["restitution", "friction", "mass", "radius"])
-def test_a_thousandth_more_of_what_the_keeper_is_would_be_noticed(key: str):
+def test_a_thousandth_more_of_the_keeper_is_noticed(key: str):
     before = sandbox.load("soccer-curl", OFF_THE_KEEPER)
     more = 1.001 * getattr(before.parameters.keeper, key)
     after = sandbox.load("soccer-curl", {**OFF_THE_KEEPER, f"keeper.{key}": more})

@@ -50,7 +50,7 @@ def pytest_in(folder: Path, *args: str) -> subprocess.CompletedProcess[str]:
 
 
 @pytest.mark.parametrize(("name", "view", "preset"), [(NAME, [], "still"), (ABOVE, ["--from-above"], "one-board")])
-def test_what_it_writes_is_whole_and_little_enough_to_read_before_lunch(call, name: str, view: list[str], preset: str):
+def test_new_scenes_are_complete_and_short(call, name: str, view: list[str], preset: str):
     code, out, err = call("new", name, *view)
     assert (code, err) == (0, "")
     files = {str(path.relative_to(name)) for path in Path(name).rglob("*") if path.is_file()}

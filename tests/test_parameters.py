@@ -200,7 +200,7 @@ def test_numbers_beyond_the_bounds_never_pass(number: float):
 
 
 @pytest.mark.parametrize("value", [0, 340, Fraction(1, 2), 70])
-def test_bounds_belong_to_the_range_and_whole_numbers_become_floats(value: Any):
+def test_bounds_are_inclusive_and_integers_become_floats(value: Any):
     assert type(speed(value)) is float
     assert speed(value) == value
 
@@ -225,7 +225,7 @@ def test_groups_are_frozen_and_their_defaults_are_checked():
         Wrong()
 
 
-def test_an_unknown_unit_and_bounds_the_wrong_way_round_are_errors_of_the_scene():
+def test_unknown_units_and_reversed_bounds_are_scene_errors():
     with pytest.raises(ValueError, match='"furlong" is not a known unit; use m, cm'):
         quantity(1.0, "furlong", low=0, high=1, meaning="")
     with pytest.raises(ValueError, match="the lowest value, 1, is above the highest, -1"):
@@ -256,7 +256,7 @@ def test_an_unknown_unit_and_bounds_the_wrong_way_round_are_errors_of_the_scene(
         (None, "must be a number"),
     ],
 )
-def test_a_bad_number_is_refused_with_file_key_value_bound_and_unit(value: Any, expected: str):
+def test_a_bad_number_names_file_key_value_bound_and_unit(value: Any, expected: str):
     assert expected in refusal({"launch": {"speed": value}})
 
 
@@ -300,7 +300,7 @@ def test_a_bad_number_is_refused_with_file_key_value_bound_and_unit(value: Any, 
         ({"accuracy": {"integrator": "rk5"}}, 'accuracy.integrator = "rk5": must be "explicit-euler"'),
     ],
 )
-def test_an_unknown_key_and_a_value_of_the_wrong_kind_are_refused(values: dict[str, Any], expected: str):
+def test_unknown_keys_and_values_of_the_wrong_kind_are_refused(values: dict[str, Any], expected: str):
     assert expected in refusal(values)
 
 
@@ -338,7 +338,7 @@ def test_a_choice_starts_from_its_defaults(keys: dict[str, Any], expected: Group
     assert validate(Parameters, {"ball": {"drag": keys}}).ball.drag == expected
 
 
-def test_a_changed_choice_drops_the_keys_that_only_the_old_one_had():
+def test_a_changed_choice_drops_keys_of_the_old_one():
     in_file = {"ball": {"drag": {"model": "fitted", "critical": 5e4, "velocity": "ground"}}}
     changed = validate(Parameters, in_file, changes={"ball.drag.model": "constant", "ball.drag.coefficient": 0.3})
     assert changed.ball.drag == ConstantDrag(coefficient=0.3, velocity="ground")
@@ -401,7 +401,7 @@ def test_a_broken_file_is_refused(tmp_path, content: bytes, expected: str):
     assert len(str(refused.value).splitlines()) == 1
 
 
-def test_a_byte_order_mark_does_no_harm_and_unreadable_files_are_refused(tmp_path):
+def test_byte_order_marks_are_read_and_unreadable_files_refused(tmp_path):
     (tmp_path / "shot.toml").write_bytes(b"\xef\xbb\xbfgravity = 3")
     assert read_toml(tmp_path / "shot.toml") == {"gravity": 3}
     with pytest.raises(RequestError, match="no such file"):

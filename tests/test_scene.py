@@ -73,7 +73,7 @@ def test_what_python_asks_wrongly_is_said_in_a_line(ask: Any, expected: str):
 
 
 @pytest.mark.parametrize("listing", list(listings()), ids=lambda listing: listing.name)
-def test_every_scene_and_preset_says_what_it_is_runs_to_its_end_and_stays_finite(listing: Any):
+def test_every_preset_describes_itself_ends_and_stays_finite(listing: Any):
     run = run_of(listing.name)
     scene = run.scene
     assert (scene.name, scene.preset) == (listing.name.partition("/")[0], listing.name.partition("/")[2] or None)
@@ -214,7 +214,7 @@ def trap(drop: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 @pytest.mark.parametrize("where", ["shot.toml", "golf/shot.toml", "golf/presets/shot.toml", "presets/shot.toml"])
 @pytest.mark.parametrize("named", ["golf", "golf/moon"])
-def test_a_name_is_that_of_an_installed_scene_whatever_stands_beside(trap: Path, where: str, named: str):
+def test_a_bare_name_means_an_installed_scene(trap: Path, where: str, named: str):
     (trap / where).write_text(f'scene = "{named}"')
     assert sandbox.load(where).folder == sandbox.load(trap / where).folder == SCENES / "golf"
     assert sandbox.load(named).folder == SCENES / "golf"

@@ -100,7 +100,7 @@ def test_moments_of_inertia_are_those_of_the_textbook(shape: Shape, factor: floa
     assert Body("body", position=(0.0, 0.0), shape=shape, mass=3.0).inertia == pytest.approx(3.0 * factor, rel=1e-14)
 
 
-def test_mass_follows_from_density_and_center_and_moment_may_be_given():
+def test_mass_from_density_with_given_center_and_moment():
     given = Body("body", position=(0.0, 0.0), shape=box(0.4, 0.3), density=5.0, center=(0.1, 0.0))
     assert given.mass == pytest.approx(0.6)
     assert given.inertia == pytest.approx(0.6 * (0.25 / 12 + 0.01))
@@ -154,7 +154,7 @@ def height(shape: Shape, at: Pose, turns: np.ndarray) -> np.ndarray:
 
 
 @pytest.mark.parametrize("name", OUTLINES)
-def test_a_rim_leaves_no_more_out_than_it_may_and_has_no_point_twice(name: str):
+def test_a_rim_is_within_its_tolerance_without_double_points(name: str):
     shape, turns = OUTLINES[name], np.linspace(-np.pi, np.pi, 361)
     for within in (1e-2, 1e-4):
         rim = shape.rim(within)
@@ -164,7 +164,7 @@ def test_a_rim_leaves_no_more_out_than_it_may_and_has_no_point_twice(name: str):
 
 
 @pytest.mark.parametrize("name", ["box", "triangle", "rounded triangle", "heptagon"])
-def test_more_rounding_keeps_the_sides_and_takes_from_the_corners(name: str):
+def test_rounding_keeps_the_sides_and_cuts_the_corners(name: str):
     x, y = OUTLINES[name].mass_properties().center
     shape, here = OUTLINES[name].moved(-x, -y), Pose(0.0, 0.0, 0.0)
     assert isinstance(shape, Polygon)
@@ -219,7 +219,7 @@ def test_no_touch_of_spinning_outlines_is_missed():
     assert hits > 15
 
 
-def test_the_spin_of_a_disc_costs_nothing_where_it_moves_in_touch_with_a_body(monkeypatch):
+def test_the_spin_of_a_disc_costs_no_distance_queries(monkeypatch):
     """It turns no point of its outline's core."""
     asked = []
     monkeypatch.setattr(turning_touch, "nearest", lambda *where: asked.append(where) or nearest(*where))
@@ -234,7 +234,7 @@ def test_the_spin_of_a_disc_costs_nothing_where_it_moves_in_touch_with_a_body(mo
 
 
 @pytest.mark.parametrize("turn", [0.0, 0.9, -2.0])
-def test_boxes_that_lie_on_one_another_touch_at_the_ends_of_what_they_share(turn: float):
+def test_stacked_boxes_touch_at_the_ends_of_the_shared_side(turn: float):
     way, up = np.exp(1j * turn), 1j * np.exp(1j * turn)
     large, small = (Body("box", position=(0.0, 0.0), shape=box(width, 0.2), mass=1.0) for width in (2.0, 0.4))
     for along, ends in ((0.3, (0.1, 0.5)), (-0.9, (-1.0, -0.7))):
@@ -380,7 +380,7 @@ def test_the_last_hop_of_an_ellipse_gives_it_no_energy(spin: float):
 
 
 @pytest.mark.parametrize("spin", [-10.0, 2.0, 12.0])
-def test_friction_passes_on_no_more_of_the_resistance_than_its_own(spin: float):
+def test_friction_limits_rolling_resistance_of_an_ellipse(spin: float):
     """Where it would slip by resistance alone it rolls on, resisted less."""
     surface = Surface("floor", LEVEL, 0.3, 0.3, rolling_resistance=0.05)
     run = run_of([thrown(Ellipse(0.2, 0.12), position=(0.0, 0.3), velocity=(1.0, 0.0), spin=spin)], 20.0, [surface])
@@ -389,7 +389,7 @@ def test_friction_passes_on_no_more_of_the_resistance_than_its_own(spin: float):
     assert abs(book.residue) < 1e-4 * book.start
 
 
-def test_a_capsule_that_turns_about_its_end_faster_than_it_grips_slips():
+def test_a_capsule_turning_faster_than_friction_holds_slips():
     """Its end, at l = -0.1 m, is drawn towards the centre by w^2 l: more than the friction of its weight."""
     way, radius, spin = 0.1, 0.2, 20.0
     start = {"position": (0.0, radius), "velocity": (-spin * radius, spin * way), "spin": spin}
@@ -431,7 +431,7 @@ def test_a_64_gon_converges_to_its_ellipse():
 
 
 @pytest.mark.parametrize("method", ["exact", "plain"])
-def test_a_law_is_told_how_fast_a_body_meets_a_slope_and_slips_on_it(method: Any):
+def test_a_law_gets_approach_and_slip_speeds_on_a_slope(method: Any):
     met = list[tuple[float, float]]()
 
     def law(approach: float, slip: float) -> Bounce:
@@ -458,7 +458,7 @@ def test_pymunks_own_stepping_converges_to_the_exact_run(shape: str):
     assert off[1] < 0.3 * off[0]
 
 
-def test_a_box_that_falls_on_its_corner_tumbles_and_comes_to_rest():
+def test_a_box_falling_on_its_corner_tumbles_to_rest():
     run = run_of([thrown(box(0.4, 0.3), position=(0.0, 1.0), spin=4.0, angle=0.5)], 4.0, floor(0.5, 0.3))
     assert run.ended == "rest"
     assert run.events[-1].kind == "rest"
@@ -498,7 +498,7 @@ def off_the_end(shape: Shape, angle: float, friction: float, radius: float = 0.0
     return run_of([start], 0.6, [ledge])
 
 
-def test_what_slides_on_its_corner_leaves_the_end_of_a_ledge_there():
+def test_a_box_sliding_on_its_corner_leaves_at_the_ledge_end():
     """Without friction it keeps its speed along the ledge until its front lower corner is at the end."""
     run = off_the_end(OUTLINES["box"], -0.7, 0.0)
     (leaves,) = (event for event in run.events if event.kind == "leave")
@@ -516,7 +516,7 @@ def test_bodies_go_over_the_end_of_a_ledge(shape: str, radius: float):
         assert run.state("body", 0.6).y < 0.0
 
 
-def test_an_ellipse_rolls_to_and_fro_with_the_period_of_its_energy():
+def test_an_ellipse_rocks_with_the_period_of_its_energy():
     """(I + m (h^2 + h'^2)) w^2 / 2 + m g h = const with h^2 = a^2 sin^2 + b^2 cos^2; the period is a quadrature."""
     a, b, mass, widest = 0.3, 0.2, 2.0, 0.4
     inertia = mass * (a * a + b * b) / 4

@@ -35,7 +35,7 @@ def of(restitution, friction):
     return lambda normal, slip: Bounce(restitution, friction)
 
 
-def test_a_rolling_ball_keeps_its_roll_through_a_smooth_head_on_hit():
+def test_a_rolling_ball_keeps_its_spin_in_a_smooth_head_on_hit():
     """e = 1, no friction: the cue ball stops, keeps its spin and follows at 2/7 v; the object ball ends at 5/7 v."""
     balls = [rolling("cue", (-0.5, 0.0), (2.0, 0.0)), ball("1", (0.0, 0.0))]
     run = simulate(Setup(balls, plane=Cloth(rolling=0.0), duration=3.0, between_balls=of(1.0, 0.0)), resolve())
@@ -154,7 +154,7 @@ def test_a_faint_touch_beside_a_hard_one_is_no_spring(order, drift):
 
 @pytest.mark.parametrize("mutual", [0.0, 0.5, 1.0])
 @pytest.mark.parametrize("wall", [0.8, 1.0])
-def test_a_light_ball_squeezed_between_a_wall_and_a_heavy_one_gains_no_energy(wall, mutual):
+def test_a_light_ball_squeezed_on_a_wall_gains_no_energy(wall, mutual):
     light, heavy = Ball("light", 0.1, R, (0.0, R), (0.0, -2.0)), Ball("heavy", 10.0, R, (0.0, 3 * R), (0.0, -1.0))
     floor = Surface("floor", Segment((-1.0, 0.0), (1.0, 0.0)), wall, 0.0)
     book = ledger(simulate(Setup([light, heavy], [floor], duration=0.01, between_balls=of(mutual, 0.0)), resolve()))
@@ -169,7 +169,7 @@ def test_a_slip_too_small_to_square_is_no_trouble():
     assert run.events[0].partner in ("1", "cue")
 
 
-def test_a_ball_goes_where_it_goes_whether_its_spin_ends_on_the_way_or_not():
+def test_the_end_of_side_spin_changes_no_path():
     """Into a ball that rolls, too, one at rest, a cushion and a pocket; with smooth ones spin changes nothing else."""
     places = {"cue": (0.0, 0.0), "1": (0.6, 0.03), "2": (0.9, 0.01)}
     speeds = {"cue": (1.0, 0.0), "1": (0.3, 0.0), "2": (0.0, 0.0)}
@@ -190,7 +190,7 @@ def test_a_ball_goes_where_it_goes_whether_its_spin_ends_on_the_way_or_not():
     assert runs[1].duration == pytest.approx(runs[0].duration, abs=1e-9)
 
 
-def test_a_pocket_takes_a_ball_and_the_run_ends_when_the_rest_are_still():
+def test_a_pocket_catches_a_ball_and_the_run_ends_at_rest():
     setup = Setup([rolling("cue", (0.0, 0.0), (1.0, 0.0))], plane=CLOTH, traps=[Trap("pocket", (0.5, 0.0), 0.06)])
     run = simulate(setup, resolve())
     (event,) = [event for event in run.events if event.kind == "caught"]
@@ -260,7 +260,7 @@ def test_a_ball_that_a_high_nose_draws_on_parts_from_it():
     assert energies == sorted(energies, reverse=True)
 
 
-def test_a_ball_frozen_on_a_nose_and_cut_goes_off_as_one_with_a_gap():
+def test_a_ball_frozen_on_a_nose_leaves_as_one_with_a_gap():
     ends = []
     for gap in (0.0, 1e-7):
         balls = [ball("cue", (1.0 - R - gap - 0.2, -0.2), (1.0, 1.0)), ball("1", (1.0 - R - gap, 0.0))]

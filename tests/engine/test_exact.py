@@ -313,7 +313,7 @@ def test_coming_off_a_round_top_never_stalls(speed, friction):
 @pytest.mark.parametrize("loss", [None, Motor((0.0, 2.0), (1.0, 1.0), 1.0)], ids=["whole", "burning"])
 @pytest.mark.parametrize("forces", range(4))
 @pytest.mark.parametrize("torques", range(3))
-def test_a_ball_is_accelerated_by_the_sum_of_its_forces_and_torques(forces, torques, loss):
+def test_the_sum_of_forces_and_torques_accelerates_a_ball(forces, torques, loss):
     """F_n = (n v_x, x + t), T_n = n + w; a burning ball of 2 kg has 1.5 kg left at 1 s."""
     pushes = [lambda t, p, v, w, n=n: (n * v[0], p[0] + t) for n in range(forces)]
     twists = [lambda t, p, v, w, n=n: n + w for n in range(torques)]
@@ -349,7 +349,7 @@ class Thick(Drag):
         (Thick, None),
     ],
 )
-def test_a_flight_does_not_depend_on_whether_its_forces_are_known_to_need_no_place(kind, wind):
+def test_declaring_forces_independent_of_place_changes_nothing(kind, wind):
     """Of a function the engine cannot know it, and makes the place in each stage of a step; nor of a scene's own kind
     of force or wind."""
     air = 0.02, 1.2, Constant(0.3), wind
@@ -360,7 +360,7 @@ def test_a_flight_does_not_depend_on_whether_its_forces_are_known_to_need_no_pla
     assert fly(known, 2.0).state("ball", 2.0) == fly(asked, 2.0).state("ball", 2.0)
 
 
-def test_a_step_ends_at_the_border_of_a_patch_that_only_its_fall_reaches():
+def test_a_step_ends_at_a_border_reached_only_by_falling():
     """From rest a ball falls h in t = (2 h / g)^(1/2), alone and among others."""
     net = ForceRegion(-1.0, 0.0, 1.0, 1.0, 0.01)
     setup = Setup([Ball("ball", 1.0, 0.1, (0.0, 2.0))], duration=1.0, force_regions=[net])

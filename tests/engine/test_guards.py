@@ -59,7 +59,7 @@ def test_the_world_is_100_km_wide_each_way(way: tuple[int, int]):
 
 
 @pytest.mark.parametrize("accuracy", [resolve(), PLAIN], ids=["exact", "plain"])
-def test_an_error_in_a_users_force_comes_out_with_its_own_traceback(accuracy):
+def test_an_error_in_a_users_force_keeps_its_traceback(accuracy):
     def broken(t, position, velocity, spin):
         return 1.0 / (position[0] - position[0]), 0.0
 
@@ -128,7 +128,7 @@ def test_stiff_drag_is_stable_and_never_turns_the_motion_round(accuracy):
     assert run.state("bullet", 0.01)[0] == pytest.approx(x_without_gravity, rel=0.3 if rough else 0.02)
 
 
-def test_stiff_drag_at_a_fixed_step_takes_smaller_steps_where_it_must():
+def test_stiff_drag_shortens_fixed_steps_where_it_must():
     run = simulate(Setup([bullet_in_water()], duration=0.5), resolve(integrator="rk4", step=1 / 60))
     assert run.numerics.refined_steps > 5
     calm = simulate(Setup([shot(Drag(0.05, 1.2, Constant(0.5)))], duration=0.5), resolve(integrator="rk4", step=1 / 60))
@@ -136,7 +136,7 @@ def test_stiff_drag_at_a_fixed_step_takes_smaller_steps_where_it_must():
 
 
 @pytest.mark.parametrize("velocity", [(300.0, 0.0), (0.0, 300.0), (-200.0, 200.0)])
-def test_plain_refuses_a_step_in_which_drag_would_turn_the_motion_round(velocity: tuple[float, float]):
+def test_plain_rejects_a_step_in_which_drag_would_reverse(velocity: tuple[float, float]):
     bullet = replace(bullet_in_water(), velocity=velocity)
     with pytest.raises(RunError, match=r"'bullet': drag would reverse its velocity.*accuracy\.step"):
         simulate(Setup([bullet], duration=0.5), resolve(method="plain", step=1 / 60))
@@ -222,7 +222,7 @@ def test_a_ball_that_cannot_be_is_refused_in_plain_words(change, words):
         Ball(**{"name": "cue", "mass": 1.0, "radius": 0.1, "position": (0.0, 0.0)} | change)
 
 
-def test_a_setup_or_surface_that_cannot_be_is_refused_in_plain_words():
+def test_an_impossible_setup_is_refused_with_its_reason():
     with pytest.raises(ValueError, match="two balls are named 'cue'"):
         Setup([shot(), shot()])
     with pytest.raises(ValueError, match="at least one ball"):
@@ -351,7 +351,7 @@ def test_points_may_be_given_as_lists_and_arrays():
     assert run.events[0].partner == "post"
 
 
-def test_many_balls_need_memory_by_their_number_not_by_its_square():
+def test_memory_grows_linearly_with_the_number_of_balls():
     def needed(count):
         balls = [Ball(f"ball {i}", 1.0, 0.1, (0.3 * i, 0.0)) for i in range(count)]
         tracemalloc.start()
@@ -365,7 +365,7 @@ def test_many_balls_need_memory_by_their_number_not_by_its_square():
     assert needed(400) < 6 * needed(100)
 
 
-def test_an_impact_that_creates_energy_is_an_error_that_names_time_and_bodies(monkeypatch):
+def test_an_impact_creating_energy_is_an_error_naming_bodies(monkeypatch):
     """Here pymunk's impulses leave three balls twice as fast as they should."""
     exchange = impacts.after_contacts_at_once
 

@@ -77,7 +77,7 @@ def test_rolling_resistance_stops_a_ball(resistance: float):
     assert run.state("ball", 10.0)[0] == pytest.approx(2.0**2 / (2.0 * resistance * 9.81), rel=0.02)
 
 
-def test_a_ball_that_a_step_carries_through_the_ground_is_lost_and_said_so():
+def test_a_ball_stepped_through_the_ground_is_reported_lost():
     with pytest.raises(RunError, match=r"ball 'ball': went through '\w+' within a step of 0.00417 s; lower"):
         simulate(load("golf/7-iron").build(), resolve(method="plain"))
 

@@ -65,7 +65,7 @@ def test_a_run_that_ends_with_an_impact_ends_with_its_outcome():
     assert run.state("ball", run.duration)[3] == pytest.approx(0.6 * sqrt(2 * G * 0.5), abs=1e-6)
 
 
-def test_state_at_an_impact_is_the_one_after_and_before_gives_the_one_before(bouncing):
+def test_state_is_after_an_impact_and_before_is_before_it(bouncing):
     event = next(event for event in bouncing.events if event.kind == "impact")
     before, after = bouncing.before("ball", event.t), bouncing.state("ball", event.t)
     assert -before[3] == pytest.approx(event.speed, abs=1e-12)
@@ -74,7 +74,7 @@ def test_state_at_an_impact_is_the_one_after_and_before_gives_the_one_before(bou
     assert (event.x, event.y) == pytest.approx(after[:2], abs=1e-9)
 
 
-def test_states_before_and_after_are_told_alike_of_a_ball_that_rolls():
+def test_states_before_and_after_agree_for_a_rolling_ball():
     rolling = Ball("ball", 0.17, 0.028, (0.0, 0.0), (1.0, 0.0), 2.0, (0.0, 1.0 / 0.028))
     run = simulate(Setup([rolling], duration=1.0, plane=Cloth()), resolve())
     assert run.before("ball", 0.5) == run.state("ball", 0.5)
@@ -158,7 +158,7 @@ def test_residue_of_the_ledger_shrinks_with_the_tolerance():
         ("rk4", 4, (30, 120)),
     ],
 )
-def test_the_whole_converges_at_the_integrators_order_with_impacts_in_it(integrator, order, steps):
+def test_runs_with_impacts_converge_at_the_integrators_order(integrator, order, steps):
     """Rim, board and floor included: the end after 2.5 s, against precise at a hundredth of its tolerance."""
     shot = next(s for s in shots.seeded(50) if len(simulate(shots.setup(*s, 2.5), resolve()).events) == 3)
     exact = simulate(shots.setup(*shot, 2.5), resolve("precise", tolerance=1e-8)).state("ball", 2.5)
@@ -187,7 +187,7 @@ def test_a_turn_is_two_pi():
     assert run.angle("ball", 1.5) == pytest.approx(3 * pi, abs=1e-12)
 
 
-def test_plain_converges_to_exact_on_turf_that_gives_way_and_swallows_low_bounces():
+def test_plain_converges_to_exact_on_soft_turf():
     """A tilted bounce turns forward speed upward; what counts as too low is the rebound, in both methods."""
 
     def law(normal, tangential):
@@ -205,7 +205,7 @@ def test_plain_converges_to_exact_on_turf_that_gives_way_and_swallows_low_bounce
     assert errors[1] < 0.2 * errors[0]
 
 
-def test_balls_that_touch_the_struck_one_are_booked_under_its_impact():
+def test_the_ledger_books_touching_balls_under_one_impact():
     """Of three balls in touch only the first has an approach of its own; the energy of the others is no residue."""
     balls = [Ball(f"{k}", 0.2, 0.05, (0.1 * k, 0.0)) for k in range(3)]
     balls.append(Ball("cue", 0.2, 0.05, (-1.0, 0.0), (2.0, 0.0)))

@@ -81,7 +81,7 @@ def test_words_over_one_number_are_a_strip_that_fills_the_chart(tmp_path: Path):
     assert all(text.get_text().endswith(" %") for text in axes.get_legend().get_texts())
 
 
-def test_a_number_over_numbers_and_words_is_a_curve_for_each_word(tmp_path):
+def test_a_number_over_words_is_a_curve_for_each_word(tmp_path):
     kinds, words = drawn(tmp_path, "final_height", "launch.height=1:2:4", "ball.drag.model=none,constant")
     assert "QuadMesh" not in kinds
     assert words == ["none", "constant"]
@@ -111,7 +111,7 @@ def test_sets_of_balls_are_counted_whatever_their_order(tmp_path: Path, name: st
 
 
 @pytest.mark.parametrize(("of", "lines"), [("bounces", False), ("final_height", True)])
-def test_lines_of_equal_height_go_through_numbers_that_are_not_counts(tmp_path, of, lines):
+def test_contour_lines_are_drawn_except_for_counts(tmp_path, of, lines):
     kinds, _ = drawn(tmp_path, of, "launch.height=1:2:9", "launch.speed=0:2:9")
     assert ("QuadContourSet" in kinds) == lines
     assert "QuadMesh" in kinds

@@ -36,7 +36,7 @@ def test_what_is_built_at_once_is_what_is_built_for_each(name: str):
         assert at_once >= {"launch.speed", "launch.angle"}
 
 
-def test_a_build_that_is_another_between_the_points_compared_is_not_trusted():
+def test_a_build_differing_between_compared_points_is_rejected():
     scene = load("basketball")
     points = [(angle,) for angle in np.linspace(40.0, 60.0, FEWEST).tolist()]
     varied = Varied(scene, ["launch.angle"])

@@ -58,7 +58,7 @@ def test_scenes_hold_at_their_extremes(scene: str):
     assert sum(outcome.outcome == HELD for outcome in outcomes) > 0.7 * len(outcomes)
 
 
-def test_every_integrator_keeps_a_thin_wall_and_the_plain_method_says_that_it_cannot():
+def test_integrators_keep_a_thin_wall_and_plain_reports_it():
     outcomes = {outcome.method: outcome for outcome in tried("", BARE["wall of 0.1 mm at 340 m/s"])}
     plain = outcomes.pop("plain")
     assert (plain.outcome, "went through 'wall' within a step" in plain.message) == (REFUSED, True)
@@ -73,7 +73,7 @@ def test_overlaps_at_the_start_are_refused_with_both_names():
     assert "'floor'" in outcome.message
 
 
-def test_a_force_that_is_not_a_number_is_an_error_with_time_and_ball():
+def test_a_nan_force_is_an_error_with_time_and_ball():
     for outcome in tried("", BARE["a force that is not a number"]):
         assert outcome.outcome == REFUSED
         assert "t = " in outcome.message
@@ -165,7 +165,7 @@ def test_a_run_that_ends_with_all_balls_potted_is_looked_at_too():
     assert simulate(potted.build(), LEVELS["balanced"]).caught_at("cue") is not None
 
 
-def test_what_lies_in_a_heap_may_overlap_as_promised_and_takes_one_integrator_of_each_kind(monkeypatch):
+def test_a_heap_may_overlap_and_is_tried_with_few_integrators(monkeypatch):
     falling = load("collisions/dominoes", {"duration": 0.2})
     monkeypatch.setattr(lab, "of_scene", lambda scene: [Extreme("own", scene.build)])
     outcomes = {outcome.method: outcome for outcome in lab.stress([falling], with_bare=False)}

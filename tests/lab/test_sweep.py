@@ -206,7 +206,7 @@ def test_each_row_has_the_accuracy_that_it_asks_for():
     assert np.all(1.2 * fast < precise)
 
 
-def test_a_checked_sweep_tells_errors_and_what_hangs_on_the_accuracy():
+def test_a_checked_sweep_reports_errors_and_changed_facts():
     # at the edge of the ring: in or out is decided by less than the error
     found = sandbox.sweep("basketball", {"launch.speed": [7.0, 7.391]}, check=True)
     for row in found.records:
@@ -333,7 +333,7 @@ def test_files_of_the_users_are_kept(drop, tmp_path):
     assert (before.read_text(), path.read_text(), mark.exists()) == ("my notes", "x,error\n1,\n", False)
 
 
-def test_another_sweep_begins_anew_but_never_over_one_that_was_interrupted(drop, tmp_path):
+def test_another_sweep_never_replaces_an_interrupted_one(drop, tmp_path):
     path = tmp_path / "rows.csv"
     with RowFile(path, grid(drop, "launch.height=0.5:2:40")) as file:
         file.append([{"launch.height": 9.0, "error": ""}])
@@ -348,7 +348,7 @@ def test_another_sweep_begins_anew_but_never_over_one_that_was_interrupted(drop,
     assert changed.fingerprint != other.fingerprint
 
 
-def test_what_another_sweep_found_is_kept_and_the_same_rows_are_not(drop, tmp_path):
+def test_rows_of_another_sweep_are_kept_as_a_backup(drop, tmp_path):
     path, before = tmp_path / "rows.csv", tmp_path / "rows.csv~"
     first, other = grid(drop, "launch.height=0.5:2:3"), grid(drop, "launch.height=0.5:2:4")
     found = whole(first, path)
@@ -661,7 +661,7 @@ def test_a_worker_with_other_code_is_refused_by_name(drop):
     assert f"it differs in: the sandbox, numpy {here.parts['numpy']} instead of 1.0" in str(refused.value)
 
 
-def test_a_worker_that_loaded_the_scene_before_a_change_is_refused(tmp_path):
+def test_a_worker_with_the_scene_before_a_change_is_refused(tmp_path):
     """Its modules are loaded once: it would compute the old numbers, while the files on its disk are the new ones."""
     folder, pool = own_scene(tmp_path, "    factor = 1.0\n"), Processes(1)
 

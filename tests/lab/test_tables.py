@@ -48,7 +48,7 @@ def test_room_that_a_heading_gives_up_is_that_of_a_text():
     assert table(("a heading of three words", "said"), [("1", text)], "rl")[-1] == f"        1  {text}"
 
 
-def test_what_stands_in_brackets_is_text_and_nothing_splits_a_row():
+def test_brackets_are_text_and_nothing_splits_a_row():
     assert table(("a", "b"), [("[red]x[/red]", "two\nlines"), ("\x1b[2J", ":smile:")], "ll") == [
         "  a             b",
         "  [red]x[/red]  two lines",

@@ -98,7 +98,7 @@ def test_the_reference_is_better_than_the_finest_level(rattle: Reference):
     assert precise < 1e-3
 
 
-def test_the_error_of_the_reference_counts_the_bounces_that_are_left_out(tmp_path: Path):
+def test_the_reference_error_counts_bounces_left_out(tmp_path: Path):
     """A ball that bounces until it rolls, and is slowed as it rolls: its place depends on the lowest bounce."""
     new_scene(tmp_path / "beachvolley")
     scene = tmp_path / "beachvolley" / "scene.py"
@@ -145,7 +145,7 @@ def test_every_method_has_its_points_and_finer_ones_are_better(basketball: lab.T
     assert max(map(len, lab.as_text(basketball))) <= 80
 
 
-def test_on_a_slow_machine_all_levels_are_measured_and_of_the_methods_the_coarsest(monkeypatch: pytest.MonkeyPatch):
+def test_a_slow_machine_measures_all_levels_and_coarse_methods(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(lab, "LONGEST", 0.0)  # s
     monkeypatch.setattr(lab, "ablation", lambda reference: [])
     monkeypatch.setattr(lab, "shot_map", lambda scene: None)
@@ -163,7 +163,7 @@ def test_the_best_is_the_cheapest_that_is_good_enough(basketball: lab.Trade):
     assert basketball.best(0.0) is None
 
 
-def test_a_step_of_half_a_second_is_called_unstable_in_the_plain_method(basketball: lab.Trade):
+def test_plain_calls_a_step_of_half_a_second_unstable(basketball: lab.Trade):
     coarse = next(point for point in basketball.points if (point.method, point.setting) == ("plain", "1/2 s"))
     assert not coarse.stable
     assert coarse.problem
@@ -233,7 +233,7 @@ def test_what_is_seen_on_the_way_is_not_nothing():
     assert not row.is_nothing
 
 
-def test_parts_of_a_surface_that_nothing_touches_are_said_to_be_idle():
+def test_surface_parts_that_nothing_touches_are_idle():
     rows = parts(ablation(converge(load("soccer-curl"))))
     assert rows["friction of surfaces"].effect == "nothing: no contact"
 

@@ -45,7 +45,7 @@ def test_failures_are_one_page(pytester, browser, monkeypatch):
     assert browser.complaints() == []
 
 
-def test_what_is_missing_damaged_or_of_another_size_is_on_the_page(pytester, browser, monkeypatch):
+def test_missing_damaged_and_resized_goldens_are_on_the_page(pytester, browser, monkeypatch):
     monkeypatch.delenv("CI", raising=False)
     pytester.makepyfile(made("13.0", "'red'"))
     pytester.runpytest("--golden-report", "all.html").assert_outcomes(failed=2)

@@ -75,7 +75,7 @@ def test_every_instant_is_that_of_python(browser, pages, name: str):
     assert browser.complaints() == []
 
 
-def test_the_path_and_the_rim_of_a_body_are_as_thick_as_on_the_poster(browser, pages):
+def test_path_and_rim_are_as_thick_as_on_the_poster(browser, pages):
     name = "collisions/tumbling-box"
     browser.open(pages(name))
     view = run_of(name).scene.picture(run_of(name), LAYOUTS[0][0])
@@ -211,7 +211,7 @@ def test_the_command_of_a_scene_of_your_own_has_its_changes(tmp_path: Path, monk
     assert sandbox.load(words[2], dict([parse_assignment(words[4])])).parameters == scene.parameters
 
 
-def test_parameters_are_in_the_chosen_units_and_only_those_that_are_set():
+def test_only_set_parameters_appear_in_the_chosen_units():
     def parameters(name: str) -> str:
         return page_of(run_of(name)).partition('<table class="parameters">')[2].partition("</table>")[0]
 

@@ -49,7 +49,7 @@ def test_log_wind_never_falls_with_height(low: float, more: float):
     assert wind(0.0, (0.0, low + more))[0] >= wind(0.0, (0.0, low))[0] >= 0.0
 
 
-def test_log_wind_stands_still_at_the_ground_and_is_even_above_its_ceiling():
+def test_log_wind_is_0_at_the_ground_and_even_above_its_ceiling():
     wind = LogWind((5.0, 0.0), 10.0, 0.03)
     assert wind(0.0, (0.0, 0.0)) == wind(0.0, (0.0, -3.0)) == (0.0, 0.0)
     assert wind(0.0, (0.0, 100.0)) == wind(0.0, (0.0, 5000.0))

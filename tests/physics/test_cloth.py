@@ -58,7 +58,7 @@ def energy(state: PlaneState) -> float:
 # Sliding into rolling -------------------------------------------------------------------------------------------------
 
 
-def test_a_ball_without_spin_slides_and_then_rolls_at_five_sevenths_of_its_speed():
+def test_a_ball_without_spin_comes_to_roll_at_5_7_of_its_speed():
     """t = 2 v / (7 mu g), x = 12 v^2 / (49 mu g): .291248 s and .499282 m for v = 2, mu = .2."""
     start = (0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 0.0)
     phase = CLOTH.phase(start, R)
@@ -73,7 +73,7 @@ def test_a_ball_without_spin_slides_and_then_rolls_at_five_sevenths_of_its_speed
     assert CLOTH.phase(rolls, R).mode == "rolling"
 
 
-def test_a_ball_at_rest_with_full_draw_comes_back_at_two_sevenths():
+def test_full_draw_from_rest_comes_back_at_2_7():
     """Stopped dead while it spins backward as a ball rolling at -v would: r w = -v, and it ends rolling at -2/7 v."""
     v = 2.0
     (_, _), (rolls, phase), _ = way((0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -v / R))
@@ -82,7 +82,7 @@ def test_a_ball_at_rest_with_full_draw_comes_back_at_two_sevenths():
 
 
 @given(states)
-def test_sliding_ends_at_five_sevenths_of_v_and_two_sevenths_of_the_spin(state: PlaneState):
+def test_sliding_ends_at_5_7_of_v_and_2_7_of_the_spin(state: PlaneState):
     """Angular momentum about a line on the cloth is kept: v_end = (5/7) v + (2/7) r (wy, -wx)."""
     _, _, vx, vy, _, wx, wy = state
     end = next(start for start, phase in way(state) if phase.mode != "sliding")
@@ -122,7 +122,7 @@ def test_side_on_spin_bends_the_path_into_a_parabola():
 # Rolling, spinning, rest ----------------------------------------------------------------------------------------------
 
 
-def test_a_rolling_ball_goes_straight_for_v_squared_over_two_mu_g():
+def test_a_rolling_ball_goes_straight_for_v2_over_2_mu_g():
     v, direction = 1.5, 0.7
     vx, vy = v * cos(direction), v * sin(direction)
     (_, phase), (rest, last) = way((0.0, 0.0, vx, vy, 0.0, -vy / R, vx / R))
@@ -140,7 +140,7 @@ def test_a_rolling_ball_keeps_rolling_on_its_way():
 
 
 @pytest.mark.parametrize("wz", [60.0, -60.0])
-def test_spin_about_the_vertical_dies_away_evenly_and_moves_nothing(wz: float):
+def test_vertical_spin_decays_evenly_and_moves_nothing(wz: float):
     """|dwz/dt| = 5 mu_sp g / 2 r: 10.9 rad/s^2."""
     start = (0.3, 0.1, 0.0, 0.0, wz, 0.0, 0.0)
     rate = 2.5 * 0.0127 * G / R
@@ -160,7 +160,7 @@ def test_spin_about_the_vertical_does_not_bend_the_path():
 
 
 @given(states)
-def test_it_comes_to_rest_through_sliding_rolling_and_spinning_in_this_order(state: PlaneState):
+def test_a_ball_slides_then_rolls_then_spins_then_rests(state: PlaneState):
     modes = [phase.mode for _, phase in way(state)]
     order = ["sliding", "rolling", "spinning", "resting"]
     assert [order.index(mode) for mode in modes] == sorted(order.index(mode) for mode in modes)

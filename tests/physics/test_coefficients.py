@@ -54,7 +54,7 @@ def test_coefficients_have_no_jumps(name: str):
 
 
 @pytest.mark.parametrize(("model", "edge"), [(law.quadratic_lift, 0.06628), (law.usga_lift, 0.0860 - 0.0122)])
-def test_lift_that_would_start_with_a_jump_rises_over_the_first_spin(model, edge: float):
+def test_lift_rises_from_0_over_the_first_spin(model, edge: float):
     """Both formulas have lift without spin; it is spread evenly over S = 0 to 0.02."""
     for s in (0.004, 0.01, 0.016):
         assert model(1e5, s) == pytest.approx(50.0 * s * edge, rel=0.5)

@@ -66,7 +66,7 @@ def test_viscosity_and_spin_reach_the_coefficient():
 
 
 @given(vx=SPEEDS, vy=SPEEDS, spin=SPINS)
-def test_in_still_air_drag_never_adds_energy_lift_does_no_work_and_spin_only_slows(vx: float, vy: float, spin: float):
+def test_in_still_air_no_force_adds_energy_and_lift_does_no_work(vx: float, vy: float, spin: float):
     fx, fy = DRAG(0.0, HERE, (vx, vy), spin)
     assert fx * vx + fy * vy <= 0.0
     fx, fy = LIFT(0.0, HERE, (vx, vy), spin)
@@ -98,7 +98,7 @@ def test_lift_along_the_ground_does_not_know_the_wind():
 
 
 @pytest.mark.parametrize("spin", [0.0, 400.0])
-def test_no_force_on_a_ball_at_rest_in_still_air_and_no_lift_without_spin(spin: float):
+def test_no_force_at_rest_in_still_air_and_no_lift_without_spin(spin: float):
     for force in (DRAG, LIFT):
         assert force(0.0, HERE, (0.0, 0.0), spin) == pytest.approx((0.0, 0.0), abs=0.0)
     assert (LIFT(0.0, HERE, (50.0, 9.0), spin) == (0.0, 0.0)) == (spin == 0.0)
@@ -129,7 +129,7 @@ def test_floats_and_arrays_agree(shots, wx: float):
     assert together == pytest.approx(np.array(one_by_one), rel=1e-14)
 
 
-def test_a_force_inside_a_medium_grows_with_the_share_of_the_ball_that_is_in_it():
+def test_a_force_in_a_medium_grows_with_the_immersed_fraction():
     force = Inside(Gravity(1.0, 10.0), (0.0, 2.0), (0.0, 1.0), 0.25, "drag of water")
     heights = np.array([3.0, 2.25, 2.125, 2.0, 1.875, 1.75, 0.0])
     shares = [0.0, 0.0, 0.25, 0.5, 0.75, 1.0, 1.0]

@@ -50,7 +50,7 @@ def swinging(t, state):
     ("law", "start"), [(turning, (1.0, -0.5, 0.7, 0.3, 0.0)), (swinging, (0.2, 0.0, 0.5, 0.3, -1.0, 0.8))]
 )
 @pytest.mark.parametrize("name", METHODS)
-def test_converges_where_time_position_angle_and_velocity_all_matter(name, law, start):
+def test_converges_where_all_of_the_state_matters(name, law, start):
     """Against the same method at a sixteenth of the finest step."""
     counts = 2 ** np.arange(4, 7) if METHODS[name].order >= 4 else 2 ** np.arange(6, 10)
     fine = np.array(advance("dormand-prince", law, start, 1.0, 512))
@@ -89,7 +89,7 @@ def test_many_shots_at_once_are_the_same_as_one_by_one(name):
 
 
 @pytest.mark.parametrize("name", METHODS)
-def test_the_angle_of_a_body_follows_its_spin_as_its_place_follows_its_velocity(name):
+def test_the_angle_is_integrated_from_the_spin(name):
     """What acts along x acts about the axis, too: both go the same way, and so do their errors."""
     law = lambda t, s: (*(2 * (t - 3.0 * s[0] - 0.5 * s[2],)), t - 3.0 * s[5] - 0.5 * s[4])  # noqa: E731
     state = (0.2, 0.2, 1.0, 1.0, 1.0, 0.2)
@@ -111,7 +111,7 @@ def test_a_step_by_hand_is_the_loop_over_the_table(name, law, more):
 
 
 @pytest.mark.parametrize("name", [name for name in METHODS if METHODS[name].controls_error])
-def test_error_estimate_of_an_embedded_pair_shrinks_with_its_order(name):
+def test_the_error_estimate_shrinks_with_its_order(name):
     """The pair's difference is the local error of the lower order p - 1: O(dt^p)."""
     state = (1.0, -0.5, 0.7, 0.3, 0.0)
     sizes = []

@@ -21,7 +21,7 @@ def test_a_face_that_grips_returns_a_share_of_the_slip(name):
     assert after - r * turning == pytest.approx(-tangential * (speed - r * spin), rel=1e-12, abs=1e-12)
 
 
-def test_a_bat_struck_at_its_centre_of_mass_is_two_bodies_that_collide():
+def test_a_bat_struck_at_its_centre_is_a_two_body_collision():
     """A ball m on a bat M at rest leaves with (e M - m) / (M + m) of its speed; farther out with less."""
     m, bat, e = 0.145, 0.88, 0.5
     assert apparent_restitution(e, m, bat, 0.05, 0.0) == pytest.approx((e * bat - m) / (bat + m), rel=1e-12)

@@ -27,7 +27,7 @@ def test_tilt_at_the_measurement_that_it_is_drawn_through():
     assert degrees(penner_tilt(18.6 * cos(angle), 18.6 * sin(angle))) == pytest.approx(15.4)
 
 
-def test_a_ball_that_drops_straight_down_bounces_straight_up_and_firm_turf_does_not_tilt():
+def test_a_vertical_drop_and_firm_turf_do_not_tilt():
     assert penner_tilt(15.0, 0.0) == 0.0
     assert penner_bounce(15.0, 0.0) == (penner_restitution(15.0), 0.0)
     assert penner_bounce(12.0, 20.0, give=0.0) == (penner_restitution(12.0), 0.0)
@@ -48,7 +48,7 @@ def test_soft_turf_tilts_by_no_more_than_45_deg():
 
 
 @given(normal=st.floats(0.1, 60.0), along=st.floats(0.0, 60.0))
-def test_restitution_is_that_of_the_speed_normal_to_the_tilted_turf(normal: float, along: float):
+def test_restitution_depends_on_speed_normal_to_the_tilted_turf(normal: float, along: float):
     restitution, tilt = penner_bounce(normal, along)
     assert restitution == penner_restitution(normal * cos(tilt) + along * sin(tilt))
 

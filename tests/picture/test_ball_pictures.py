@@ -98,7 +98,7 @@ SIZED = [
 
 
 @pytest.mark.parametrize(("name", "size"), SIZED, ids=str)
-def test_posters_and_frames_are_composed_and_the_ball_can_always_be_seen(name, size, drawn):
+def test_posters_and_frames_are_composed_and_show_the_ball(name, size, drawn):
     picture = picture_of(name, size)
     low, high = 0.04 * np.array(size), 0.96 * np.array(size)
     smallest = SMALLEST * max(1.0, size[1] / 360)

@@ -43,7 +43,7 @@ def picture_of(name: str, size=(640, 360)):
 
 @pytest.mark.parametrize("size", SIZES, ids=str)
 @pytest.mark.parametrize("name", SHOTS)
-def test_posters_and_frames_are_legible_the_table_is_whole_and_its_balls_large_enough(name, size):
+def test_the_table_is_whole_legible_and_its_balls_large_enough(name, size):
     picture = picture_of(name, size)
     assert picture.poster().get_size() == size
     assert_legible(picture.sheet)
@@ -128,7 +128,7 @@ def test_where_a_ball_has_been_stays_in_sight():
         assert any(frame.get_at(at) != empty.get_at(at) for at in here) == seen
 
 
-def test_every_path_has_its_balls_colour_and_can_be_told_from_the_cloth():
+def test_a_path_has_its_balls_colour_and_contrasts_with_cloth():
     """Of the pool balls, only a solid and its striped twin share one; and the struck ball's is its own too."""
     cloth = balls.COLOURS["cloth"]
     colours = {name: balls.on_cloth(balls.colour_of(name)) for name in ("cue", *map(str, range(1, 16)))}

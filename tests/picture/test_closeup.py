@@ -32,7 +32,7 @@ def test_closeups_stand_side_by_side_in_the_free_part(places):
         assert LEAST_FACTOR <= near.camera.scale / CAMERA.scale <= LARGEST_FACTOR
 
 
-def test_there_is_none_that_would_hardly_be_larger_or_has_no_room():
+def test_no_closeup_without_room_or_hardly_larger():
     assert arranged([Box(0.0, 0.0, 5.0, 5.0)], FREE, CAMERA, 1.0) == []
     assert arranged([Box(0.0, 0.0, 1.0, 1.0)], pygame.Rect(60, 120, 1160, 60), CAMERA, 1.0) == []
     assert arranged([], FREE, CAMERA, 1.0) == []

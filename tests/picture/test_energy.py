@@ -82,7 +82,7 @@ def test_an_impact_takes_its_energy_at_once():
     assert jump > 1.0  # J
 
 
-def test_surfaces_that_are_alike_and_pairs_of_balls_stand_together():
+def test_like_surfaces_and_pairs_of_balls_are_grouped():
     assert set(course(run_of("billiards/nine-ball-break")).taken) >= {"cloth", "cushions", "balls"}
 
 
@@ -92,7 +92,7 @@ def test_what_catches_a_ball_goes_by_its_own_name():
     assert "pockets" not in taken
 
 
-def test_what_a_conservative_force_stores_is_neither_put_in_nor_lost():
+def test_conservative_storage_is_neither_input_nor_loss():
     """Strings of a cradle: all the energy there is at the start, and most of it again at each turn."""
     spent = course(run_of("collisions/cradle-5"))
     stored = spent.has["stored by string"]
@@ -136,7 +136,7 @@ def test_the_chart_is_legible(name, overrides, size, sheets):
     assert_legible(sheet)
 
 
-def test_a_chart_says_what_was_put_in_and_its_shares_are_of_one_whole(sheets):
+def test_a_chart_gives_the_input_and_fractions_of_one_whole(sheets):
     energy_chart(run_of(WINDY))
     texts = [text for text, _ in sheets[0].written]
     assert any(text.startswith("shares of 204 J: 195 J at the start + 8.65 J put in by lift") for text in texts)

@@ -37,7 +37,7 @@ def ball(x: float = 60.0, radius: float = 3.5, rim: bool = True) -> Image.Image:
 
 @pytest.mark.parametrize("rim", [True, False])
 @pytest.mark.parametrize("radius", [3.5, 7.0, 12.0])
-def test_a_ball_that_is_a_pixel_larger_or_moved_by_half_of_one_fails(radius, rim):
+def test_a_pixel_of_size_or_half_a_pixel_of_place_fails(radius, rim):
     before = ball(radius=radius, rim=rim)
     assert not compare(before, ball(radius=radius, rim=rim)).matters
     assert compare(before, ball(radius=radius + 0.5, rim=rim)).matters
@@ -215,7 +215,7 @@ class TestRuns:
         (scene_project.path / "golden" / "it.json").unlink()
         again(scene_project).stdout.fnmatch_lines(["*it has no golden run*it.json*pytest --golden-update*"])
 
-    def test_damaged_files_are_named_and_made_anew_and_what_was_emptied_is_a_change(self, scene_project):
+    def test_damaged_and_emptied_goldens_are_named_and_remade(self, scene_project):
         test = scene_project.path / "test_it.py"
         each = test.read_text().replace(
             "def test_it(golden):", f"@pytest.mark.parametrize('n', range({len(SPOILT)}))\ndef test_it(golden, n):"
@@ -236,7 +236,7 @@ class TestRuns:
         again(scene_project, "--golden-update").assert_outcomes(passed=len(SPOILT))
         assert {file: file.read_bytes() for file in whole} == whole
 
-    def test_a_difference_below_the_tolerance_that_shows_is_called_so(self, scene_project, monkeypatch):
+    def test_a_visible_difference_below_the_tolerance_is_reported(self, scene_project, monkeypatch):
         """A picture that shows the eighth digit of gravity."""
         picture = scene_project.path / "drop" / "picture.py"
         shows = (
@@ -424,9 +424,7 @@ class TestRecords:
 
 class TestThePlugin:
     @pytest.mark.parametrize(("processes", "options"), [("0", []), ("2", ["--golden-update"])])
-    def test_two_tests_of_one_name_are_refused_and_what_other_processes_wrote_is_listed(
-        self, project, processes: str, options: list[str]
-    ):
+    def test_name_clashes_are_refused_across_processes(self, project, processes: str, options: list[str]):
         first = (project.path / "test_it.py").read_text()
         (project.path / "test_other.py").write_text(first.replace('"white"', '"black"').replace("test_it", "test_more"))
         (project.path / "test_own.py").write_text(first.replace('"it"', '"own"'))

@@ -87,7 +87,7 @@ def test_an_arc_keeps_its_distance(start, end):
     assert np.hypot(*np.diff(points, axis=0).T).max() < 0.06
 
 
-def test_people_are_never_too_small_and_their_arms_reach_as_far_as_they_do():
+def test_people_have_a_minimum_size_and_true_arm_reach():
     narrow, broad = (on(plan.Person((0.0, 0.0), 0.0, KIT), scale).any(axis=(0, 2)).sum() for scale in (1.0, 60.0))
     assert narrow >= plan.LEAST_PERSON * 180 / 720
     assert broad > 25

@@ -62,9 +62,7 @@ def test_beads_are_said_where_they_are_seen(name: str, said: bool):
 
 
 @pytest.mark.parametrize("name", ["billiards/stop", "soccer/goal-kick-in-a-gale", "golf/putt"])
-def test_an_impact_on_the_rim_of_the_last_ball_is_marked_and_one_under_it_is_not(
-    name: str, monkeypatch: pytest.MonkeyPatch
-):
+def test_an_impact_is_marked_unless_the_last_ball_covers_it(name: str, monkeypatch: pytest.MonkeyPatch):
     drawn: list[tuple[float, float]] = []
     monkeypatch.setattr(marks, "draw_mark", lambda sheet, at: drawn.append(at))
     picture = picture_of(name)
@@ -101,7 +99,7 @@ def test_a_topped_drive_loses_speed_from_bounce_to_bounce():
         ("soccer", "soccer/goal-kick-in-a-gale", "aligned at the goal"),
     ],
 )
-def test_shots_over_other_distances_are_laid_over_each_other_at_their_target(name: str, other: str, words: str):
+def test_shots_of_other_distances_are_aligned_at_their_target(name: str, other: str, words: str):
     picture = picture_of(name, other=other)
     ghost = picture.ghosts[0]
     (x, _), _ = picture.datum
@@ -114,7 +112,7 @@ def test_shots_over_other_distances_are_laid_over_each_other_at_their_target(nam
     assert words in written(picture)
 
 
-def test_shots_at_rings_of_other_heights_are_not_laid_over_each_other():
+def test_shots_at_rings_of_other_heights_are_not_aligned():
     low = sandbox.simulate(sandbox.load("basketball", {"hoop.height": 2.6, "backboard.bottom": 2.4}))
     run = run_of("basketball")
     with pytest.raises(sandbox.RequestError, match=r"low: the ring is at 2.6 m, and here at 3.05 m"):
@@ -206,7 +204,7 @@ def test_a_lens_shows_the_path_of_a_ball_that_is_aimed():
     assert (np.abs(seen[0] - seen[1]).max(axis=2) > 40).sum() > 1000
 
 
-def test_a_frame_says_it_if_only_the_smaller_ball_is_drawn_larger():
+def test_a_frame_notes_that_only_the_smaller_ball_is_enlarged():
     picture = picture_of("collisions/heavy-on-light", (480, 270))
     assert picture.radius * picture.camera.scale > picture.least
     picture.frame(0.0)

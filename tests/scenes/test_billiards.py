@@ -70,7 +70,7 @@ def test_a_ball_struck_two_fifths_above_its_centre_rolls_at_once():
     assert run.state("cue", 1.0)[2] == pytest.approx(1.0 - ROLLING * G)
 
 
-def test_a_ball_struck_in_its_centre_slides_and_rolls_at_five_sevenths():
+def test_a_centre_hit_slides_and_comes_to_roll_at_5_7():
     """t = 2 v / (7 mu g): 0.291248 s, over 0.499282 m, for v = 2."""
     run = shot(spot("cue", -1.0, 0.3), cue__speed=2.0)
     x, y, vx, *_ = run.state("cue", 0.291248)
@@ -79,7 +79,7 @@ def test_a_ball_struck_in_its_centre_slides_and_rolls_at_five_sevenths():
 
 
 @pytest.mark.parametrize("angle", [0.0, 90.0, 180.0, -90.0])
-def test_right_english_turns_counter_clockwise_and_leaves_a_cushion_to_the_right(angle: float):
+def test_right_english_leaves_a_cushion_to_the_right(angle: float):
     """Off a cushion met squarely the ball leaves to the player's right, in whatever direction the shot goes."""
     run = shot(spot("cue", 0.2, 0.1), cue__speed=1.5, cue__angle=angle, cue__english=0.3)
     assert run.state("cue", 0.0)[4] == pytest.approx(2.5 * 1.5 * 0.3 / R)
@@ -90,7 +90,7 @@ def test_right_english_turns_counter_clockwise_and_leaves_a_cushion_to_the_right
 
 
 @pytest.mark.parametrize("angle", [0.0, 35.0, 200.0])
-def test_follow_and_draw_turn_about_the_level_axis_across_the_way(angle: float):
+def test_follow_and_draw_spin_about_the_axis_across_the_path(angle: float):
     run = shot(spot("cue", 0.0, 0.0), cue__speed=2.0, cue__angle=angle, cue__follow=-0.3)
     wx, wy = run.rolling_spin("cue", 0.0)
     spin = -0.3 * 2.5 * 2.0 / R
@@ -106,7 +106,7 @@ def test_a_miscue_is_refused():
 # Ball on ball ---------------------------------------------------------------------------------------------------------
 
 
-def test_after_a_rolling_head_on_hit_the_cue_ball_keeps_two_sevenths_and_the_other_five_sevenths():
+def test_a_rolling_head_on_hit_leaves_2_7_and_5_7_of_the_speed():
     run = shot(spot("cue", -0.4, 0.0), spot("1", 0.0, 0.0), cue__speed=1.5, cue__follow=0.4, **IDEAL)
     t = impact(run)
     v = sqrt(1.5**2 - 2.0 * ROLLING * G * (0.4 - 2.0 * R))
@@ -136,7 +136,7 @@ def test_at_stun_the_balls_part_at_a_right_angle(cut: float):
 
 
 @pytest.mark.parametrize("cut", [5.0, 14.5, 28.1, 30.0, 48.6, 65.0, 80.0])
-def test_a_rolling_cue_ball_is_deflected_as_the_thirty_degree_rule_says(cut: float):
+def test_a_rolling_cue_ball_follows_the_30_degree_rule(cut: float):
     """tan t = sin f cos f / (sin^2 f + 2/5), away from the object ball; greatest, 33.7 deg, at 28.1 deg."""
     f = radians(cut)
     run = shot(*ghost(f, 0.3), cue__speed=1.5, cue__follow=0.4, **IDEAL)
@@ -203,7 +203,7 @@ def test_english_throws_to_the_other_side_and_passes_spin_on(english: float):
     assert run.before("cue", t)[4] - run.state("cue", t)[4] == pytest.approx(-wz, rel=1e-9)
 
 
-def test_outside_english_that_rolls_round_the_object_ball_throws_nothing():
+def test_outside_english_without_slip_throws_nothing():
     """r wz = v sin f: the surfaces do not rub. Cut to the left, that is 0.4 sin f radii of right english."""
     f = radians(40.0)
     run = shot(*ghost(f, NEAR), cue__speed=2.0, cue__english=0.4 * sin(f), ball__friction=0.3)
@@ -239,7 +239,7 @@ def rolls(run: Run, t: float) -> bool:
     return hypot(vx - 0.03075 * wy, vy + 0.03075 * wx) < 1e-9
 
 
-def test_a_slanting_cushion_shot_without_spin_takes_friction_along_the_cushion():
+def test_a_cushion_shot_without_spin_loses_speed_to_friction():
     """Sliding contact: dv_t = -mu (1 + e) v_n, dwz = (5/2) mu (1 + e) v_n / r."""
     run = shot(spot("cue", 0.3, 0.635 - R - NEAR), cushion__model="vertical", cue__speed=2.0, cue__angle=30.0)
     t = impact(run)
@@ -326,7 +326,7 @@ def test_holes_begin_where_the_shelf_ends():
 
 
 @pytest.mark.parametrize("kind", ["9-ft", "7-ft", "snooker"])
-def test_a_ball_in_the_mouth_of_a_pocket_drops_and_none_leaves_the_table(kind: str):
+def test_a_ball_in_a_pocket_mouth_drops_and_none_gets_out(kind: str):
     """From the middle of the table at every whole degree, fast: each shot ends in a pocket or on the bed."""
     radius = 0.02625 if kind == "snooker" else R
     dropped = 0
@@ -460,7 +460,7 @@ def test_no_ball_passes_into_another_or_into_a_cushion(eight_ball: Run):
 
 
 @pytest.mark.parametrize("rack", ["nine-ball", "eight-ball"])
-def test_the_mirror_image_of_a_break_is_the_break_of_the_mirror_image(rack: str):
+def test_a_mirrored_break_is_the_mirror_image_of_the_break(rack: str):
     """Every ball, the cue's way and its english mirrored in the long axis: the same break, mirrored, to rest."""
     base = sandbox.load("billiards", {"rack": rack}).build().balls
     runs = []
@@ -528,7 +528,7 @@ def test_the_shots_pot_their_ball_and_keep_the_cue_ball(name: str, pocket: str):
     assert result["first_contact"] == "1"
 
 
-def test_stop_draw_and_follow_leave_the_cue_ball_where_their_names_say():
+def test_stop_draw_and_follow_do_what_their_names_say():
     """Along the line of the shot, from where it met the object ball."""
     along = {}
     for name in ("stop", "draw", "follow"):
@@ -604,7 +604,7 @@ def test_a_scratch_and_the_order_of_potting(struck: str, other: str):
     assert result["rest_time"] is not None
 
 
-def test_rails_are_impacts_on_noses_and_jaws_stand_among_the_touches():
+def test_rails_count_noses_and_jaws_are_listed_as_touches():
     result = shot(spot("cue", 0.9, 0.56), cue__speed=1.0, cue__angle=10.0).result
     assert result["touches"] == ["left long cushion", "left foot corner jaw", "left foot corner pocket"]
     assert result["rails"] == 1
@@ -649,7 +649,7 @@ def test_what_cannot_be_is_refused_by_name_and_place(balls: list[Any], overrides
     assert "\n" not in str(refused.value)
 
 
-def test_balls_that_touch_and_balls_frozen_to_a_cushion_are_welcome():
+def test_touching_balls_and_balls_on_a_cushion_are_accepted():
     run = shot(spot("cue", -0.2, 0.0), spot("1", 0.3, 0.635 - R), spot("2", 0.3 + 2.0 * R, 0.635 - R), cue__speed=1.0)
     assert run.result["positions"]["1"] == pytest.approx([0.3, 0.635 - R], abs=1e-9)
 

@@ -65,7 +65,7 @@ def test_oil_keeps_the_hook_for_the_end():
     assert 0.0 < on_oil / 12.192 < 0.3 * beyond / 5.9
 
 
-def test_a_ball_in_the_gutter_stays_there_and_pins_do_not_go_there():
+def test_a_gutter_keeps_a_ball_and_takes_no_pins():
     run = bowl("bowling/gutter-ball")
     (caught,) = (event for event in run.events if event.kind == "caught")
     assert (caught.ball, caught.partner) == ("ball", "gutter")
@@ -106,7 +106,7 @@ def test_the_axis_turns_with_the_launch():
     assert cos(radians(1.0)) == pytest.approx(vx / (vx * vx + vy * vy) ** 0.5)
 
 
-def test_a_fallen_pin_is_drawn_lying_and_the_number_standing_is_that_of_the_verdict():
+def test_fallen_pins_are_drawn_lying_as_the_verdict_counts():
     """Once six pins were drawn as if standing for "leaves the 4, 6", and two after a strike."""
     for name, left in (("bowling/straight", ["4", "6"]), ("bowling", [])):
         run = run_of(name)

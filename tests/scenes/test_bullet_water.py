@@ -28,7 +28,7 @@ def test_twice_the_speed_is_one_halving_deeper():
     assert fast["penetration"] - slow["penetration"] == pytest.approx(slow["halving"], rel=0.01)
 
 
-def test_a_slow_one_is_harmless_at_once_and_one_without_weight_may_not_get_there():
+def test_a_slow_bullet_is_harmless_and_a_weightless_one_may_stop():
     assert fire(launch__speed=5.0, duration=1.0)["penetration"] == 0.0
     stuck = {"launch.speed": 1.0, "launch.angle": -1.0, "launch.height": 10.0, "gravity": 0.0, "air.density": 1000.0}
     run = sandbox.simulate(sandbox.load("bullet-water", stuck))

@@ -66,7 +66,7 @@ def test_as_many_balls_leave_a_cradle_as_come_in(preset: str, out: int):
 
 
 @pytest.mark.parametrize("angle", [-20.0, 20.0, 160.0])
-def test_a_cradle_that_is_pulled_at_an_angle_stays_on_its_strings(angle: float):
+def test_a_cradle_pulled_at_an_angle_stays_on_its_strings(angle: float):
     run = run_of("collisions/cradle-5", launch__speed=0.5, launch__angle=angle)
     for ball in run.setup.balls:
         path = run.trajectory(ball.name, every=0.01)
@@ -147,7 +147,7 @@ def test_no_two_balls_that_meet_is_said():
     assert run.result["velocities"] == {"first": [2.0, 0.0], "second": [0.0, 0.0]}
 
 
-def test_the_launch_is_for_a_ball_of_its_name_without_a_listed_velocity():
+def test_the_launch_is_for_its_ball_without_a_listed_velocity():
     for name, listed, speed in (("a", {}, 0.0), ("first", {"vx": 0.5}, 0.5), ("first", {"vy": 0.0}, 0.0)):
         result = bench({"name": name, "x": -0.5, **listed}, {"name": "b", "x": 30.0}).result
         assert result["velocities"][name] == [speed, 0.0]
@@ -157,7 +157,7 @@ def test_the_launch_is_for_a_ball_of_its_name_without_a_listed_velocity():
 
 
 @pytest.mark.parametrize("preset", ["boxes-head-on", "corner-on-face", "dominoes", "pin-hit-low", "pin-hit-high"])
-def test_bodies_part_as_restitution_says_and_lose_no_momentum_along(preset: str):
+def test_bodies_separate_by_restitution_and_keep_momentum(preset: str):
     run = run_of(f"collisions/{preset}")
     result = run.result
     assert result["separation"] == pytest.approx(
@@ -178,7 +178,7 @@ def test_a_row_of_dominoes_falls():
     assert 0.0 <= book.contacts["position correction"] < 0.02 * book.work["gravity"]
 
 
-def test_a_pin_hit_low_falls_towards_the_ball_and_one_hit_high_away_from_it():
+def test_a_pin_hit_low_falls_to_the_ball_and_hit_high_away():
     low, high = (run_of(f"collisions/pin-hit-{where}").state("pin", 0.06)[4] for where in ("low", "high"))
     assert low > 10.0
     assert high < -10.0

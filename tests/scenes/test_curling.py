@@ -49,7 +49,7 @@ def test_what_leaves_the_sheet_is_taken_off(changes, said):
     assert run.result["to_tee"] is None
 
 
-def test_a_stone_counts_while_it_touches_the_house_and_beats_those_farther_out():
+def test_a_stone_touching_the_house_counts_before_farther_ones():
     """11 cm into the rings from outside, and one that is not."""
     edge = 1.8288 + 0.145
     spots = [("red", 0.0, edge - 0.01), ("yellow", 0.0, -edge - 0.01)]

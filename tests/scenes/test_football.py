@@ -48,7 +48,7 @@ def test_bounces_spread_as_those_of_kicks_that_differ_by_degrees():
     assert 0.5 * apart < np.mean([result["bounce_spread"] for result in bounces]) < 2.0 * apart
 
 
-def test_a_spirals_bounces_spread_less_and_those_of_a_ball_not_at_all():
+def test_bounces_spread_less_for_a_spiral_and_none_for_a_ball():
     punt, ball = run_of("football/punt"), run_of("football/bounce", ball__width=0.286, ball__nose_drag=0.5)
     assert 0.1 < punt.result["bounce_spread"] < 3.0
     assert ball.result["bounce_spread"] == pytest.approx(0.0, abs=1e-6)

@@ -79,7 +79,7 @@ def misfit(tour: str, **changes: Any) -> np.ndarray:
     return np.sqrt(np.mean(np.square(errors), axis=0))
 
 
-def test_a_ball_that_the_wind_pulls_out_of_its_roll_goes_on_sliding():
+def test_a_ball_pulled_from_rolling_by_the_wind_slides_on():
     """Its path follows spin and speed only to the tolerance: the slip they differ by must not choose its direction."""
     run = play(**{"air.wind": [-100.0, -100.0]})
     phases = [arc.phase for arc in run.arcs["ball"] if arc.contact is not None]
@@ -130,7 +130,7 @@ def test_flight_without_air(angle: float):
     assert found["landing_spin"] == pytest.approx(2545.0)
 
 
-def test_the_apex_is_that_of_the_flight_even_where_a_bounce_goes_higher():
+def test_the_apex_is_of_the_flight_even_if_a_bounce_is_higher():
     """H = (v sin a)^2 / (2 g)."""
     run = play(air__density=0.0, launch__speed=60.0, launch__angle=3.0, ground__fairway__bounce=2.0)
     flight = (60.0 * sin(radians(3.0))) ** 2 / (2 * G)
@@ -175,7 +175,7 @@ def test_the_golf_game_has_the_numbers_of_the_contract():
     assert parameters.pin.distance == 200.0
 
 
-def test_a_shot_to_the_left_is_the_mirror_image_of_one_to_the_right():
+def test_a_shot_to_the_left_mirrors_one_to_the_right():
     right = play(launch__angle=20.0, launch__spin=3000.0, air__wind=[-5.0, 0.0]).result
     left = play(launch__angle=160.0, launch__spin=-3000.0, air__wind=[5.0, 0.0]).result
     assert left["carry"] == pytest.approx(-right["carry"], abs=1e-9)
@@ -206,7 +206,7 @@ def test_a_9_iron_spins_back_on_a_firm_slippery_green(spin: float, back: float):
 
 
 @pytest.mark.parametrize(("give", "back"), [(1.0, [None, None, 1.1]), (1.34, [None, 2.2, 5.4])])
-def test_penners_own_green_spins_a_9_iron_back_by_where_his_angle_counts_from(give: float, back: list[float | None]):
+def test_penners_green_spins_back_with_angles_from_the_ground(give: float, back: list[float | None]):
     """His figure 8 has it backward at 159 and 191 rev/s: with his friction, as soon as the angle is from the ground."""
     for spin, expected in zip((129.0, 159.0, 191.0), back, strict=True):
         green = {"ground.green.give": give, "ground.green.length": 60.0, "pin.cup_width": 0.0}
@@ -219,7 +219,7 @@ def test_a_ball_that_stops_where_it_got_has_not_come_back():
         assert sandbox.simulate(name).result["comes_back"] is None
 
 
-def test_a_topped_ball_bounds_higher_on_the_energy_of_its_way_along():
+def test_a_topped_ball_bounds_higher_from_its_forward_energy():
     """The turf leans against a ball that skims it and turns some of its way along upward: each bounce is higher, and
     each loses energy."""
     run = sandbox.simulate("golf/topped")
@@ -307,7 +307,7 @@ def test_the_cup_holds_a_putt_up_to_the_published_speed():
     assert speed_at_the_cup(putt(slow, pin__distance=0.2)) == pytest.approx(1.63, abs=0.04)
 
 
-def test_a_slow_putt_meets_the_far_wall_and_a_faster_one_the_far_edge():
+def test_a_slow_putt_meets_the_cup_wall_and_a_fast_one_its_edge():
     """It falls by its radius on the way across up to (2 R - r) sqrt(g / (2 r)) = 1.31 m/s."""
     free_fall = (0.108 - RADIUS) * (G / (2 * RADIUS)) ** 0.5
     for share, on_the_wall in ((0.97, True), (1.03, False)):
@@ -477,7 +477,7 @@ def test_what_is_left_out_is_worth_what_the_docstring_says(effect: Any, metres: 
 # What a change of one number would be noticed by ----------------------------------------------------------------------
 
 
-def test_the_green_reaches_half_its_length_to_either_side_of_the_pin():
+def test_the_green_reaches_half_its_length_around_the_pin():
     scene = sandbox.load("golf", {"pin.distance": 150.0, "ground.green.length": 30.0, "ground.strips": []})
     greens = [surface.shape for surface in scene.build().surfaces if surface.name == "green"]
     assert (min(green.a[0] for green in greens), max(green.b[0] for green in greens)) == (135.0, 165.0)
@@ -485,7 +485,7 @@ def test_the_green_reaches_half_its_length_to_either_side_of_the_pin():
     assert kinds == ["fairway", "green", "green", "fairway"]
 
 
-def test_a_later_strip_lies_on_an_earlier_one_and_the_green_on_all():
+def test_later_strips_cover_earlier_ones_and_the_green_all():
     strips = [
         {"kind": "rough", "start": 100.0, "end": 300.0},
         {"kind": "bunker", "start": 150.0, "end": 180.0},

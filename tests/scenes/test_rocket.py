@@ -32,7 +32,7 @@ def test_its_nose_turns_into_the_wind_while_the_motor_burns():
 
 
 @pytest.mark.parametrize("integrator", ["explicit-euler", "rk4"])
-def test_without_weight_a_thrust_that_starts_from_rest_is_not_stiff(integrator: str):
+def test_thrust_from_rest_without_weight_is_not_stiff(integrator: str):
     fixed, controlled = (
         fly(gravity=0.0, duration=10.0, accuracy__integrator=how) for how in (integrator, "dormand-prince")
     )

@@ -99,7 +99,7 @@ def test_a_wall_behind_no_goal_is_no_error():
     assert kick(wall__distance=30, goal__present=False).result["verdict"] in ("wall", "past")
 
 
-def test_a_ball_that_friction_drives_into_the_net_comes_to_rest_soon():
+def test_a_ball_driven_into_the_net_by_friction_rests_soon():
     """It spins in the corner between ground and net; each faint impact on the net used to be followed by the next."""
     far = {"goal__height": 33.772926162821314, "goal__depth": 1.9101895905816813}
     run = kick(air__density=0.0, goal__net_friction=0.0, **far)

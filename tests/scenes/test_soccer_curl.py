@@ -21,7 +21,7 @@ kick = playing("soccer-curl")
 # Presets ------------------------------------------------------------------------------------------------------------
 
 
-def test_roberto_carlos_clears_the_wall_by_a_metre_and_starts_far_outside_the_goal():
+def test_roberto_carlos_clears_the_wall_from_outside_the_goal():
     """Physics World 1998: clear of the wall by at least a metre, at a ball-boy metres outside, in by the right post."""
     run = kick("soccer-curl/roberto-carlos-1997")
     _, (_, y, *_) = next(run.crossings("ball", (9.15, 0.0), (-1.0, 0.0)))

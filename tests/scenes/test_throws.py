@@ -19,7 +19,7 @@ def test_without_air_the_distance_is_that_of_the_parabola(angle: float):
     assert result["distance"] == pytest.approx(result["vacuum_distance"], rel=1e-9)
 
 
-def test_a_throw_from_the_ground_goes_as_far_as_the_first_formula_of_a_lesson():
+def test_a_throw_from_the_ground_has_the_range_of_the_parabola():
     """R = v^2 sin(2 angle) / g."""
     result = throw(air__density=0.0, release__height=0.0, release__place=0.0, launch__speed=20.0, launch__angle=30.0)
     gravity = sandbox.load("throws").parameters.gravity
@@ -57,7 +57,7 @@ def test_air_costs_a_shot_little():
 @pytest.mark.parametrize(
     ("ahead", "said"), [(0.0, "equals the mark"), (-0.004, "equals the mark"), (0.3, ", 0.30 m short of the mark")]
 )
-def test_the_headline_says_the_distance_as_the_card_does_and_where_the_mark_is(ahead: float, said: str):
+def test_headline_card_and_mark_agree_on_the_distance(ahead: float, said: str):
     run = sandbox.simulate(sandbox.load("throws", {"record": throw()["distance"] + ahead}))
     distance = dict(run.scene.rows(run))["distance"]
     assert distance == f"{run.result['distance']:.2f} m"

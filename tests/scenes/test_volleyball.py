@@ -18,7 +18,7 @@ def test_without_air_it_falls_as_a_stone():
     assert result["net_clearance"] == pytest.approx(3.1 - 0.5 * 9.81 * (9.0 / 20.0) ** 2 - 0.105 - 1.2, rel=1e-9)
 
 
-def test_a_fast_ball_has_less_drag_than_half_the_speed_would_give():
+def test_past_the_drag_crisis_a_faster_ball_has_less_drag():
     """Past the drag crisis the force falls though the speed grows."""
     from sandbox.scene import load
 

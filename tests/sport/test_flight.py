@@ -40,7 +40,7 @@ def test_what_turns_a_nose_into_its_path_is_damped_critically():
 
 
 @pytest.mark.parametrize(("below", "expected"), [(-0.01, "in"), (0.9, "in"), (1.1, "net")])
-def test_a_ball_is_in_that_passes_no_more_than_a_radius_below_the_nets_edge(below: float, expected: str):
+def test_the_net_lets_pass_up_to_a_radius_below_its_edge(below: float, expected: str):
     """A ball that brushes the net may come over it; one that passes the middle of the court deeper went under."""
     play = run_of("volleyball")
     parameters: Any = play.scene.parameters

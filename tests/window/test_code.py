@@ -46,7 +46,7 @@ class TestSaving:
         assert own.view.stage.shot is own.game.shot
 
     @pytest.mark.parametrize("name", ["scene.py", "picture.py"])
-    def test_what_cannot_be_read_is_said_with_its_line_until_it_is_mended(self, own, name):
+    def test_a_syntax_error_is_shown_with_its_line_until_mended(self, own, name):
         before = own.game.session.scene.module
         edit(own, name, "\nfrom ", "\nimport (\nfrom ")
         own.frames(2, dt=20.0)

@@ -65,7 +65,7 @@ def test_a_map_on_which_nothing_scores_says_where_to_look(player, written):
     assert any("/ looks farther" in text for text, _ in written)
 
 
-def test_shots_into_the_ring_get_there_and_the_most_forgiving_is_first(monkeypatch):
+def test_shots_found_for_the_ring_score_most_forgiving_first(monkeypatch):
     monkeypatch.setattr("sandbox.window.find.REFINED", 1)
     monkeypatch.setattr(sys.modules["sandbox.lab.aim.regions"], "SCAN_EACH", 21)
     session = Session("basketball")
@@ -88,7 +88,7 @@ class TestInBilliards:
         player.key(pygame.K_SLASH)
         return player
 
-    def test_a_click_on_a_ball_finds_how_to_pot_it_and_a_click_on_a_path_aims_so(self, asking):
+    def test_a_click_on_a_ball_finds_pots_and_on_a_path_aims(self, asking):
         game, view = asking.game, asking.view
         angle = game.session.value("cue.angle")
         game.aiming.change({"cue.angle": angle + 30.0})

@@ -72,7 +72,7 @@ def test_a_damaged_memory_is_no_matter(tmp_path, text):
     assert json.loads(file.read_text("utf-8"))["recent"] == ["golf"]
 
 
-def test_the_menu_has_thumbnails_descriptions_and_what_is_in_the_folder(remembering, tmp_path, monkeypatch):
+def test_the_menu_shows_thumbnails_texts_and_own_files(remembering, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     new_scene(tmp_path / "ours")
     remembering.key(pygame.K_l)

@@ -130,7 +130,7 @@ def test_only_the_last_shots_are_kept(game):
 
 
 class TestAFailure:
-    def test_leaves_no_shot_and_says_file_and_line_until_a_run_is_good(self, own):
+    def test_a_failed_run_leaves_no_shot_and_names_file_and_line(self, own):
         game = own(RAISES)
         game.settle()
         assert game.failure is None
@@ -199,7 +199,7 @@ class TestARunThatNeverEnds:
                 latest.work.set_result(None)
                 assert latest.take()
 
-    def test_the_path_from_before_is_not_shown_as_if_it_were_the_one_that_takes_long(self, game):
+    def test_an_old_path_is_not_shown_for_a_slow_new_one(self, game):
         game.workers.path.never = True
         game.aiming.change({"launch.speed": 2.0})
         game.advance(0.0)
@@ -255,7 +255,7 @@ def test_a_setup_is_built_once_where_it_is_run(own, worker, force, times):
     assert len(builds.read_text("utf-8")) == 4 * times
 
 
-def test_what_the_scene_cannot_be_built_from_is_refused_and_no_step_of_undo(worker):
+def test_parameters_that_cannot_be_built_are_no_step_of_undo(worker):
     game = Game(Session("billiards/cut"), worker)
     game.settle()
     game.aiming.change({"cue.angle": 12.0})
@@ -292,7 +292,7 @@ class TestUndo:
         game.aiming.undo()
         assert game.session.changes.values == {}
 
-    def test_redo_does_again_what_was_undone_until_something_else_is_done(self, game):
+    def test_redo_lasts_until_something_else_is_done(self, game):
         for key in ("gravity", "pin.distance"):
             game.aiming.change({key: 3.0})
         for _ in range(3):
@@ -359,7 +359,7 @@ def test_a_full_pull_suits_the_shot():
         assert before * 1.1 < speed < fastest
 
 
-def test_shots_are_earlier_ones_of_the_same_file_from_the_same_start(game):
+def test_earlier_shots_are_of_the_same_file_and_start(game):
     game.aiming.shoot()
     game.aiming.again()
     assert len(game.ghosts) == 1
@@ -376,7 +376,7 @@ def test_it_says_what_an_accuracy_costs(game, level):
     assert " ms a run; " in cost_and_errors(game.session.scene)
 
 
-def test_the_modules_of_the_window_import_each_other_in_one_direction():
+def test_modules_of_the_window_import_in_one_direction():
     room = Path(sandbox.window.__file__).parent
     known = {file.stem for file in room.glob("*.py")} - {"__init__"}
     uses: dict[str, set[str]] = {}

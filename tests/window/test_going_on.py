@@ -84,7 +84,7 @@ def test_potted_balls_stay_away_and_a_potted_cue_ball_is_spotted(shot_of):
     assert len(places(session)) == 10  # a cleared table is racked
 
 
-def test_the_command_line_and_the_scene_file_know_where_the_balls_lie(watched, tmp_path, monkeypatch):
+def test_command_line_and_scene_file_keep_where_balls_lie(watched, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     watched.key(pygame.K_RETURN)
     session = watched.game.session

@@ -80,7 +80,7 @@ def test_a_drag_snaps_by_key_and_shows_its_number(player, monkeypatch):
     assert player.game.session.changes.values == {}
 
 
-def test_the_camera_stays_while_something_is_dragged_and_then_shows_all(player):
+def test_the_camera_stays_during_a_drag_and_then_shows_all(player):
     player = player("basketball")
     camera = player.view.stage.camera
     drag(player, "hoop.distance", (200, 0), let_go=False)
@@ -136,7 +136,7 @@ def test_by_key_alone(player):
     assert value("launch.angle") > before[2]
 
 
-def test_what_is_said_of_a_handle_beside_the_ball_leaves_the_ball_in_sight(player, written):
+def test_the_label_of_a_handle_leaves_the_ball_in_sight(player, written):
     player = player("tennis")
     while "release.height" not in (player.view.picked_keys or ()):
         player.key(pygame.K_k)

@@ -18,7 +18,7 @@ def drag(player, across: float, up: float) -> None:
     player.settle()
 
 
-def test_the_tip_of_the_cue_is_where_it_is_dragged_and_never_beyond_a_miscue(player):
+def test_the_tip_of_the_cue_is_dragged_up_to_a_miscue(player):
     player = player("billiards/cut")
     value = player.game.session.value
     drag(player, 0.2, -0.3)

@@ -51,7 +51,7 @@ def picture(player) -> np.ndarray:
     return pygame.surfarray.array3d(player.screen)
 
 
-def test_a_pull_aims_opposite_and_shows_the_path_before_letting_go(player):
+def test_a_pull_aims_opposite_and_shows_the_path(player):
     player = player("golf")
     before = player.game.shot
     player.pull((-150, 60), let_go=False)
@@ -113,7 +113,7 @@ class TestPullsInEveryScene:
         yield speed_of, game.grasp.pull.full, shot.aim[0], game.session.controls
         player.app.close()
 
-    def test_the_scenes_own_shot_is_within_reach_and_so_are_softer_and_stronger_ones(self, pull):
+    def test_a_pull_reaches_the_default_softer_and_stronger_shots(self, pull):
         speed_of, full, own, controls = pull
         speeds = [speed_of(length) for length in np.arange(8.0, full + 0.5, 0.5)]
         assert min(abs(speed / own - 1.0) for speed in speeds) < 0.01
@@ -137,7 +137,7 @@ def test_a_pull_from_rest_has_a_strength_too(player):
     assert 0.5 < player.game.session.value("launch.speed") < 2.0
 
 
-def test_a_click_is_no_shot_and_wheel_and_keys_turn_push_and_spin(player):
+def test_a_click_is_no_shot_and_wheel_and_keys_aim(player):
     player = player("golf")
     player.click((400, 300))
     assert not player.game.shots.paths
@@ -179,7 +179,7 @@ def test_what_is_drawn_was_built_once(source, monkeypatch):
         player.app.close()
 
 
-def test_what_is_over_in_half_a_second_starts_in_slow_motion_and_says_so(player, written):
+def test_a_short_run_starts_in_slow_motion_and_says_so(player, written):
     player = player("volleyball/spike")
     player.key(pygame.K_SPACE)
     player.settle()
@@ -202,7 +202,7 @@ class TestWatching:
         player.key(pygame.K_SPACE)
         return player
 
-    def test_the_clock_pauses_steps_starts_again_and_is_slowed_by_a_late_frame(self, player):
+    def test_the_clock_pauses_steps_restarts_and_waits_for_frames(self, player):
         playback = player.game.watching.playback
         player.frames(10)
         player.key(pygame.K_SPACE)
@@ -220,7 +220,7 @@ class TestWatching:
         player.frames(1, dt=2.0)
         assert playback.t == pytest.approx(t + LONGEST_FRAME)
 
-    def test_slow_motion_goes_to_a_sixteenth_and_fast_to_eight_and_the_time_line_can_be_dragged(self, player):
+    def test_speeds_are_1_16_to_8_and_the_time_line_can_be_dragged(self, player):
         playback, line = player.game.watching.playback, player.view.bar.line
         for key, rate in ((pygame.K_MINUS, 1 / 16), (pygame.K_EQUALS, 8)):
             for _ in range(12):
@@ -286,7 +286,7 @@ class TestScenes:
         assert player.view.over is None
 
 
-def test_what_cannot_be_is_said_and_the_last_good_parameters_stay(player):
+def test_impossible_parameters_are_reported_and_not_taken(player):
     player = player("golf")
     before = player.game.session.scene
     assert not player.game.aiming.change({"launch.speed": -3.0})

@@ -61,7 +61,7 @@ class TestTheFan:
     def test_spreads_are_told_without_powers_of_ten(self):
         assert [short(sigma) for sigma in (0.0874, 1.13, 36.4, 372.0, 1240.0)] == ["0.087", "1.1", "36", "370", "1200"]
 
-    def test_it_tells_the_share_that_scores_and_by_what_the_shots_differ(self, player):
+    def test_it_gives_the_scoring_fraction_and_what_is_varied(self, player):
         player = player("basketball")
         player.key(pygame.K_f)
         player.settle()
@@ -88,7 +88,7 @@ class TestTheFan:
             found = cloud(session.scene, 1.0, camera, False, "", (640, 360), ((0, 255, 0), (255, 255, 255)))
         assert 0 < found.scored == made < 30
 
-    def test_it_shows_its_first_shots_and_then_more_where_they_take_long(self, monkeypatch):
+    def test_slow_shots_are_shown_as_they_come(self, monkeypatch):
         session, camera = Session("billiards/cut"), Camera((0.0, 0.0), (300.0, 200.0), 150.0)
         monkeypatch.setattr("sandbox.window.fan.QUICK", 0.0)
         monkeypatch.setattr("sandbox.window.fan._begun", {})
@@ -124,7 +124,7 @@ class TestTheFan:
         assert cloud(*asked).left == 0
         assert cloud(*asked, known) == alone  # none of those that both have computed counts twice
 
-    def test_in_the_window_the_path_s_process_computes_some_of_one_that_takes_long(self, player, monkeypatch):
+    def test_the_process_of_the_path_helps_with_a_slow_fan(self, player, monkeypatch):
         player = player("billiards/nine-ball-break")
         player.game.workers.helper = Processes(1)
         try:
@@ -144,7 +144,7 @@ class TestTheFan:
         finally:
             player.game.workers.helper.close(abandon=True)
 
-    def test_while_the_aim_changes_it_ends_where_something_is_known_and_at_rest_it_is_complete(self, player):
+    def test_it_stops_early_while_aiming_and_is_complete_at_rest(self, player):
         player = player("golf")
         player.key(pygame.K_f)
         player.game.aiming.nudge({"launch.speed": 70.0})
@@ -225,7 +225,7 @@ class TestTheFan:
         assert player.view.clouds.value.shots == SHOTS
         assert player.view.clouds.value.said[0] in [text for text, _ in written]
 
-    def test_one_that_never_ends_is_killed_when_the_aim_changes_and_computed_again(self, player, monkeypatch):
+    def test_an_endless_shot_is_killed_when_the_aim_changes(self, player, monkeypatch):
         player = player(PUTT)
         player.key(pygame.K_f)
         player.settle()
@@ -246,7 +246,7 @@ class TestTheFan:
         assert view.clouds.key[0] is player.game.shot
         assert view.clouds.value.shots
 
-    def test_the_path_does_not_wait_for_shots_of_the_fan_that_never_end(self, player, monkeypatch):
+    def test_the_path_does_not_wait_for_endless_shots_of_the_fan(self, player, monkeypatch):
         player = player(PUTT)
         player.key(pygame.K_f)
         player.settle()
@@ -263,7 +263,7 @@ class TestTheFan:
 
 
 class TestTheMap:
-    def test_its_middle_is_the_shot_and_its_cells_are_what_such_shots_do(self):
+    def test_its_middle_is_the_shot_and_its_cells_are_outcomes(self):
         session = Session("basketball/free-throw")
         found = score_map(session.scene)
         assert found.place(session.value("launch.speed"), session.value("launch.angle")) == pytest.approx((0.5, 0.5))
@@ -461,7 +461,7 @@ def test_graphs_lie_over_the_picture_with_earlier_shots(player, written):
     assert differ(picture(player), plain) < 0.2
 
 
-def test_where_the_energy_goes_lies_over_the_picture_until_a_click(player):
+def test_the_energy_chart_is_an_overlay_until_a_click(player):
     player = player(PUTT)
     player.key(pygame.K_TAB)
     plain = picture(player)
@@ -495,7 +495,7 @@ class TestTheLists:
             player.click(player.view.over.places[number][0].center)
             assert done[-1] == command.name
 
-    def test_a_button_opens_it_and_closes_it_and_it_stays_open_while_the_window_changes(self, player):
+    def test_a_button_toggles_it_and_it_survives_resizing(self, player):
         player = player(PUTT)
         player.button("see")
         assert player.view.over.name == "see"
@@ -512,7 +512,7 @@ class TestTheLists:
         foot = max(place.bottom for place, _ in player.view.over.places)
         assert 0 < player.view.bar.rect.top - foot < 20
 
-    def test_what_is_shown_is_switched_by_mouse_and_it_says_what_is_on(self, player):
+    def test_the_mouse_switches_what_is_shown_and_marks_it(self, player):
         player = player(PUTT)
         assert player.view.switched == {"ghosts", PUTT}
         player.button("see")
@@ -525,7 +525,7 @@ class TestTheLists:
         player.key(pygame.K_o)
         assert player.view.switched == {"ghosts", "charts", "arrows", PUTT}
 
-    def test_with_the_panel_open_the_help_and_the_menu_can_still_be_clicked(self, player):
+    def test_help_and_menu_can_be_clicked_with_the_panel_open(self, player):
         player = player(PUTT, (640, 400))
         player.key(pygame.K_TAB)
         player.key(pygame.K_l)

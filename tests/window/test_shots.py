@@ -76,7 +76,7 @@ def test_a_shot_is_pinned_deleted_and_gone_back_to(table):
     assert game.session.value("launch.speed") == SPEEDS[-1]
 
 
-def test_a_pinned_path_stays_and_one_that_was_dropped_is_computed_again(table, monkeypatch):
+def test_a_pinned_path_stays_and_a_dropped_one_is_recomputed(table, monkeypatch):
     game, view = table.game, table.view
     table.key(pygame.K_q)
     first, second = game.shots.rows[:2]

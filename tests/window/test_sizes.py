@@ -121,7 +121,7 @@ def test_every_scene_and_every_key_can_be_seen(player, size, written, name):
 
 
 @pytest.mark.parametrize("size", [(480, 400), (640, 400), (960, 1080), (1280, 720), (2560, 1440)])
-def test_nothing_of_the_panel_overlaps_and_what_is_written_has_room(player, size, written):
+def test_nothing_of_the_panel_overlaps_and_texts_have_room(player, size, written):
     player = player("golf", size)
     player.key(pygame.K_TAB)
     panel = player.view.panel
@@ -137,7 +137,7 @@ def test_nothing_of_the_panel_overlaps_and_what_is_written_has_room(player, size
 
 
 @pytest.mark.parametrize("size", [(640, 400), (1280, 720)])
-def test_cards_of_the_picture_leave_room_for_each_other_and_for_the_numbers(player, size):
+def test_cards_leave_room_for_each_other_and_the_numbers(player, size):
     player = player("basketball", size)
     for key in (pygame.K_f, pygame.K_m, pygame.K_w):
         player.key(key)

@@ -149,7 +149,7 @@ def test_the_stage_belongs_to_the_shot(screen, source, actions):
 
 
 class TestTheCamera:
-    def test_it_goes_out_for_a_strong_pull_and_in_again_for_a_weak_one(self, player):
+    def test_it_zooms_out_for_a_strong_pull_and_in_for_a_weak_one(self, player):
         player = player("golf/putt")
         scale = player.view.stage.camera.scale
         player.game.aiming.change({"launch.speed": 30.0})
@@ -191,7 +191,7 @@ class TestTheCamera:
         player.settle()
         assert player.view.stage.camera == whole
 
-    def test_it_stays_in_play_pause_and_replay_where_the_wheel_zooms_and_a_drag_moves(self, player):
+    def test_it_keeps_zoom_and_place_in_play_pause_and_replay(self, player):
         player = player("basketball", (640, 400))
         player.view.zoom(3.0, (200, 150))
         player.settle()
@@ -255,7 +255,7 @@ class TestTheCamera:
         assert player.game.session.changes.values == {}
 
 
-def test_the_picture_stays_until_the_stage_next_to_the_panel_is_composed(player):
+def test_the_picture_stays_until_the_new_stage_is_composed(player):
     player = player("golf")
     before = pygame.surfarray.array3d(player.screen)[:600, :600]
     player.view.patience, player.view.stages.work = 0.0, Future()  # a stage that takes for ever

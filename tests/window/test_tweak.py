@@ -103,7 +103,7 @@ class TestThePanel:
         write(player, "launch.speed", "50")
         assert not player.game.notices, "what was wrong is no longer said"
 
-    def test_a_field_can_be_mended_left_and_taken_by_a_click_elsewhere(self, player):
+    def test_a_field_is_edited_left_and_taken_by_a_click_elsewhere(self, player):
         player.click(place(player, "launch.speed", FIELD_OF).center)
         panel = player.view.panel
         before = panel.before
@@ -124,7 +124,7 @@ class TestThePanel:
         player.click(place(player, "launch.angle", FIELD_OF).center)
         assert player.game.session.value("launch.speed") == 9.0
 
-    def test_tab_goes_on_to_the_next_field_and_a_long_text_is_seen_at_its_end(self, player, written):
+    def test_tab_goes_to_the_next_field_and_shows_the_end_of_text(self, player, written):
         player.click(place(player, "launch.speed", FIELD_OF).center)
         letters(player, "60")
         player.key(pygame.K_TAB)
@@ -136,7 +136,7 @@ class TestThePanel:
         letters(player, "1 very long text 9")
         assert any(text.endswith("text 9|") for text, _ in written)
 
-    def test_a_text_may_be_pasted_and_a_part_of_a_vector_and_nonsense_typed(self, player, monkeypatch):
+    def test_fields_take_pasted_texts_vector_parts_and_nonsense(self, player, monkeypatch):
         player.click(place(player, "air.wind[0]", FIELD_OF).center)
         monkeypatch.setattr(pygame.scrap, "get_text", lambda: "-3.5 ")
         player.key(pygame.K_v, pygame.KMOD_CTRL)
@@ -193,7 +193,7 @@ class TestThePanel:
         assert player.view.panel.group == "launch"
         assert player.view.over is None
 
-    def test_a_word_that_brings_other_parameters_changes_the_rows_and_undo_changes_them_back(self, player):
+    def test_a_choice_changes_the_rows_and_undo_restores_them(self, player):
         turn_to(player, "ball.drag")
         before = [row.key for row in player.view.panel.rows]
         player.view.panel.set(row(player, "ball.drag.model"), "constant")
@@ -297,7 +297,7 @@ class TestSaving:
         assert player.game.session.value("launch.angle") == 33.0
         assert player.game.session.value("launch.speed") == 70.0
 
-    def test_another_scene_in_the_file_is_opened_and_nothing_of_the_one_before_is_left(self, player, file):
+    def test_another_scene_in_the_file_replaces_all_of_the_old_one(self, player, file):
         player = player(str(file))
         player.key(pygame.K_TAB)
         player.game.aiming.change({"launch.angle": 33.0})

@@ -109,7 +109,7 @@ def test_convex_corner_turns_the_ball_about_its_point():
     assert run.state("ball", 1.0)[2:4] == pytest.approx(v - 2 * (v @ n) * n, abs=1e-7)
 
 
-def test_a_graze_within_rounding_changes_nothing_and_one_within_a_micrometre_is_met():
+def test_a_graze_is_ignored_only_within_rounding():
     post = Surface("post", Circle((0.0, 0.0), 0.1), 1.0, 0.0)
     shots = {
         above: simulate(Setup([ball((-1.0, 0.15 + above), (3.0, 0.0), gravity=0)], [post], duration=1.0), resolve())
@@ -123,7 +123,7 @@ def test_a_graze_within_rounding_changes_nothing_and_one_within_a_micrometre_is_
 
 
 @pytest.mark.parametrize("inside", [0.0, 1e-12, 1e-9, 1e-6])
-def test_what_overlaps_a_little_meets_the_surface_only_if_it_moves_into_it(inside):
+def test_a_slight_overlap_is_an_impact_only_when_closing(inside):
     floor, y = Obstacle(Surface("floor", Segment((-5.0, 0.0), (5.0, 0.0)), 0.5, 0.9), 0.05), 0.05 - inside
     for vy, met in ((0.0, False), (1e-3, False), (1.0, False), (-1e-3, True)):
         still = (0.0, 0.0, 0.0)
@@ -246,7 +246,7 @@ def test_two_balls_are_pushed_apart_by_the_same_distance():
 
 
 @pytest.mark.parametrize("overlap", [1e-9, 1e-6, 5e-4])
-def test_balls_that_overlap_slightly_are_pushed_apart_and_out_of_the_wall(overlap):
+def test_slight_overlaps_are_resolved_at_the_start(overlap):
     wall = Surface("wall", Segment((-0.05, -1.0), (-0.05, 1.0)), 0.5, 0.5)
     row = [ball((k * (0.1 - overlap), 0.0), gravity=0.0, name=f"{k}") for k in range(4)]
     run = simulate(Setup(row, [wall], duration=0.1), resolve())
@@ -262,7 +262,7 @@ def test_no_room_between_surfaces_is_an_error():
         simulate(Setup([ball((0.0, 0.0))], walls, duration=0.5), resolve())
 
 
-def test_a_lively_ball_comes_to_lie_after_however_many_faint_bounces():
+def test_a_lively_ball_settles_after_any_number_of_bounces():
     floor = Surface("floor", Segment((-5.0, 0.0), (5.0, 0.0)), 0.997, 0.5)
     run = simulate(Setup([ball((0.0, 0.0501))], [floor], duration=60.0), resolve("precise"))
     assert run.ended == "rest"
@@ -320,7 +320,7 @@ def test_time_of_impact_on_a_circle(direction, speed, offset):
     assert atan2(run.events[0].y, run.events[0].x) != inf
 
 
-def test_a_ball_that_starts_against_a_surface_and_moves_into_it_bounces():
+def test_a_ball_touching_at_the_start_and_closing_bounces():
     floor = Surface("floor", Segment((-100.0, 0.0), (100.0, 0.0)), 1.0, 0.0)
     run = simulate(Setup([ball((0.0, 0.05), (3.0, -4.0))], [floor], duration=0.5), resolve())
     assert (run.events[0].kind, run.events[0].t, run.events[0].speed) == ("impact", 0.0, 4.0)
@@ -328,7 +328,7 @@ def test_a_ball_that_starts_against_a_surface_and_moves_into_it_bounces():
 
 
 @pytest.mark.parametrize("resistance", [0.1, 0.5, 0.8, 2.0])
-def test_friction_passes_on_no_more_rolling_resistance_than_its_own(resistance):
+def test_friction_limits_rolling_resistance(resistance):
     """Rolls at -min(c, mu) g: with mu = 0.5 a resistance above that changes nothing."""
     floor = Surface("floor", Segment((-5.0, 0.0), (100.0, 0.0)), 0.5, 0.5, resistance)
     run = simulate(Setup([ball((0.0, 0.05), (2.0, 0.0), spin=-40.0)], [floor], duration=60.0), resolve())
@@ -337,7 +337,7 @@ def test_friction_passes_on_no_more_rolling_resistance_than_its_own(resistance):
 
 @pytest.mark.parametrize("push", [1.0, 3.0, 10.0, 100.0])
 @pytest.mark.parametrize("resistance", [0.0, 0.3])
-def test_a_steady_push_along_the_ground_rolls_or_slides_and_never_stalls(push, resistance):
+def test_a_steady_push_rolls_or_slides_and_never_stalls(push, resistance):
     """Rolls while a push F needs no more grip than mu N: F (1 - 1/(1 + 2/5)) <= mu m g; slides at F/m - mu g beyond."""
     floor = Surface("floor", Segment((-9e3, 0.0), (9e3, 0.0)), 0.5, 0.5, resistance)
     shot = ball((0.0, 0.05), (2.0, 0.0))
@@ -415,7 +415,7 @@ def test_turf_leans_against_the_motion_whichever_way_it_goes(way: float):
 
 
 @pytest.mark.parametrize(("factor", "body"), [(SOLID_SPHERE, 2 / 5), (HOLLOW_SPHERE, 2 / 3), (DISC, 1 / 2)])
-def test_a_ball_that_slides_comes_to_roll_at_the_share_its_inertia_leaves(factor: float, body: float):
+def test_sliding_ends_in_rolling_at_the_speed_of_its_inertia(factor: float, body: float):
     """Angular momentum about the point of contact stays: v = v0 / (1 + I / m r^2)."""
     floor = Surface("floor", Segment((-9.0, 0.0), (90.0, 0.0)), 0.5, 0.5)
     slid = Ball("ball", 1.0, 0.1, (0.0, 0.1), (3.0, 0.0), inertia_factor=factor, forces=[Gravity(1.0, 9.81)])
@@ -464,7 +464,7 @@ def test_some_of_the_slip_of_a_ball_that_grips_is_reversed(method: str, mirror: 
     ("angle", "speed", "spin", "first"),
     [(1.8, 1.0, 20.0, "green"), (1.0, 2.0, -30.0, "green"), (0.6, 2.0, 40.0, "cup"), (-0.8, 1.5, 0.0, "cup")],
 )
-def test_a_lip_is_of_the_surface_that_the_ball_is_more_nearly_above_in_any_order(angle, speed, spin, first):
+def test_a_lip_belongs_to_the_surface_more_nearly_below(angle, speed, spin, first):
     """Straight at the corner, from ``angle`` above the level: below 45 degrees it is the wall's."""
     green, wall = Segment((-5.0, 0.0), (0.0, 0.0)), Segment((0.0, 0.0), (0.0, -0.1))
     pieces = [Surface("green", green, 0.3, 0.5), Surface("cup", wall, 0.7, 0.1)]

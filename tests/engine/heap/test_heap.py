@@ -103,7 +103,7 @@ HEAPS = {
 
 
 @pytest.mark.parametrize("heap", HEAPS)
-def test_a_heap_comes_to_rest_without_overlap_and_its_energy_is_accounted_for(heap):
+def test_a_heap_rests_without_overlap_and_its_ledger_closes(heap):
     run = run_of(*HEAPS[heap])
     assert run.ended == "rest"
     assert overlap(run, run.duration) < 1e-4
@@ -285,7 +285,7 @@ def test_balls_that_part_fly_on_exactly():
     assert run.numerics.pymunk_steps < 12
 
 
-def test_a_heap_that_creates_energy_is_an_error_that_names_time_and_bodies(monkeypatch):
+def test_a_heap_creating_energy_is_an_error_naming_its_bodies(monkeypatch):
     """Here each step lifts two that rest on each other by 1 mm."""
     solve = Stepper._solve
 

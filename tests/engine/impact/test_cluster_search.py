@@ -157,7 +157,7 @@ def test_what_else_acts_during_a_contact_is_not_forgotten():
         assert run.state(name, t)[3] == pytest.approx(0.5 * k * t**2, abs=2e-3)
 
 
-def test_a_wall_as_hard_as_balls_is_met_at_the_speeds_at_which_it_is_met():
+def test_a_wall_in_a_cluster_is_met_at_its_own_speed():
     """A cue ball that strikes another and a slanting wall at once, at 2 m/s into it and 1 m/s along it."""
     met = []
     nx, ny = 0.6, 0.8
@@ -223,7 +223,7 @@ def test_three_on_a_rail_wait_for_the_balls_to_part():
     assert abs(book.residue) < 1e-9
 
 
-def test_a_ball_that_comes_while_two_soft_ones_are_pressed_takes_part():
+def test_a_ball_arriving_during_a_cluster_joins_it():
     """Two touch for 30 ms; a third arrives after 15: the three part as the one law says, not as two pairs."""
     late = ball("late", 2 * R + 0.035, vx=-1.0)
     model = ContactModel("auto", 1e4)
@@ -237,7 +237,7 @@ def test_a_ball_that_comes_while_two_soft_ones_are_pressed_takes_part():
     assert [event.t for event in run.events][1] - run.events[0].t == pytest.approx(0.0175, abs=0.01)
 
 
-def test_a_wall_that_soft_balls_reach_while_they_are_pressed_pushes_back_at_once():
+def test_a_wall_reached_during_a_cluster_joins_it():
     """Pressed for 80 ms they would be far behind it."""
     wall = Surface("wall", Segment((R + 1e-3, -1.0), (R + 1e-3, 1.0)), 1.0, 0.0)
     setup = Setup([ball("cue", -0.2, vx=0.5), ball("1", 0.0)], [wall], 0.5, contact=ContactModel("auto", 1e3))
@@ -270,7 +270,7 @@ def test_a_run_may_end_within_a_contact(duration):
 
 
 @pytest.mark.parametrize("model", ["auto", "hertz"])
-def test_a_ball_may_graze_a_rack_for_less_than_a_step_of_the_contact(model: str):
+def test_a_graze_of_a_rack_may_be_shorter_than_a_step(model: str):
     rack = [ball(f"{row}{k}", (2 * k - row) * R, -(3**0.5) * row * R) for row in range(3) for k in range(row + 1)]
     for approach in (1.5e-3, 2e-3):  # m/s, of 7.68
         above = 2 * R * (1.0 - (approach / 7.68) ** 2) ** 0.5
@@ -278,7 +278,7 @@ def test_a_ball_may_graze_a_rack_for_less_than_a_step_of_the_contact(model: str)
         assert -2.0 * approach < sum(run.state(each.name, 0.01)[3] for each in rack) <= 1e-9
 
 
-def test_the_last_of_many_soft_balls_does_not_leave_through_a_wall_while_the_others_are_pressed():
+def test_no_soft_ball_of_a_cluster_leaves_through_a_wall():
     row = [ball("cue", -2 * R - 0.01, vx=10.5), *(ball(f"{place}", 2 * R * place) for place in range(12))]
     place = 23 * R + 0.1  # m
     wall = Surface("wall", Segment((place, -1.0), (place, 1.0)), 0.9, 0.1)

@@ -258,7 +258,7 @@ def test_a_step_that_is_far_too_long_is_halved():
     assert passage(chain(3), step=1.5).velocity[:, 0] == pytest.approx(passage(chain(3)).velocity[:, 0], abs=1e-2)
 
 
-def test_what_errors_would_add_is_taken_back_without_moving_the_whole():
+def test_energy_correction_keeps_the_motion_of_the_whole():
     """Coarse steps without loss: the energy stays what it was, and the momentum."""
     bodies = rack(8.0, 1e-5)
     outcome = passage(bodies, step=0.1)
@@ -268,7 +268,7 @@ def test_what_errors_would_add_is_taken_back_without_moving_the_whole():
     assert energy(outcome.velocity, outcome.spin, bodies) <= had * (1 + 1e-14)
 
 
-def test_a_ball_that_is_not_touched_takes_no_part_in_what_is_taken_back():
+def test_energy_correction_spares_balls_not_touched():
     """A chain and a fast ball that passes it: its momentum stays, and theirs."""
     bodies = [*chain(3), ball(0.0, 1.0, 20.0)]
     links = [Link(i + 1, i, STIFFNESS, 1.0, ELASTIC) for i in range(3)]

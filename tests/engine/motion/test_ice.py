@@ -74,7 +74,7 @@ def test_a_stone_whose_spin_ends_goes_straight_from_then_on():
         assert abs(way[0][0] * velocity[1] - way[0][1] * velocity[0]) < 1e-9
 
 
-def test_without_spin_it_goes_straight_and_mirror_images_are_mirror_images():
+def test_no_spin_goes_straight_and_mirrored_spin_mirrors():
     assert abs(slid(stone((2.0, 0.0), spin=0.0), ICE).state("stone", 99.0)[1]) == 0.0
     left, right = (slid(stone((1.5, side * 0.3), spin=side), ICE).state("stone", 99.0) for side in (1.0, -1.0))
     assert left[:2] == pytest.approx((right[0], -right[1]), abs=1e-12)
@@ -99,7 +99,7 @@ def test_a_swept_stretch_slows_less_and_the_rest_as_before():
     assert end > 1.05 * slid(stone((2.2, 0.0), spin=0.0), ICE).state("stone", 99.0)[0]
 
 
-def test_a_puck_slides_with_constant_deceleration_and_its_spin_by_itself():
+def test_a_puck_slides_evenly_and_its_spin_decays_apart():
     run = slid(stone((3.0, 4.0), spin=20.0), PUCK)
     a, alpha = 0.1 * 9.81, 2 * 0.05 * 9.81 / R
     way = 5.0**2 / (2 * a)

@@ -189,7 +189,7 @@ def test_trade_measures_it(monkeypatch: pytest.MonkeyPatch):
         assert fine.error_m < coarse.error_m
 
 
-def test_no_step_after_an_impact_is_longer_than_the_one_that_it_cut():
+def test_the_step_after_an_impact_is_no_longer_than_before():
     for number in range(30):
         setup = tossed(number)
         setup = replace(setup, balls=[replace(setup.balls[0], position=(0.0, 6.0))], duration=3.0)
@@ -201,7 +201,7 @@ def test_no_step_after_an_impact_is_longer_than_the_one_that_it_cut():
         assert after.t1 - after.t0 <= (cut.t1 - cut.t0) * (1.0 + 1e-12)
 
 
-def test_a_step_as_long_as_the_wanted_one_but_for_rounding_is_no_part_of_it():
+def test_a_step_short_only_by_rounding_is_a_whole_step():
     """The wanted step may be the length of an arc, a difference of times: the next one does not depend on its last
     digit, in which one shot differs from the same in a batch."""
     ball, control = tossed(0).balls[0], StepControl(resolve())

@@ -90,7 +90,7 @@ def test_many_at_once_find_the_same(rows):
             assert found == pytest.approx(next(downward_crossings(coefficients), np.inf), abs=1e-9)
 
 
-def test_a_graze_without_crossing_is_no_touch_and_a_shallow_dip_is():
+def test_a_graze_is_no_touch_and_a_shallow_dip_is_one():
     """(u - 1/2)^2 + d: no root for d > 0, two for d < 0, however small."""
     square = squared_length([-0.5, 0.5], [0.0, 0.0])
     assert list(downward_crossings([b + 1e-12 for b in square])) == []
