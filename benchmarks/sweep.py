@@ -173,7 +173,7 @@ def floor_of(name: str, speeds: tuple[float, float], angles: tuple[float, float]
     """Seconds that numpy takes for the forces of these shots, as often as a few of them need them."""
     scene = sandbox.load(name)
     some = [(speed, angle) for speed in np.linspace(*speeds, 5) for angle in np.linspace(*angles, 5)]
-    found = runs(scene, ["launch.speed", "launch.angle"], some, asked=scene.all_but_the_end)
+    found = runs(scene, ["launch.speed", "launch.angle"], some, asked=scene.facts_except_ended)
     evaluations = mean(run.numerics.force_evaluations for run in found if isinstance(run, Run))
     ball, shots = scene.build().balls[0], shape[0] * shape[1]
     state = (*np.zeros((2, shots)), *np.full((2, shots), 5.0), np.full(shots, ball.spin))

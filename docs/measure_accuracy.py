@@ -130,7 +130,7 @@ def claims(name: str, faster: float) -> Iterator[float]:
         return
     for fact, twice in truth.errors.items():
         unsure = {*claimed.chaotic, *claimed.unsettled, *claimed.changed}
-        if fact not in unsure and scene.facts[fact].settled != "start" and claimed.errors.get(fact):
+        if fact not in unsure and scene.facts[fact].final_when != "start" and claimed.errors.get(fact):
             ratio = (twice if isinstance(run.result[fact], int) else twice / SAFETY) / claimed.errors[fact]
             if ratio > 1.0:
                 sys.stderr.write(f"{name} {fact}: {ratio:.2f} times the claimed {claimed.errors[fact]:.3g}\n")

@@ -53,9 +53,9 @@ from sandbox.physics.plane import Strips
 from sandbox.renamed import raise_if_old
 from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.air import Air, ConstantDrag, NoForce, OutdoorAir, Weather, wind_in
-from sandbox.sport.amounts import amount, metres, nice, roughly, signed, twice
+from sandbox.sport.amounts import amount, in_two_units, metres, roughly, round_number_above, signed
 from sandbox.sport.controls import Controls, Goal, Handle, Spin, Spread
-from sandbox.sport.facts import ENDED, Fact, once
+from sandbox.sport.facts import ENDED, Fact, cached_per_run
 from sandbox.sport.flight import DEGREE, RPM, Directed, Flight, Launch, Release, Sphere, forces_in_flight, height_on
 from sandbox.sport.readings import (
     APEX,
@@ -69,10 +69,10 @@ from sandbox.sport.readings import (
     Moment,
     Passes,
     apex,
-    at,
     before,
-    coming_to,
     down_to,
+    fact_from,
+    first_contact_with,
     first_touch,
     passing,
     passing_at,
@@ -175,31 +175,31 @@ __all__ = [
     "amount",
     "anywhere",
     "apex",
-    "at",
     "before",
     "below",
     "box",
+    "cached_per_run",
     "capsule",
     "check_apart",
     "choice",
     "clip",
-    "coming_to",
     "cos",
     "disc",
     "down_to",
     "exp",
+    "fact_from",
+    "first_contact_with",
     "first_touch",
     "forces_in_flight",
     "group",
     "groups",
     "height_on",
+    "in_two_units",
     "level",
     "log",
     "maximum",
     "metres",
     "minimum",
-    "nice",
-    "once",
     "one_of",
     "passing",
     "passing_at",
@@ -207,6 +207,7 @@ __all__ = [
     "rectangle",
     "regular",
     "roughly",
+    "round_number_above",
     "signed",
     "sin",
     "smooth",
@@ -214,7 +215,6 @@ __all__ = [
     "switch",
     "text",
     "travelled",
-    "twice",
     "vector",
     "vectors",
     "where",

@@ -231,7 +231,7 @@ class SceneParameters(Group):
         return with_changes(cls, values, {**file, **emptied})
 
 
-def mistake_in(schema: type[Group]) -> str | None:
+def problem_with(schema: type[Group]) -> str | None:
     """Return the error in the types that a group declares, in a line; None if there is none."""
     try:
         schema.model_rebuild()

@@ -24,6 +24,9 @@ MODULES = {
 }
 
 _ELEMENTWISE = {"least": "minimum", "most": "maximum", "choose": "where"}
+_FACTS = {"once": "cached_per_run"}
+_READINGS = {"at": "fact_from", "coming_to": "first_contact_with"}
+_AMOUNTS = {"nice": "round_number_above", "twice": "in_two_units"}
 
 #: Functions and classes, by module of the package and old name.
 NAMES: dict[str, dict[str, str]] = {
@@ -46,9 +49,23 @@ NAMES: dict[str, dict[str, str]] = {
         "word": "text",
         "either": "one_of",
         **_ELEMENTWISE,
+        **_FACTS,
+        **_READINGS,
+        **_AMOUNTS,
         "stamp": "text_mask",
     },
     "physics.elementwise": _ELEMENTWISE,
+    "sport.facts": _FACTS,
+    "sport.readings": _READINGS,
+    "sport.amounts": _AMOUNTS,
+    "sport.net_game": {"word": "outcome", "taken": "received_at"},
+    "sport.sliding": {
+        "aside": "lateral_offset",
+        "meetings": "all_collisions",
+        "met": "collisions_of",
+        "taken": "removed_by",
+        "left": "in_play",
+    },
 }
 
 #: Arguments and attributes, by class and old name.
@@ -61,9 +78,13 @@ FIELDS: dict[str, dict[str, str]] = {
         "breaks": "discontinuities",
         "is_flight": "is_single_ball",
     },
+    "Fact": {"how": "compute", "settled": "final_when"},
+    "Controls": {"strongest": "full_pull_speed", "also": "set_on_pull"},
+    "Handle": {"first": "prerequisites"},
+    "Spread": {"least": "minimum"},
 }
 
-#: What a scene's picture overrides, by old name.
+#: Options of a scene's picture, by old name.
 OPTIONS = {"told": "story_end", "company": "must_be_visible"}
 
 

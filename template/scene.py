@@ -24,8 +24,8 @@ from sandbox.kit import (
     Spin,
     Touches,
     apex,
-    at,
-    coming_to,
+    fact_from,
+    first_contact_with,
     group,
     level,
     quantity,
@@ -56,7 +56,7 @@ class Parameters(Flight):
     floor: Solid = group(..., "the floor")
 
 
-CONTROLS = Controls(strongest=20.0, spins=(Spin("launch.spin", 20.0),), handles=(Handle("fan.place"),))
+CONTROLS = Controls(full_pull_speed=20.0, spins=(Spin("launch.spin", 20.0),), handles=(Handle("fan.place"),))
 
 
 @dataclass(frozen=True)
@@ -79,13 +79,13 @@ def build(parameters: Parameters) -> Setup:
     return Setup([tossed], [floor], duration=20.0, until=Touches("floor", 4))
 
 
-landing = coming_to("floor")  # the ball just before it first comes down
+landing = first_contact_with("floor")  # the ball just before it first comes down
 
 #: Fact(key, label, unit, how): the results of a run, the most important first; None for what did not happen.
 FACTS = (
-    Fact("distance", "distance", "m", at(landing, "x"), settled="floor"),
+    Fact("distance", "distance", "m", fact_from(landing, "x"), final_when="floor"),
     Fact("apex", "apex", "m", apex),
-    Fact("flight_time", "flight time", "s", at(landing, "t"), settled="floor"),
+    Fact("flight_time", "flight time", "s", fact_from(landing, "t"), final_when="floor"),
     *LAUNCH,
     ENDED,
 )

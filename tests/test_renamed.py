@@ -8,6 +8,7 @@ import pytest
 
 from sandbox.engine.model import ball, setup
 from sandbox.renamed import FIELDS, MODULES, NAMES
+from sandbox.sport import controls, facts
 
 
 @pytest.mark.parametrize("old", MODULES)
@@ -29,7 +30,9 @@ def test_other_names_are_missing_as_ever():
     assert not hasattr(setup, "Sphinx")
 
 
-CLASSES = {name: vars(module)[name] for module in (ball, setup) for name in FIELDS if name in vars(module)}
+CLASSES = {
+    name: vars(module)[name] for module in (ball, setup, controls, facts) for name in FIELDS if name in vars(module)
+}
 
 
 @pytest.mark.parametrize(("name", "old"), [(name, old) for name, fields in FIELDS.items() for old in fields])

@@ -90,7 +90,7 @@ class Plan:
     @cached_property
     def asked(self) -> list[str]:
         """The facts of each row."""
-        return self.scene.all_but_the_end
+        return self.scene.facts_except_ended
 
     @cached_property
     def block(self) -> int:

@@ -45,7 +45,7 @@ def runs(
     """The run at each of the points, in order, with its result; or the exception it ended with.
 
     Similar shots are computed together. ``finer`` halves the steps, to estimate errors. If only some facts are
-    ``asked`` for, each run ends when these are settled, and its result contains only these.
+    ``asked`` for, each run ends when these are final, and its result contains only these.
     """
     build, read, varied = builder(scene, asked), scene.reader(asked), Varied(scene, keys)
     parameters: dict[int, SceneParameters] = {}
@@ -94,15 +94,15 @@ def _or_error(build: Build, values: SceneParameters) -> Setup | Exception:
 
 
 def builder(scene: Scene, asked: Sequence[str]) -> Build:
-    """The scene's ``build``, whose runs end as soon as the requested facts are settled."""
-    settled = scene.settles(asked) if asked else None
+    """The scene's ``build``, whose runs end as soon as the requested facts are final."""
+    conditions = scene.final_when(asked) if asked else None
 
     def build(parameters: SceneParameters) -> Setup:
         setup = replace(scene, parameters=parameters).build()
-        if settled is None:
+        if conditions is None:
             return setup
-        conditions = tuple(Touches(by) if isinstance(by, str) else by(parameters) for by in settled)
-        return replace(setup, until=_Settled(conditions, setup.until))
+        untils = tuple(Touches(by) if isinstance(by, str) else by(parameters) for by in conditions)
+        return replace(setup, until=_AllFinal(untils, setup.until))
 
     return build
 
@@ -122,7 +122,7 @@ def built_at_once(build: Build, many: SceneParameters, each: Sequence[SceneParam
 
 
 @dataclass(frozen=True)
-class _Settled(Until):
+class _AllFinal(Until):
     """Ends a run when all these conditions have been met, or its own."""
 
     conditions: tuple[Until, ...]

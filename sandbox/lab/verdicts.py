@@ -82,7 +82,7 @@ def shot_map(scene: Scene) -> VerdictChanges | None:
         ]
 
     def verdicts(points: list[tuple[float, float]], how: Mapping[str, Any], finer: bool = False) -> list[str]:
-        found = runs(scene.changed({**controls.also, **how}), keys, points, finer)
+        found = runs(scene.changed({**controls.set_on_pull, **how}), keys, points, finer)
         return [
             f"failed: {type(run).__name__}" if isinstance(run, Exception) else verdict(scene, run.result)
             for run in found

@@ -28,7 +28,7 @@ from sandbox.picture.view import View
 from sandbox.scene import Scene, load
 from sandbox.scene.finding import as_path, is_installed
 from sandbox.scene.scene_run import SceneRun
-from sandbox.sport.amounts import LADDERS, exact, ladder
+from sandbox.sport.amounts import DISPLAY_UNITS, exact, ladder
 from sandbox.sport.readings import words_of
 from sandbox.text import command_line
 from sandbox.units import convert
@@ -294,5 +294,5 @@ def _forces(view: View[Any], run: SceneRun) -> dict[str, Any]:
 
 def _ladder(unit: str) -> list[list[Any]]:
     """Return the steps by which numbers of a unit are written: the least size, the factor, unit and digits."""
-    steps = ladder(unit) or LADDERS["m"][-1:]
+    steps = ladder(unit) or DISPLAY_UNITS["m"][-1:]
     return [[step.least, convert(1.0, unit, step.unit), step.unit, step.digits] for step in steps]

@@ -14,7 +14,7 @@ import pygame
 
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.sheet import CARD, Sheet
-from sandbox.sport.amounts import nice, signed
+from sandbox.sport.amounts import round_number_above, signed
 
 CHART = palette("energy")
 
@@ -78,7 +78,7 @@ def plotted(
     """Draw axes with round values and times inside a rectangle."""
     letters, gap, thin = sheet.lettering, sheet.gap, max(1, round(sheet.unit))
     small = letters.height("small")
-    step = nice(max(1.9 * small / max(1, rect.height - small - gap), 0.15) * (high - low))
+    step = round_number_above(max(1.9 * small / max(1, rect.height - small - gap), 0.15) * (high - low))
     levels = [i * step for i in range(ceil(low / step - 1e-9), floor(high / step + 1e-9) + 1)]
     if len(levels) == 1:  # a low chart: round numbers near its ends
         levels = [_rounded(end) for end in (low, high)]
@@ -89,7 +89,7 @@ def plotted(
     for level, text in zip(levels, texts, strict=True):
         sheet.surface.fill(CHART["rule"], (plot.rect.left, round(plot.row(level)), plot.rect.width, thin))
         letters.write(sheet.surface, text, "small", (plot.rect.left - gap, plot.row(level)), CARD["quiet"], "midright")
-    every = nice(letters.width("00.0 s  ", "small") / plot.rect.width * until)
+    every = round_number_above(letters.width("00.0 s  ", "small") / plot.rect.width * until)
     for i in range(floor(until / every + 1e-9) + 1):
         at = plot.column(i * every), plot.rect.bottom + gap / 2
         text, anchor = (f"{i * every:g}", "midtop") if i else ("0 s", "topleft")
@@ -99,5 +99,5 @@ def plotted(
 
 def _rounded(value: float) -> float:
     """The last number of a nice step before a value, at least half of it."""
-    step = nice(abs(value) / 2.5) if value else 1.0
+    step = round_number_above(abs(value) / 2.5) if value else 1.0
     return int(value / step) * step

@@ -18,7 +18,7 @@ from sandbox.picture.palette import palette
 from sandbox.picture.path import FINEST, Mark, Path, apart, slow_motion
 from sandbox.picture.sheet import Sheet
 from sandbox.picture.vectors import Vectors
-from sandbox.sport.amounts import nice
+from sandbox.sport.amounts import round_number_above
 
 RIM = palette("trace")["rim"]
 
@@ -189,7 +189,7 @@ class BallDrawing(SceneOptions[P]):
         if len(self.balls) > 1:
             return []
         painter = sheet.painter
-        every = nice(max(self.span, 0.01) / BALLS)
+        every = round_number_above(max(self.span, 0.01) / BALLS)
         moments = [i * every for i in range(max(1, ceil(self.story_end / every - 1e-9)))]
         radius, look = max(self.radius * camera.scale, mark_radius(self.rows)), self.looks[self.ball]
         states = np.array([self.run.state(self.ball, t)[:2] for t in [*moments, self.story_end]])

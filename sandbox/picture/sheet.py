@@ -14,7 +14,7 @@ from sandbox.picture.camera import Camera
 from sandbox.picture.lettering import Labels, Lettering, Spot
 from sandbox.picture.painter import Painter, blank
 from sandbox.picture.palette import Colour, palette
-from sandbox.sport.amounts import amount, nice, scale_unit, signed
+from sandbox.sport.amounts import amount, round_number_above, scale_unit, signed
 from sandbox.units import convert
 
 CARD = palette("card")
@@ -216,7 +216,7 @@ class Sheet:
 
     def _scale(self, camera: Camera, row: int, thin: int, unit: str, metre: float, upward: bool) -> None:
         room = max(self.lettering.width("−000.0 ", "small"), 104 * self.unit)
-        step = nice(room / camera.scale / metre)
+        step = round_number_above(room / camera.scale / metre)
         low, high = (camera.world(px, 0)[0] / metre / step * 5 for px in (self.frame.left, self.frame.right))
         for i in range(ceil(low), floor(high) + 1):
             x = camera.pixel(i / 5 * step * metre, 0)[0]
@@ -270,7 +270,7 @@ class Sheet:
     def scale_bar(self, camera: Camera, left: float, bottom: float, room: float) -> None:
         """A bar of a round length, which stands over it, from a point in px to the right, at most ``room`` px long."""
         unit, metre = scale_unit(0.35 * room / camera.scale)
-        number = nice(0.35 * room / camera.scale / metre)
+        number = round_number_above(0.35 * room / camera.scale / metre)
         length = number * metre
         wide, thin, tall = round(length * camera.scale), max(1, round(1.5 * self.unit)), round(7 * self.unit)
         row, start = round(bottom) - tall // 2 - 1, round(left)

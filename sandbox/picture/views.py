@@ -39,7 +39,7 @@ from sandbox.picture.places import (
 from sandbox.picture.sheet import Entry, Sheet, SideRows
 from sandbox.picture.side import Length, NetView, Place, SideView
 from sandbox.picture.view import View
-from sandbox.sport.amounts import nice
+from sandbox.sport.amounts import round_number_above
 
 __all__ = [
     "COURT_WIDTH",
@@ -86,10 +86,10 @@ __all__ = [
     "mix",
     "near",
     "net_across",
-    "nice",
     "palette",
     "patches",
     "plan",
+    "round_number_above",
     "scene_colours",
     "seams",
     "standing_table",

@@ -22,7 +22,7 @@ from sandbox.scene import display
 from sandbox.scene.finding import Found, default_file, docstring, find, first_comment
 from sandbox.scene.modules import module_in
 from sandbox.sport.controls import Controls
-from sandbox.sport.facts import ENDED, FALLBACK_FACTS, Fact, Settled, fallback_verdict, mistake_in
+from sandbox.sport.facts import ENDED, FALLBACK_FACTS, Fact, FinalWhen, fallback_verdict, problem_with
 from sandbox.text import shortened
 from sandbox.toml import read_toml
 
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from sandbox.engine.paths.run import Run
     from sandbox.scene.scene_run import SceneRun
 
-OFFERS = ("Parameters", "build")
+REQUIRED = ("Parameters", "build")
 #: Types of facts that cards, JSON and tables can always show.
 _PLAIN = {bool, float, type(None)}
 #: Most characters of a fact or a verdict, for which cards and pictures have room.
@@ -108,9 +108,9 @@ class Scene:
             raise self._wrong("build", "a Setup", setup)
         known = ("start", "end", *setup.names)
         for fact in self.facts.values():
-            if isinstance(fact.settled, str) and fact.settled not in known:
+            if isinstance(fact.final_when, str) and fact.final_when not in known:
                 file, there = from_here(self.folder / "scene.py"), ", ".join(known)
-                raise RequestError(f'{file}: {fact.key} is settled by "{fact.settled}", but there are {there}')
+                raise RequestError(f'{file}: {fact.key} has final_when="{fact.final_when}"; choose from {there}')
         return setup
 
     @property
@@ -120,8 +120,8 @@ class Scene:
         return {fact.key: fact for fact in facts}
 
     @property
-    def all_but_the_end(self) -> list[str]:
-        """The facts that many runs are asked for. They end when these are settled, not as a full run would end."""
+    def facts_except_ended(self) -> list[str]:
+        """The facts that many runs report: such a run ends when these are final, and not as a full run would end."""
         return [key for key, fact in self.facts.items() if fact is not ENDED]
 
     @property
@@ -135,11 +135,11 @@ class Scene:
 
     def reader(self, asked: Collection[str] = ()) -> Callable[[Run, Any], dict[str, Any]]:
         """The function that reads these facts from a run of this scene with any parameters; all facts by default."""
-        hows = [(key, fact.how) for key, fact in self.facts.items() if not asked or key in asked]
+        computed = [(key, fact.compute) for key, fact in self.facts.items() if not asked or key in asked]
 
         def read(run: Run, parameters: Any) -> dict[str, Any]:
             with sys_exit_as_error():
-                result = {key: how(run, parameters) for key, how in hows}
+                result = {key: compute(run, parameters) for key, compute in computed}
             for key, value in result.items():
                 if hasattr(value, "tolist"):  # numpy's numbers and arrays
                     value = result[key] = value.tolist()
@@ -151,10 +151,10 @@ class Scene:
 
         return read
 
-    def settles(self, asked: Collection[str]) -> frozenset[Settled] | None:
-        """What must have happened for all these facts to be final; None if one is not until the end."""
-        settled = frozenset(self.facts[key].settled for key in asked if key in self.facts) - {"start"}
-        return None if "end" in settled or not set(asked) <= self.facts.keys() else settled
+    def final_when(self, asked: Collection[str]) -> frozenset[FinalWhen] | None:
+        """The conditions that must hold for all these facts to be final; None if one is not until the end."""
+        conditions = frozenset(self.facts[key].final_when for key in asked if key in self.facts) - {"start"}
+        return None if "end" in conditions or not set(asked) <= self.facts.keys() else conditions
 
     def rows(
         self, run: SceneRun, errors: Mapping[str, float] | None = None, also: bool = False
@@ -230,9 +230,9 @@ def _revived(name: str, preset: str | None, folder: Path, values: dict[str, Any]
 def parameters_class(folder: Path) -> type[declared.SceneParameters]:
     """The Parameters of the scene in a folder. Raises RequestError where the scene is not as the sandbox uses it."""
     file, module = folder / "scene.py", module_in(folder, "scene")
-    missing = [name for name in OFFERS if not callable(getattr(module, name, None))]
+    missing = [name for name in REQUIRED if not callable(getattr(module, name, None))]
     if missing:
-        raise RequestError(f"{file}: a scene needs {', '.join(OFFERS)}; {missing[0]} is missing")
+        raise RequestError(f"{file}: a scene needs {', '.join(REQUIRED)}; {missing[0]} is missing")
     for name in ("build", "verdict"):
         if hasattr(module, name):
             _check_calls(file, name, getattr(module, name))
@@ -240,14 +240,14 @@ def parameters_class(folder: Path) -> type[declared.SceneParameters]:
     facts, controls = getattr(module, "FACTS", FALLBACK_FACTS), getattr(module, "CONTROLS", Controls())
     if not (isinstance(parameters, type) and issubclass(parameters, declared.SceneParameters)):
         wrong = "Parameters must be a sandbox.parameters.SceneParameters"
-    elif mistake := declared.mistake_in(parameters):
-        wrong = f"Parameters: {mistake}"
-    elif mistake := mistake_in(facts):
-        wrong = f"FACTS{mistake}"
+    elif problem := declared.problem_with(parameters):
+        wrong = f"Parameters: {problem}"
+    elif problem := problem_with(facts):
+        wrong = f"FACTS{problem}"
     elif not isinstance(controls, Controls):
         wrong = "CONTROLS must be a sandbox.sport.controls.Controls"
-    elif mistake := controls.mistake(parameters, [fact.key for fact in facts]):
-        wrong = f"CONTROLS {mistake}"
+    elif problem := controls.problem(parameters, [fact.key for fact in facts]):
+        wrong = f"CONTROLS {problem}"
     else:
         return parameters
     raise RequestError(f"{file}: {wrong}")

@@ -125,7 +125,7 @@ class NoForce(Model):
         return None
 
 
-#: What every ball may have, besides the models of its sport.
+#: The models that every ball may have, besides those of its sport.
 AnyDrag = ConstantDrag | NoForce
 AnyLift = ConstantLift | SpinRatioLift | NoForce
 

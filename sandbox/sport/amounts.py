@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 from sandbox import units
 from sandbox.errors import RequestError
+from sandbox.renamed import name_old_names
 
 
 class Step(NamedTuple):
@@ -24,8 +25,8 @@ class Step(NamedTuple):
 
 Ladder = Sequence[Step]
 
-#: How people write numbers of a unit, the largest first; one that is not here has three figures.
-LADDERS: dict[str, Ladder] = {
+#: The steps by which numbers of a unit are written, the largest first; a unit that is not here has three figures.
+DISPLAY_UNITS: dict[str, Ladder] = {
     "m": (Step(10_000, "km", 1), Step(10, "m", 1), Step(0.0995, "m", 2), Step(0.0005, "cm", 1), Step(0, "m", 2)),
     "m/s": (Step(10, "m/s", 1), Step(0, "m/s", 2)),
     "yd": (Step(20, "yd", 0), Step(0, "yd", 1)),
@@ -37,7 +38,7 @@ LADDERS: dict[str, Ladder] = {
     "N": (Step(9995, "kN", 1), Step(9.995, "N", 1), Step(0.0995, "N", 2), Step(0, "mN", 0)),
 }
 
-#: What takes the place of those, by kind of unit; the ladders are in the kind's SI unit.
+#: The ladders that replace those, by kind of unit; they are in the kind's SI unit.
 SYSTEMS: dict[str, Mapping[str, Ladder]] = {
     "si": {},
     "us": {
@@ -64,7 +65,7 @@ def system_of(text: str) -> Mapping[str, Ladder]:
             raise RequestError(
                 f'--units {text}: must be us, si or a list of units such as ft,mph, not "{given.strip()}"'
             )
-    found = {units.KIND_OF[name]: LADDERS.get(name, (Step(0, name, 2),)) for name in names}
+    found = {units.KIND_OF[name]: DISPLAY_UNITS.get(name, (Step(0, name, 2),)) for name in names}
     if len(found) < len(names):
         raise RequestError(f"--units {text}: two are of one kind; give one unit for each kind")
     return found
@@ -98,7 +99,7 @@ def ladder(unit: str) -> Ladder:
     """Return the steps by which numbers of a unit are written now; empty for one with three figures."""
     own = _ladders().get(units.KIND_OF.get(unit, ""))
     if own is None:
-        return LADDERS.get(unit, ())
+        return DISPLAY_UNITS.get(unit, ())
     first = next(iter(units.KINDS[units.KIND_OF[unit]])) if len(own) > 1 else unit
     return [Step(units.convert(step.least, first, unit), *step[1:]) for step in own]
 
@@ -121,7 +122,7 @@ def amount(value: float, unit: str = "", digits: int | None = None) -> str:
 
 def converted(value: float, unit: str, other: str) -> str:
     """A number of ``unit`` written in the unit ``other``, whatever was chosen."""
-    return written(units.convert(value, unit, other), other, LADDERS.get(other, (Step(0, other, 2),)))
+    return written(units.convert(value, unit, other), other, DISPLAY_UNITS.get(other, (Step(0, other, 2),)))
 
 
 def exact(value: float, unit: str) -> str:
@@ -141,7 +142,7 @@ def in_both(value: float, unit: str, other: str, digits: int | None = None) -> t
     if own is None:
         return amount(value, unit, digits), second
     first = second if any(step.unit == other for step in own) else amount(value, unit)
-    return first, written(value, unit, LADDERS[unit]) if unit in LADDERS else f"{value:.3g} {unit}"
+    return first, written(value, unit, DISPLAY_UNITS[unit]) if unit in DISPLAY_UNITS else f"{value:.3g} {unit}"
 
 
 def margin(error: float, unit: str, count: bool = False) -> str:
@@ -174,8 +175,8 @@ def signed(number: str) -> str:
     return number.replace("-", "−") if float(number) else number.lstrip("-")
 
 
-def twice(length: float, other: str) -> str:
-    """A length in m on a picture, in two units: ``252.3 m   276 yd``."""
+def in_two_units(length: float, other: str) -> str:
+    """Return a length in m for a picture, in two units: ``252.3 m   276 yd``."""
     return "   ".join(in_both(length, "m", other))
 
 
@@ -213,7 +214,10 @@ def times(factor: float) -> str:
     return f"{factor:.{0 if factor >= 9.95 else 1}f} times"
 
 
-def nice(least: float) -> float:
-    """The smallest of 1, 2, 5, 10, 20, ... times a power of ten that is at least this."""
-    power = 10.0 ** floor(log10(least))
-    return next(factor * power for factor in (1, 2, 5, 10) if factor * power >= least * 0.999)
+def round_number_above(value: float) -> float:
+    """The smallest of 1, 2 and 5 times powers of ten that is at least this."""
+    power = 10.0 ** floor(log10(value))
+    return next(factor * power for factor in (1, 2, 5, 10) if factor * power >= value * 0.999)
+
+
+name_old_names(__name__)

@@ -2,7 +2,7 @@
 
 A scene defines them next to its parameters::
 
-    CONTROLS = Controls(strongest=90.0, spins=(Spin("launch.spin", 100.0),), sliders=("launch.speed", "air.wind"))
+    CONTROLS = Controls(full_pull_speed=90.0, spins=(Spin("launch.spin", 100.0),), sliders=("launch.speed", "air.wind"))
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from sandbox.parameters import Group, every_key
+from sandbox.renamed import with_old_fields_named
 from sandbox.text import nearest, no_such_result
 
 
@@ -23,23 +24,23 @@ class Spin:
     step: float
 
 
+@with_old_fields_named
 @dataclass(frozen=True)
 class Spread:
     """The precision of a practised player at a parameter: a standard deviation of ``share`` times its value, or at
-    least ``least``.
-
-    ``least`` is in the parameter's unit.
+    least ``minimum``, which is in the parameter's unit.
     """
 
     key: str
     share: float = 0.0
-    least: float = 0.0
+    minimum: float = 0.0
 
     def sigma(self, value: float) -> float:
         """Standard deviation around a value."""
-        return max(self.share * abs(value), self.least)
+        return max(self.share * abs(value), self.minimum)
 
 
+@with_old_fields_named
 @dataclass(frozen=True)
 class Handle:
     """A place to drag in the picture: ``Handle("hoop.distance", "hoop.height")`` is at (distance, height) in m.
@@ -50,13 +51,13 @@ class Handle:
 
     x: str = ""
     y: str = ""
-    #: Where it is (m), from the parameters, if that is not what its keys say.
+    #: Its position (m), from the parameters, if that is not what its keys say.
     at: Callable[[Any], tuple[float, float]] | None = None
     with_y: tuple[str, ...] = ()  # keys of what moves up and down with it, such as the board behind a hoop
     where: str = ""  # the switch without which there is none
     goal: bool = False  # whether a shot that gets there scores
     #: From the parameters to the changes without which the keys have no effect, such as a rack that is broken up.
-    first: Callable[[Any], Mapping[str, Any]] | None = None
+    prerequisites: Callable[[Any], Mapping[str, Any]] | None = None
 
 
 @dataclass(frozen=True)
@@ -73,17 +74,19 @@ class Goal:
     vary: Mapping[str, tuple[float, float]] = field(default_factory=dict)
 
 
+@with_old_fields_named
 @dataclass(frozen=True)
 class Controls:
     """The controls of a scene: most fields are keys of parameters."""
 
     speed: str = "launch.speed"
     angle: str = "launch.angle"  # deg, counter-clockwise from +x
-    strongest: float = 30.0  # the highest speed of a full pull, in the speed's unit
+    full_pull_speed: float = 30.0  # the highest speed of a full pull, in the speed's unit
     softest: float = 0.05  # the speed of the shortest pull, as a share of the scene file's
     spins: tuple[Spin, ...] = ()  # of the wheel, and of the wheel with Shift
     ball: str = "ball"  # the ball that is pulled: its name, or the key that holds its name
-    also: Mapping[str, Any] = field(default_factory=dict)  # what else a pull sets, such as how the shot begins
+    #: Other parameters that a pull sets, such as how the shot begins.
+    set_on_pull: Mapping[str, Any] = field(default_factory=dict)
     sliders: tuple[str, ...] = ()  # shown first; ``balls[0].mass`` is of an entry of a list
     handles: tuple[Handle, ...] = ()
     #: From the parameters to what a shot can be found for, besides the handles that are goals.
@@ -96,7 +99,7 @@ class Controls:
     #: same way.
     next_start: Callable[[Any, Any], Mapping[str, Any]] | None = None
 
-    def mistake(self, schema: type[Group], facts: Sequence[str]) -> str | None:
+    def problem(self, schema: type[Group], facts: Sequence[str]) -> str | None:
         """The problem with these controls for a scene with such parameters and facts, in a line; or None."""
         for name, kind in (("sliders", str), ("handles", Handle), ("spins", Spin), ("spread", Spread)):
             entries = getattr(self, name)
@@ -119,7 +122,7 @@ class Controls:
             "speed": [self.speed] if self.speed != Controls.speed else [],
             "angle": [self.angle] if self.angle != Controls.angle else [],
             "spins": [spin.key for spin in self.spins],
-            "also": [*self.also],
+            "set_on_pull": [*self.set_on_pull],
             "sliders": [key.partition("[")[0] for key in self.sliders],
             "handles": [
                 key.partition("[")[0] for it in self.handles for key in (it.x, it.y, *it.with_y, it.where) if key

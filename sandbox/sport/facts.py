@@ -3,7 +3,7 @@
 A scene lists them, the most important first, and adds one sentence::
 
     FACTS = (
-        Fact("carry", "carry", "m", carry, settled="ground"),
+        Fact("carry", "carry", "m", carry, final_when="ground"),
         Fact("apex", "apex", "m", lambda run, parameters: run.highest("ball")[1][1]),
     )
 
@@ -24,6 +24,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from weakref import ref
 
 from sandbox import units
+from sandbox.renamed import name_old_names, with_old_fields_named
 from sandbox.sport.amounts import amount, in_both, margin, metres
 
 if TYPE_CHECKING:
@@ -32,15 +33,16 @@ if TYPE_CHECKING:
 
 #: ``"start"``, ``"end"``, the name of what must have been touched, or a function of the parameters that gives the
 #: condition.
-Settled = str | Callable[[Any], "Until"]
+FinalWhen = str | Callable[[Any], "Until"]
 Value = TypeVar("Value")
 
 
+@with_old_fields_named
 @dataclass(frozen=True)
 class Fact:
     """One result of a run: a number with its unit, a word, true or false, or a list of words.
 
-    ``how(run, parameters)`` gives the value in ``unit``, None if it did not happen. ``settled`` says when it
+    ``compute(run, parameters)`` returns the value in ``unit``, None if it did not happen. ``final_when`` says when it
     can no longer change: ``"start"``, ``"end"``, the first touch of a surface or ball of that name (``"floor"``), or
     a function of the parameters that gives a condition as for the end of a run.
     """
@@ -48,8 +50,8 @@ class Fact:
     key: str  # its name in the result, in JSON and CSV
     label: str  # on cards; "" leaves it out of them
     unit: str  # "" for a value without one
-    how: Callable[[Run, Any], Any]
-    settled: Settled = "end"
+    compute: Callable[[Run, Any], Any]
+    final_when: FinalWhen = "end"
     also: str = ""  # a second unit that is common in the sport, shown where there is room
     sides: tuple[str, str] | None = None  # words for below and above zero, in place of a sign
     where: Callable[[Run, Any], bool] | None = None  # on cards only where this holds
@@ -78,7 +80,7 @@ class Fact:
         if self.also:
             first, second = in_both(size, self.unit, self.also, self.digits)
         words = [first]
-        if error is not None and self.settled != "start":
+        if error is not None and self.final_when != "start":
             words.append(margin(error, self.unit, isinstance(value, int)))
         if self.sides and value:
             words.append(self.sides[value > 0.0])
@@ -87,23 +89,23 @@ class Fact:
         return " ".join(filter(None, words))
 
 
-def once(how: Callable[[Run, Any], Value]) -> Callable[[Run, Any], Value]:
+def cached_per_run(compute: Callable[[Run, Any], Value]) -> Callable[[Run, Any], Value]:
     """Cache a value that several facts are computed from, such as the landing: computed once for each run."""
     last: list[tuple[ref[Run], Any, Value]] = []
 
-    @wraps(how)
+    @wraps(compute)
     def remembered(run: Run, parameters: Any) -> Value:
         for known, by, value in last:
             if known() is run and by is parameters:
                 return value
-        value = how(run, parameters)
+        value = compute(run, parameters)
         last[:] = [(ref(run), parameters, value)]
         return value
 
     return remembered
 
 
-def mistake_in(facts: Any) -> str | None:
+def problem_with(facts: Any) -> str | None:
     """The problem with a scene's FACTS, as the end of a message; None if there is none."""
     if not isinstance(facts, tuple | list):
         return f" must be a tuple of facts, but is {facts!r}"
@@ -117,9 +119,9 @@ def mistake_in(facts: Any) -> str | None:
             return f": two are called {fact.key}"
         keys.add(fact.key)
         try:
-            signature(fact.how).bind("run", "parameters")
+            signature(fact.compute).bind("run", "parameters")
         except TypeError as error:
-            return f": {fact.key} is computed as how(run, parameters): {error}"
+            return f": {fact.key} is computed as compute(run, parameters): {error}"
         for unit in (fact.unit, fact.also):
             if unit not in units.KIND_OF:
                 return f': {fact.key} has the unit "{unit}", which is not known'
@@ -146,3 +148,6 @@ def fallback_verdict(run: Run, parameters: Any) -> str:
     """The verdict of a scene that defines none."""
     how = {"rest": "At rest", "duration": "Still moving"}.get(run.ended, "Over")
     return f"{how} after {run.duration:.2f} s, {metres(_travelled(run, parameters))} from the start"
+
+
+name_old_names(__name__)

@@ -1,4 +1,4 @@
-"""A ball that is played over a net: what stands in its way, where it comes down, and whether that is in.
+"""A ball that is played over a net: the net and court in its way, its landing, and the outcome.
 
 x = 0 is the player's own end line, the net stands in the middle, and y = 0 is the court.
 """
@@ -14,12 +14,13 @@ from sandbox.engine.model.surface import Bounce, Segment, Surface
 from sandbox.engine.paths.run import Event, Run
 from sandbox.parameters import Group, group, quantity
 from sandbox.physics.court import cross_restitution
+from sandbox.renamed import name_old_names
 from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Handle
-from sandbox.sport.facts import Fact, once
+from sandbox.sport.facts import Fact, cached_per_run
 from sandbox.sport.flight import Flight
-from sandbox.sport.readings import Moment, apex, at, before, passing_at
+from sandbox.sport.readings import Moment, apex, before, fact_from, passing_at
 from sandbox.sport.solids import Solid
 
 
@@ -74,7 +75,7 @@ class CourtBounce:
         return Bounce(restitution, court.friction, tangential=court.tangential)
 
 
-#: What is dragged of net and court.
+#: The parts of net and court that can be dragged.
 HANDLES = (
     Handle(y="net.height", at=lambda parameters: (parameters.middle, parameters.net.height)),
     Handle("court.length", goal=True),
@@ -103,11 +104,11 @@ class Bounces(Until):
 
 
 def is_down(parameters: Any) -> Until:
-    """When the ball has come down, the facts of its flight are final."""
+    """The condition at which the facts of the flight are final: the ball has come down."""
     return Bounces()
 
 
-@once
+@cached_per_run
 def landing(run: Run, parameters: Any) -> Moment | None:
     """The ball just before it comes down."""
     return next((before(run, event.t) for event in bounces(run.events)), None)
@@ -121,20 +122,21 @@ def rebound(run: Run, parameters: Any) -> Moment | None:
 #: The ball as it passes the far end line; as it passes the net; and the gap in m between the two there, negative if it
 #: passes below the upper edge.
 at_baseline, at_net = passing_at(lambda it: it.court.length), passing_at(lambda it: it.middle)
-net_clearance = at(at_net, lambda ball, it: ball.y - it.ball.radius - it.net.height)
+net_clearance = fact_from(at_net, lambda ball, it: ball.y - it.ball.radius - it.net.height)
 
 
-def taken(run: Run, parameters: Any) -> float:
-    """When the other player takes the ball, in s: a little beyond the end line; at the end if it does not get there, or
-    only comes down beyond it."""
+def received_at(run: Run, parameters: Any) -> float:
+    """The time in s at which the other player receives the ball: a little beyond the end line; the run's end if it does
+    not get there, or only comes down beyond it."""
     passed, landed = at_baseline(run, parameters), landing(run, parameters)
     if passed is None or landed is None or landed.t > passed.t:
         return run.duration
     return min(run.duration, passed.t + 0.15)
 
 
-def word(run: Run, parameters: Any) -> str:
-    """in; long, beyond the limit; net, into or under it; short, on the player's own side; gone, never down."""
+def outcome(run: Run, parameters: Any) -> str:
+    """The outcome in a word: in; long, beyond the limit; net, into or under it; short, on the player's own side; gone,
+    never down."""
     landed, gap = landing(run, parameters), net_clearance(run, parameters)
     if landed is None:
         return "gone"
@@ -145,15 +147,15 @@ def word(run: Run, parameters: Any) -> str:
     return "in" if landed.x <= parameters.limit[0] else "long"
 
 
-#: Whether the ball is in, and how it got there.
+#: The outcome, and the flight until then.
 FACTS = (
-    Fact("in", "", "", lambda run, parameters: word(run, parameters) == "in", is_down),
-    Fact("verdict", "", "", word, is_down),
+    Fact("in", "", "", lambda run, parameters: outcome(run, parameters) == "in", is_down),
+    Fact("verdict", "", "", outcome, is_down),
     Fact("net_clearance", "over the net", "m", net_clearance, is_down),
-    Fact("landing", "landing", "m", at(landing, "x"), is_down),
-    Fact("landing_speed", "landing speed", "m/s", at(landing, "speed"), is_down, also="km/h"),
+    Fact("landing", "landing", "m", fact_from(landing, "x"), is_down),
+    Fact("landing_speed", "landing speed", "m/s", fact_from(landing, "speed"), is_down, also="km/h"),
     Fact("apex", "apex", "m", apex, is_down),
-    Fact("flight_time", "flight time", "s", at(landing, "t"), is_down),
+    Fact("flight_time", "flight time", "s", fact_from(landing, "t"), is_down),
 )
 
 
@@ -163,14 +165,14 @@ def _kept(run: Run, parameters: Any) -> float | None:
     return up.vx / down.vx if down is not None and up is not None and down.vx else None
 
 
-#: What the bounce makes of the ball, in a game in which it is played after that.
+#: The ball after the bounce, in a game in which it is played after that.
 BOUNCE_FACTS = (
-    Fact("landing_angle", "", "deg", at(landing, "descent"), is_down),
-    Fact("bounce_speed", "after the bounce", "m/s", at(rebound, "speed"), is_down),
-    Fact("bounce_angle", "rises at", "deg", at(rebound, lambda ball, _: -ball.descent), is_down),
-    Fact("bounce_spin", "", "rpm", at(rebound, "rpm"), is_down),
+    Fact("landing_angle", "", "deg", fact_from(landing, "descent"), is_down),
+    Fact("bounce_speed", "after the bounce", "m/s", fact_from(rebound, "speed"), is_down),
+    Fact("bounce_angle", "rises at", "deg", fact_from(rebound, lambda ball, _: -ball.descent), is_down),
+    Fact("bounce_spin", "", "rpm", fact_from(rebound, "rpm"), is_down),
     Fact("speed_kept", "", "", _kept, is_down),
-    Fact("baseline_speed", "", "m/s", at(at_baseline, "speed")),
+    Fact("baseline_speed", "", "m/s", fact_from(at_baseline, "speed")),
 )
 
 
@@ -184,3 +186,6 @@ def verdict(run: SceneRun, parameters: Any) -> str:
     if said == "short":
         return f"Comes down on its own side, {roughly(abs(parameters.middle - landed))} from the net"
     return "Into the net" if said == "net" else "Did not come down"
+
+
+name_old_names(__name__)

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from sandbox.engine.model.setup import Touches
 from sandbox.engine.model.shapes import Vector
 from sandbox.physics.elementwise import maximum, minimum
+from sandbox.renamed import name_old_names
 from sandbox.sport.amounts import amount
-from sandbox.sport.facts import Fact, once
+from sandbox.sport.facts import Fact, cached_per_run
 from sandbox.sport.flight import RPM
 
 if TYPE_CHECKING:
@@ -50,7 +51,7 @@ class Moment(NamedTuple):
         return degrees(atan2(0.0 - self.vy, abs(self.vx)))
 
 
-#: What can be read from a moment.
+#: The names of everything that can be read from a moment.
 MOMENT = (*Moment._fields, *(name for name, what in vars(Moment).items() if isinstance(what, property)))
 
 
@@ -60,19 +61,19 @@ def words_of(run: Run, event: Event, several: bool = True) -> tuple[str, ...]:
     return amount(event.t, "s"), *([event.ball] if several else []), event.kind, event.partner, speed
 
 
-def at(moment: Callable[[Run, Any], Any], what: str | Callable[[Any, Any], Any]) -> Callable[[Run, Any], Any]:
-    """The function that reads a fact from what another function finds, None if that finds nothing: ``at(landing,
-    "speed")`` of a Moment, or ``at(landing, lambda ball, parameters: ...)`` of anything."""
+def fact_from(moment: Callable[[Run, Any], Any], what: str | Callable[[Any, Any], Any]) -> Callable[[Run, Any], Any]:
+    """Return a function that reads a fact from what ``moment`` finds, None if that finds nothing: ``fact_from(landing,
+    "speed")`` of a Moment, or ``fact_from(landing, lambda ball, parameters: ...)`` of anything."""
     if isinstance(what, str) and not hasattr(Moment, what):
-        raise ValueError(f'at(..., "{what}"): a Moment has {", ".join(MOMENT)}')
+        raise ValueError(f'fact_from(..., "{what}"): a Moment has {", ".join(MOMENT)}')
 
-    def how(run: Run, parameters: Any) -> Any:
+    def compute(run: Run, parameters: Any) -> Any:
         found = moment(run, parameters)
         if found is None:
             return None
         return getattr(found, what) if isinstance(what, str) else what(found, parameters)
 
-    return how
+    return compute
 
 
 def before(run: Run, t: float, ball: str = "ball") -> Moment:
@@ -97,8 +98,8 @@ def passing(run: Run, x: float, ball: str = "ball") -> Moment | None:
 
 
 def passing_at(place: Callable[[Any], float]) -> Callable[[Run, Any], Moment | None]:
-    """The function that finds the ball as it first passes the x (m) that the parameters say."""
-    return once(lambda run, parameters: passing(run, place(parameters)))
+    """Return a function that finds the ball as it first passes the x (m) that the parameters say."""
+    return cached_per_run(lambda run, parameters: passing(run, place(parameters)))
 
 
 @dataclass(frozen=True)
@@ -141,13 +142,13 @@ def start(run: Run, parameters: Any) -> Moment:
     return Moment(0.0, *ball.position, *ball.velocity, ball.spin)
 
 
-def coming_to(name: str) -> Callable[[Run, Any], Moment | None]:
-    """The function that finds the ball just before it first meets the surface of that name."""
+def first_contact_with(name: str) -> Callable[[Run, Any], Moment | None]:
+    """Return a function that finds the ball just before it first touches the surface of that name."""
 
-    def how(run: Run, parameters: Any) -> Moment | None:
+    def compute(run: Run, parameters: Any) -> Moment | None:
         return next((before(run, event.t) for event in run.events if event.partner == name), None)
 
-    return once(how)
+    return cached_per_run(compute)
 
 
 def apex(run: Run, parameters: Any) -> float:
@@ -156,9 +157,9 @@ def apex(run: Run, parameters: Any) -> float:
 
 
 def launch_value(what: str) -> Callable[[Run, Any], Any]:
-    """The function that reads a value of the launch, as it was given: -28.8 deg, though its sine and cosine have lost
-    the last digit of that."""
-    return at(start, lambda ball, parameters: round(getattr(ball, what), _DIGITS))
+    """Return a function that reads a value of the launch, as it was given: -28.8 deg, though its sine and cosine have
+    lost the last digit of that."""
+    return fact_from(start, lambda ball, parameters: round(getattr(ball, what), _DIGITS))
 
 
 #: Digits after the point that are left of a value that was converted to a velocity or rad/s and back.
@@ -167,12 +168,15 @@ _DIGITS = 10
 BALL_SPEED = Fact("ball_speed", "ball speed", "m/s", launch_value("speed"), "start")
 LAUNCH_ANGLE = Fact("launch_angle", "launch", "deg", launch_value("direction"), "start")
 LAUNCH_SPIN = Fact("launch_spin", "spin", "rpm", launch_value("rpm"), "start", sides=("topspin", "backspin"))
-#: How the ball was launched, seen from the side.
+#: The launch of the ball, seen from the side.
 LAUNCH = (BALL_SPEED, LAUNCH_ANGLE, LAUNCH_SPIN)
 
-landing = coming_to("ground")
-#: How far and how high it flew, and how it came down on the surface "ground".
-DISTANCE = Fact("distance", "distance", "m", at(landing, "x"), "ground", also="ft")
+landing = first_contact_with("ground")
+#: Its distance, height and time of flight, and its landing on the surface "ground".
+DISTANCE = Fact("distance", "distance", "m", fact_from(landing, "x"), "ground", also="ft")
 APEX = Fact("apex", "apex", "m", apex, "ground", also="ft")
-FLIGHT_TIME = Fact("flight_time", "flight time", "s", at(landing, "t"), "ground")
-LANDING_ANGLE = Fact("landing_angle", "comes down at", "deg", at(landing, "descent"), "ground")
+FLIGHT_TIME = Fact("flight_time", "flight time", "s", fact_from(landing, "t"), "ground")
+LANDING_ANGLE = Fact("landing_angle", "comes down at", "deg", fact_from(landing, "descent"), "ground")
+
+
+name_old_names(__name__)

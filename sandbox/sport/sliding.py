@@ -1,5 +1,4 @@
-"""Bodies that slide or roll on a plane seen from above: how one is launched, where they lie in the end, what took them
-off."""
+"""Bodies that slide or roll on a plane seen from above: launch, collisions, removal, and the positions at the end."""
 
 from __future__ import annotations
 
@@ -13,6 +12,7 @@ from sandbox.engine.model.surface import Trap
 from sandbox.engine.motion.on_plane import slowest_hop
 from sandbox.errors import RequestError
 from sandbox.parameters import SceneParameters, group, quantity
+from sandbox.renamed import name_old_names
 from sandbox.sport.facts import Fact
 from sandbox.sport.flight import DEGREE, RPM, Directed
 from sandbox.sport.solids import Solid
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 #: Chords of a rounded corner: their directions are 0.7 deg off at most.
 CHORDS = 64
 
-#: How far beyond a line bodies are taken, in m.
+#: Bodies are removed up to this distance beyond a line, in m.
 _REACH = 2.0
 
 
@@ -66,7 +66,7 @@ class Body(Solid):
 
 
 def beyond(name: str, a: Vector, b: Vector, gap: float = 0.0, only: Sequence[str] = ()) -> Trap:
-    """Takes a body whose centre is more than ``gap`` m beyond a line, to the right on the way from a to b."""
+    """A trap that removes bodies whose centre is more than ``gap`` m beyond a line, to its right from a to b."""
     length = dist(a, b)
     nx, ny = (b[1] - a[1]) / length, (a[0] - b[0]) / length
     out = gap + _REACH
@@ -74,7 +74,7 @@ def beyond(name: str, a: Vector, b: Vector, gap: float = 0.0, only: Sequence[str
 
 
 def beside(name: str, side: float, near: float, far: float, gap: float = 0.0, only: Sequence[str] = ()) -> list[Trap]:
-    """Takes a body more than ``gap`` m beyond a line on either side, at y = +-side, from x = near to far (m)."""
+    """Traps that remove bodies more than ``gap`` m beyond a line on either side: y = +-side, x = near to far (m)."""
     return [
         beyond(name, (far, side), (near, side), gap, only),
         beyond(name, (near, -side), (far, -side), gap, only),
@@ -91,11 +91,11 @@ def rounded(length: float, width: float, corner: float, opening: float) -> list[
     return [(x, 0.5 * opening), *corners, (x, -0.5 * opening)]
 
 
-def meetings(run: Run) -> list[Event]:
-    """Every meeting of two bodies, of a body with a surface, and of one with what takes it off. The hops of bodies that
-    are pressed together count as one meeting."""
+def all_collisions(run: Run) -> list[Event]:
+    """Every collision of two bodies, of a body with a surface, and of one with a trap. The hops of bodies that are
+    pressed together count as one."""
     hop = 1.001 * slowest_hop(run.setup, run.accuracy.hop)
-    last: dict[str, str] = {}  # what each body met last
+    last: dict[str, str] = {}  # with what each body collided last
     found = []
     for event in (event for event in run.events if event.kind in ("impact", "caught")):
         if event.speed > hop or last.get(event.ball) != event.partner:
@@ -104,9 +104,9 @@ def meetings(run: Run) -> list[Event]:
     return found
 
 
-def met(run: Run, name: str) -> list[tuple[str, Event]]:
-    """The collisions of a body in order, up to its removal: the name of what it met, and the event."""
-    return [(e.partner if e.ball == name else e.ball, e) for e in meetings(run) if name in (e.ball, e.partner)]
+def collisions_of(run: Run, name: str) -> list[tuple[str, Event]]:
+    """The collisions of a body in order, up to its removal: the name of the other, and the event."""
+    return [(e.partner if e.ball == name else e.ball, e) for e in all_collisions(run) if name in (e.ball, e.partner)]
 
 
 def check_inside(balls: Sequence[Ball], length: float, width: float, corner: float) -> None:
@@ -121,8 +121,8 @@ def check_inside(balls: Sequence[Ball], length: float, width: float, corner: flo
             )
 
 
-def taken(run: Run) -> dict[str, str]:
-    """The catches that removed bodies, by the names of these, in order."""
+def removed_by(run: Run) -> dict[str, str]:
+    """The names of the traps that removed bodies, by the names of these, in order."""
     return {event.ball: event.partner for event in run.events if event.kind == "caught"}
 
 
@@ -133,14 +133,14 @@ def end_of(run: Run, name: str) -> Vector:
     return x, y
 
 
-def left(run: Run) -> dict[str, Vector]:
+def in_play(run: Run) -> dict[str, Vector]:
     """The final position of each body that was not removed, in m."""
-    off = taken(run)
+    off = removed_by(run)
     return {ball.name: end_of(run, ball.name) for ball in run.setup.balls if ball.name not in off}
 
 
-def aside(run: Run, name: str, launch: Slide) -> float:
-    """The distance in m by which a body ends to the left of the line on which it was launched, in m."""
+def lateral_offset(run: Run, name: str, launch: Slide) -> float:
+    """The distance in m by which a body ends to the left of the line on which it was launched."""
     (x, y), (x0, y0) = end_of(run, name), run.state(name, 0.0)[:2]
     way = launch.angle * DEGREE
     return (y - y0) * cos(way) - (x - x0) * sin(way)
@@ -153,3 +153,6 @@ def rest_time(run: Run, parameters: Any) -> float | None:
 
 
 REST_TIME = Fact("rest_time", "at rest after", "s", rest_time)
+
+
+name_old_names(__name__)

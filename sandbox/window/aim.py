@@ -14,12 +14,12 @@ from sandbox.window.session import Session
 FULL, SHORTEST, BORDER = 0.42, 60.0, 4.0
 #: A shorter pull in px is a click, not a shot.
 LEAST = 8.0
-#: A full pull gives this many times the scene's own speed, unless that is more than the scene's strongest.
+#: A full pull gives this many times the scene's own speed, unless that is more than its ``full_pull_speed``.
 HARDEST = 2.0
 #: At this share of a full pull the shot has the scene's own speed; near there a px changes the speed this many times as
 #: much as it would if the same px everywhere changed it by the same factor.
 OWN, EVENNESS = 0.6, 0.3
-#: A scene whose own speed is 0 is aimed with as if it were this share of its strongest.
+#: A scene whose own speed is 0 is aimed with as if it were this share of its ``full_pull_speed``.
 FROM_REST = 0.1
 #: What one press of a key changes: the angle in deg, the speed as a share of a full pull; a tenth with Shift.
 TURN, PUSH = 1.0, 0.01
@@ -47,8 +47,8 @@ def speeds(session: Session) -> Speeds:
     """The speeds within reach of a pull: scaled to the scene's own, since one pull serves putts and drives."""
     controls, parameter = session.controls, session.parameters.get(session.controls.speed)
     base = session.base_value(controls.speed)
-    own = base if isinstance(base, float) and base > 0 else FROM_REST * controls.strongest
-    low, high = controls.softest * own, min(controls.strongest, HARDEST * own)
+    own = base if isinstance(base, float) and base > 0 else FROM_REST * controls.full_pull_speed
+    low, high = controls.softest * own, min(controls.full_pull_speed, HARDEST * own)
     if parameter is not None:
         low, high = parameter.within(low), parameter.within(high)
     return Speeds(min(low, own), own, max(high, own))
@@ -103,7 +103,7 @@ class Pull:
             return None
         along, down = self.vector
         return {
-            **controls.also,
+            **controls.set_on_pull,
             controls.speed: speed.within(float(f"{self.speeds.at(self.share):.4g}")),
             controls.angle: _turned(angle, round(degrees(atan2(down / self.stretch, -along)), 2)),
         }
@@ -119,7 +119,7 @@ def nudged(session: Session, turn: float = 0.0, push: float = 0.0) -> dict[str, 
     if push and speed is not None:
         step = float(f"{PUSH * speeds(session).highest:.1g}")
         changes[controls.speed] = speed.within(round(speed.value + push * step, 6))
-    return {**controls.also, **changes} if changes else {}
+    return {**controls.set_on_pull, **changes} if changes else {}
 
 
 def spun(session: Session, which: int, notches: float) -> dict[str, Any]:
@@ -131,13 +131,13 @@ def spun(session: Session, which: int, notches: float) -> dict[str, Any]:
     if parameter is None:
         return {}
     value = round(parameter.value + notches * spin.step, 6)
-    return {**session.controls.also, spin.key: parameter.within(value)}
+    return {**session.controls.set_on_pull, spin.key: parameter.within(value)}
 
 
 def aimed(session: Session, speed: float, angle: float) -> dict[str, Any]:
     """The changes that aim with this speed and angle, in their units."""
     controls = session.controls
-    return {**controls.also, controls.speed: float(f"{speed:.4g}"), controls.angle: round(angle, 2)}
+    return {**controls.set_on_pull, controls.speed: float(f"{speed:.4g}"), controls.angle: round(angle, 2)}
 
 
 def _turned(parameter: Parameter, angle: float) -> float:

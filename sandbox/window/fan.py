@@ -60,9 +60,9 @@ class Cloud(NamedTuple):
 def spread_of(scene: Scene, width: float) -> dict[str, tuple[declared.Parameter, float]]:
     """Each parameter that a player does not hit exactly, and its standard deviation, ``width`` times the usual one."""
     controls, known = scene.controls, {p.key: p for p in declared.walk(scene.parameters)}
-    if any(known[key].value != value for key, value in controls.also.items()):
+    if any(known[key].value != value for key, value in controls.set_on_pull.items()):
         return {}  # the shot does not start as a player's does, so these parameters have no effect
-    spread = controls.spread or (Spread(controls.speed, SPEED), Spread(controls.angle, least=ANGLE))
+    spread = controls.spread or (Spread(controls.speed, SPEED), Spread(controls.angle, minimum=ANGLE))
     varied = [(known[item.key], item) for item in spread if item.key in known]
     sigmas = [(p, width * item.sigma(p.value)) for p, item in varied if isinstance(p.value, float)]
     return {p.key: (p, sigma) for p, sigma in sigmas if sigma > 0}
@@ -168,7 +168,7 @@ def cloud(
     if not spread:
         return Cloud((0, 0), (0, 0), b"", ("no fan: this shot does not start from the player's controls", ""), 0, 0, 0)
     asked = _asked(scene)
-    if quick and early and scene.settles(asked) is None:
+    if quick and early and scene.final_when(asked) is None:
         asked = [early]
     fan = _fan(scene, spread, asked, quick)
     fan.go_on(fan.left - len(elsewhere), FEWEST, QUICK)

@@ -134,7 +134,7 @@ def _differ(one: Found, other: Found) -> bool:
 
 def _found(scene: Scene, solution: Solution) -> Found:
     """A solution with its path, and how forgiving it is."""
-    values = {**scene.controls.also, **{key: float(f"{value:.6g}") for key, value in solution.values.items()}}
+    values = {**scene.controls.set_on_pull, **{key: float(f"{value:.6g}") for key, value in solution.values.items()}}
     aimed, speed = scene.changed(values), scene.controls.speed
     rooms = solution.region.room if solution.region is not None else {}
     if solution.interval is not None:

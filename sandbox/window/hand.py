@@ -10,7 +10,7 @@ import pygame
 
 from sandbox.picture.camera import Camera
 from sandbox.picture.palette import palette
-from sandbox.sport.amounts import nice
+from sandbox.sport.amounts import round_number_above
 from sandbox.window.canvas import Canvas
 from sandbox.window.handles import Grip
 from sandbox.window.layout import Layout
@@ -41,7 +41,7 @@ class Spot(NamedTuple):
 
     def step(self, snap: bool) -> float:
         """In which steps, in m or m/s, it is dragged."""
-        return nice((SNAPS * self.unit if snap else FINE) / self.camera.scale)
+        return round_number_above((SNAPS * self.unit if snap else FINE) / self.camera.scale)
 
     def dragged(self, before: Place, to: Place) -> Place:
         """The place that it is dragged to, in m or m/s, by a drag between two places in px."""

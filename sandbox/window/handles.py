@@ -27,7 +27,7 @@ class Grip:
     slopes: tuple[float, float]  # how far it moves along x and y per change of the parameters
     values: tuple[float, float]  # of the parameters
     bounds: list[tuple[float, float]]
-    first: dict[str, Any]
+    prerequisites: dict[str, Any]
     with_y: dict[str, float]  # what moves up and down with it: keys and values, m
 
     @property
@@ -49,7 +49,7 @@ class Grip:
                 found[key] = min(max(float(f"{round((value + (to - was) / slope) / step) * step:.9g}"), low), high)
         rise = found[self.keys[1]] - self.values[1] if self.keys[1] in found else 0.0
         carried = {key: max(0.0, float(f"{value + rise:.9g}")) for key, value in self.with_y.items()}
-        return {**self.first, **found, **carried}
+        return {**self.prerequisites, **found, **carried}
 
     def said(self, session: Session) -> str:
         """The parameters and their current values: ``hoop distance 4.19 m, height 3.05 m``."""
@@ -66,7 +66,7 @@ def grips(session: Session) -> list[Grip]:
     """The handles of the current scene."""
     scene, found = session.scene, []
     for handle in (*session.controls.handles, WIND):
-        first = dict(handle.first(scene.parameters)) if handle.first is not None else {}
+        first = dict(handle.prerequisites(scene.parameters)) if handle.prerequisites is not None else {}
         parameters = session.with_changes({**session.changes.values, **first}).parameters if first else scene.parameters
         for keys in _entries(handle, parameters):
             values = [value_at(parameters, key) if key else 0.0 for key in keys]

@@ -73,7 +73,7 @@ class Pad:
         if self.is_tip and far > self.most:
             across, up = across * self.most / far, up * self.most / far
         shares = (up, across) if self.is_tip else (across, up)
-        found = dict(self.session.controls.also)
+        found = dict(self.session.controls.set_on_pull)
         for parameter, share, reach in zip(self.spins, shares, self.reaches, strict=False):
             value = parameter.within(reach * min(max(share, -1.0), 1.0))
             found[parameter.key] = int(100 * value) / 100 if self.is_tip else float(f"{value:.3g}")

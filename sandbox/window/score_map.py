@@ -76,9 +76,9 @@ def score_map(scene: Scene, finer: int = 1) -> ScoreMap:
     keys, started = [controls.speed, controls.angle], perf_counter()
     if not controls.scores or any(not isinstance(getattr(known.get(key), "value", None), float) for key in keys):
         raise RequestError("no map: this scene defines no scoring")
-    if any(known[key].value != value for key, value in controls.also.items()):
+    if any(known[key].value != value for key, value in controls.set_on_pull.items()):
         raise RequestError("no map: this shot does not start from the player's controls")
-    usual = Spread(controls.speed, SPEED), Spread(controls.angle, least=ANGLE)
+    usual = Spread(controls.speed, SPEED), Spread(controls.angle, minimum=ANGLE)
     ends, middles = [], []
     for key, other, count in zip(keys, usual, COARSE, strict=True):
         parameter = known[key]

@@ -52,7 +52,9 @@ def without(scene: Scene, keys: Iterable[str]) -> tuple[Any, ...]:
 def scene_without_controls(scene: Scene) -> tuple[Any, ...]:
     """A scene without what a player aims with: speed, angle, spins, and how the shot begins."""
     controls = scene.controls
-    return without(scene, {controls.speed, controls.angle, *controls.also, *(spin.key for spin in controls.spins)})
+    return without(
+        scene, {controls.speed, controls.angle, *controls.set_on_pull, *(spin.key for spin in controls.spins)}
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,7 +105,7 @@ class Shot:
         """The first fact that is known before the end, such as where the ball lands; "" if there is none."""
         for key, fact in self.scene.facts.items():
             applies = fact.where is None or fact.where(self.run, self.scene.parameters)
-            if fact.settled not in ("start", "end") and applies:
+            if fact.final_when not in ("start", "end") and applies:
                 return key
         return ""
 
@@ -210,7 +212,7 @@ class Played:
             value = self.result.get(key)
             if not fact.label or not isinstance(value, int | float) or isinstance(value, bool):
                 continue
-            if fact.settled != "start" or not any(isclose(value, aim, rel_tol=1e-9) for aim in self.aim):
+            if fact.final_when != "start" or not any(isclose(value, aim, rel_tol=1e-9) for aim in self.aim):
                 found[key] = value  # and not speed or angle again
         return {controls.speed: self.aim[0], controls.angle: self.aim[1], **found}
 

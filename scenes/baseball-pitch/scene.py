@@ -14,7 +14,7 @@ from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spin
 from sandbox.sport.facts import ENDED, Fact
-from sandbox.sport.readings import LAUNCH, at, passing_at
+from sandbox.sport.readings import LAUNCH, fact_from, passing_at
 from sandbox.sport.solids import level
 
 from ..baseball.scene import BaseballFlight
@@ -37,7 +37,7 @@ class Parameters(BaseballFlight):
 
 
 CONTROLS = Controls(
-    strongest=45.0,
+    full_pull_speed=45.0,
     spins=(Spin("launch.spin", 100.0),),
     sliders=("release.height", "plate.distance", "plate.bottom", "plate.top", "air.elevation"),
     handles=(
@@ -80,13 +80,13 @@ def rise(run: Run, parameters: Parameters) -> float | None:
 
 
 FACTS = (
-    Fact("plate_height", "at the plate", "m", at(at_plate, "y"), settled="mitt"),
-    Fact("plate_speed", "speed there", "m/s", at(at_plate, "speed"), settled="mitt", also="mph"),
-    Fact("plate_angle", "falls at", "deg", at(at_plate, "descent"), settled="mitt"),
-    Fact("break", "break", "m", rise, settled="mitt", also="in", sides=("down", "up")),
-    Fact("flight_time", "flight time", "s", at(at_plate, "t"), settled="mitt"),
+    Fact("plate_height", "at the plate", "m", fact_from(at_plate, "y"), final_when="mitt"),
+    Fact("plate_speed", "speed there", "m/s", fact_from(at_plate, "speed"), final_when="mitt", also="mph"),
+    Fact("plate_angle", "falls at", "deg", fact_from(at_plate, "descent"), final_when="mitt"),
+    Fact("break", "break", "m", rise, final_when="mitt", also="in", sides=("down", "up")),
+    Fact("flight_time", "flight time", "s", fact_from(at_plate, "t"), final_when="mitt"),
     *LAUNCH,
-    Fact("strike", "", "", is_strike, settled="mitt"),
+    Fact("strike", "", "", is_strike, final_when="mitt"),
     ENDED,
 )
 

@@ -7,7 +7,7 @@ from functools import cached_property
 from sandbox.picture.palette import scene_colours
 from sandbox.picture.places import Landscape, Person, Post, Shape, turf
 from sandbox.picture.views import Box, Camera, Length, Look, Place, Sheet, SideView, seams
-from sandbox.sport.amounts import twice
+from sandbox.sport.amounts import in_two_units
 from sandbox.sport.readings import passing
 
 from .scene import Parameters
@@ -56,4 +56,4 @@ class Picture(SideView[Parameters]):
 
     def lengths(self) -> list[Length]:
         far = self.parameters.fence.distance
-        return [Length(f"fence {twice(far, 'ft')}", 0.0, far)]
+        return [Length(f"fence {in_two_units(far, 'ft')}", 0.0, far)]

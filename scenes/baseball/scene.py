@@ -22,7 +22,7 @@ from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spin
 from sandbox.sport.facts import ENDED, Fact
 from sandbox.sport.flight import RPM, Flight, Release, Sphere
-from sandbox.sport.readings import APEX, DISTANCE, FLIGHT_TIME, LANDING_ANGLE, LAUNCH, at, passing_at
+from sandbox.sport.readings import APEX, DISTANCE, FLIGHT_TIME, LANDING_ANGLE, LAUNCH, fact_from, passing_at
 from sandbox.sport.solids import level
 from sandbox.sport.swing import Bat, struck_by
 
@@ -70,9 +70,9 @@ class Parameters(BaseballFlight):
 
 
 CONTROLS = Controls(
-    strongest=55.0,
+    full_pull_speed=55.0,
     spins=(Spin("launch.spin", 100.0),),
-    also={"start": "launch"},
+    set_on_pull={"start": "launch"},
     sliders=("fence.distance", "fence.height", "air.elevation", "air.temperature", "air.wind"),
     handles=(Handle("fence.distance", "fence.height", goal=True), Handle("release.place", "release.height")),
     scores="home_run",
@@ -89,16 +89,18 @@ def build(parameters: Parameters) -> Setup:
 
 
 #: Gap in m between the ball and the top of the fence as it passes; negative if it would hit it.
-over_fence = at(passing_at(lambda it: it.fence.distance), lambda ball, it: ball.y - it.ball.radius - it.fence.height)
+over_fence = fact_from(
+    passing_at(lambda it: it.fence.distance), lambda ball, it: ball.y - it.ball.radius - it.fence.height
+)
 
 FACTS = (
     replace(DISTANCE, label="projected distance"),  # to the ground, as if there were no fence
-    Fact("over_fence", "over the fence", "m", over_fence, settled="ground", also="ft"),
+    Fact("over_fence", "over the fence", "m", over_fence, final_when="ground", also="ft"),
     APEX,
     replace(FLIGHT_TIME, key="hang_time", label="hang time"),
     LANDING_ANGLE,
     *LAUNCH,
-    Fact("home_run", "", "", lambda run, parameters: (over_fence(run, parameters) or -1.0) > 0.0, settled="ground"),
+    Fact("home_run", "", "", lambda run, parameters: (over_fence(run, parameters) or -1.0) > 0.0, final_when="ground"),
     ENDED,
 )
 

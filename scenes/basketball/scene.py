@@ -47,16 +47,16 @@ from sandbox.kit import (
     Vector,
     anywhere,
     apex,
-    at,
     below,
+    cached_per_run,
     check_apart,
     disc,
     down_to,
+    fact_from,
     group,
     level,
     maximum,
     minimum,
-    once,
     quantity,
     rectangle,
     roughly,
@@ -136,7 +136,7 @@ class Parameters(Flight):
 
 
 CONTROLS = Controls(
-    strongest=16.0,
+    full_pull_speed=16.0,
     spins=(Spin("launch.spin", 20.0),),
     sliders=("launch.speed", "launch.angle", "launch.spin", "release.height", "hoop.distance", "air.wind", "gravity"),
     handles=(
@@ -145,7 +145,7 @@ CONTROLS = Controls(
         Handle("backboard.gap", "backboard.top", at=lambda parameters: parameters.board[::3]),
     ),
     scores="made",
-    spread=(Spread("launch.speed", 0.01), Spread("launch.angle", least=1.0), Spread("launch.spin", 0.2)),  # assumed
+    spread=(Spread("launch.speed", 0.01), Spread("launch.angle", minimum=1.0), Spread("launch.spin", 0.2)),  # assumed
 )
 
 #: A shot still moving after this time in s is ended.
@@ -243,7 +243,7 @@ def falls_to(run: Run, parameters: Parameters, below: float = 0.0) -> Iterator[t
     return run.crossings("ball", (0.0, parameters.hoop.height - below), (0.0, 1.0))
 
 
-@once
+@cached_per_run
 def out(run: Run, parameters: Parameters) -> float | None:
     """When the ball left the ring below, between its inner edges, in s; None if it did not before it reached the
     floor."""
@@ -251,7 +251,7 @@ def out(run: Run, parameters: Parameters) -> float | None:
     return next((t for t, state in falls if inside(state, parameters) and t <= on_floor(run)), None)
 
 
-@once
+@cached_per_run
 def made(run: Run, parameters: Parameters) -> bool:
     """True if it had come down through the ring."""
     left = out(run, parameters)
@@ -266,7 +266,7 @@ def inside(state: State, parameters: Parameters) -> bool:
     return abs(state[0] - parameters.hoop.distance) < 0.5 * parameters.hoop.inner_diameter
 
 
-@once
+@cached_per_run
 def entry(run: Run, parameters: Parameters) -> Moment | None:
     """The ball as it first falls to the ring's height, or first touches something there if that is earlier."""
     ball = down_to(run, parameters.hoop.middle)
@@ -278,7 +278,7 @@ def beyond_middle(ball: Moment, it: Parameters) -> float:
     return ball.x - it.hoop.distance
 
 
-@once
+@cached_per_run
 def touches(run: Run, parameters: Parameters) -> list[str]:
     """The surfaces touched until the shot was decided: by leaving the ring below, by reaching the floor, or because the
     ball stays between ring and board."""
@@ -319,7 +319,7 @@ def decided(parameters: Parameters) -> Decided:
     return Decided("floor", 1, *hoop.across(ball.radius), (back, face, level), factors, needed)
 
 
-def word(run: Run, parameters: Parameters) -> str:
+def outcome(run: Run, parameters: Parameters) -> str:
     """swish; bank, off the board first; rim, off the ring first; miss."""
     if not made(run, parameters):
         return "miss"
@@ -329,12 +329,12 @@ def word(run: Run, parameters: Parameters) -> str:
 
 FACTS = (
     Fact("made", "", "", made, decided),
-    Fact("verdict", "", "", word, decided),
-    Fact("entry_angle", "entry angle", "deg", at(entry, "descent"), decided),
-    Fact("entry_speed", "entry speed", "m/s", at(entry, "speed"), decided),
-    Fact("entry_offset", "from centre", "m", at(entry, beyond_middle), decided, sides=("short", "long")),
+    Fact("verdict", "", "", outcome, decided),
+    Fact("entry_angle", "entry angle", "deg", fact_from(entry, "descent"), decided),
+    Fact("entry_speed", "entry speed", "m/s", fact_from(entry, "speed"), decided),
+    Fact("entry_offset", "from centre", "m", fact_from(entry, beyond_middle), decided, sides=("short", "long")),
     Fact("apex", "apex above hand", "m", lambda run, it: apex(run, it) - it.held, decided),
-    Fact("flight_time", "flight time", "s", at(entry, "t"), decided),
+    Fact("flight_time", "flight time", "s", fact_from(entry, "t"), decided),
     *LAUNCH,
     Fact("touches", "touches", "", touches, decided),
     ENDED,

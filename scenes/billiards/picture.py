@@ -8,10 +8,23 @@ from math import floor
 import numpy as np
 import pygame
 
-from sandbox.kit import AboveView, Area, Camera, Colour, Entry, Look, Painter, Sheet, mix, nice, palette, scene_colours
+from sandbox.kit import (
+    AboveView,
+    Area,
+    Camera,
+    Colour,
+    Entry,
+    Look,
+    Painter,
+    Sheet,
+    mix,
+    palette,
+    round_number_above,
+    scene_colours,
+)
 from sandbox.picture.places.plan import Ground, Line, Plan, Point, Spot, arc
 from sandbox.picture.places.table import Lamp, Pocket, Rails, Room, around, cushions, sights
-from sandbox.sport.sliding import met
+from sandbox.sport.sliding import collisions_of
 
 from . import balls
 from .scene import Parameters
@@ -118,7 +131,7 @@ class Picture(AboveView[Parameters]):
         if self.ball not in self._movers:
             return []
         end = max(arc.t1 for arc in self.run.arcs[self.ball] if not arc.rests)  # s, when it comes to rest
-        every = nice(end / DOTS)
+        every = round_number_above(end / DOTS)
         for i in range(1, floor(end / every) + 1):
             at = camera.pixel(*self.run.state(self.ball, i * every)[:2])
             painter.disc(at, max(1.0, 1.6 * unit), COLOURS["rim"])
@@ -192,7 +205,7 @@ class Picture(AboveView[Parameters]):
     def position(self, t: float) -> list[Entry]:
         """The number of balls that move, and of cushions that the struck one has met."""
         moving = sum(t < self.caught[name] and any(self.run.state(name, t)[2:4]) for name in self.balls)
-        rails = sum(name.endswith(" cushion") for name, event in met(self.run, self.ball) if event.t <= t)
+        rails = sum(name.endswith(" cushion") for name, event in collisions_of(self.run, self.ball) if event.t <= t)
         return [("moving", str(moving)), ("cushions", str(rails))]
 
 

@@ -43,11 +43,11 @@ from sandbox.kit import (
     Spin,
     Spread,
     Vector,
-    at,
+    cached_per_run,
     choice,
+    fact_from,
     group,
     groups,
-    once,
     one_of,
     quantity,
     roughly,
@@ -55,7 +55,7 @@ from sandbox.kit import (
     travelled,
 )
 from sandbox.physics.throw import friction_by_speed
-from sandbox.sport.sliding import REST_TIME, left, meetings, met, taken
+from sandbox.sport.sliding import REST_TIME, all_collisions, collisions_of, in_play, removed_by
 
 from .table import AnyTable, check, cushions, on_bed, traps
 
@@ -142,14 +142,14 @@ class Parameters(SceneParameters):
 CONTROLS = Controls(
     speed="cue.speed",
     angle="cue.angle",
-    strongest=12.0,
+    full_pull_speed=12.0,
     spins=(Spin("cue.follow", 0.05), Spin("cue.english", 0.05)),
     ball="cue.ball",
     sliders=("cue.speed", "cue.angle", "cue.follow", "cue.english", "rack", "cloth.rolling_friction", "ball.friction"),
-    handles=(Handle("balls[*].x", "balls[*].y", first=lambda parameters: placed(laid_out(parameters))),),
+    handles=(Handle("balls[*].x", "balls[*].y", prerequisites=lambda parameters: placed(laid_out(parameters))),),
     goals=lambda parameters: goals(parameters),
     scores="scored",
-    spread=(Spread("cue.speed", 0.03), Spread("cue.angle", least=0.2)),  # assumed
+    spread=(Spread("cue.speed", 0.03), Spread("cue.angle", minimum=0.2)),  # assumed
     next_start=lambda run, parameters: from_rest(run, parameters),
 )
 
@@ -193,7 +193,7 @@ def build(parameters: Parameters) -> Setup:
         list(balls.values()),
         surfaces,
         duration=LONGEST,
-        between_balls=SlowerThrowsMore(ball.restitution) if ball.friction is None else alike,
+        between_balls=SpeedDependentFriction(ball.restitution) if ball.friction is None else alike,
         plane=Cloth(cloth.sliding_friction, cloth.rolling_friction, cloth.spinning_friction, parameters.gravity),
         traps=traps(table),
         contact=ContactModel(parameters.contact.model, parameters.contact.stiffness),
@@ -201,7 +201,7 @@ def build(parameters: Parameters) -> Setup:
 
 
 @dataclass(frozen=True)
-class SlowerThrowsMore:
+class SpeedDependentFriction:
     """An impact of two balls with friction that falls with their sliding speed."""
 
     restitution: float
@@ -273,7 +273,9 @@ def check_spots(spots: Mapping[str, Vector], parameters: Parameters, obstacles: 
         where = f'ball "{name}" at ({place[0]:g}, {place[1]:g}) m'
         if not on_bed(parameters.table, *place):
             raise RequestError(f"{where} is off the table, whose noses are at x = +-{x_most:g} m, y = +-{y_most:g} m")
-        gap, cushion = min(((at.gap, wall.surface.name) for wall, at in touched(obstacles, *place)), default=(0.0, ""))
+        gap, cushion = min(
+            ((touch.gap, wall.surface.name) for wall, touch in touched(obstacles, *place)), default=(0.0, "")
+        )
         if gap < -ROUNDING:
             raise RequestError(f"{where} overlaps the {cushion} by {-1000.0 * gap:.3g} mm: its radius is {radius:g} m")
         for hole in traps(parameters.table):
@@ -309,7 +311,7 @@ def struck(parameters: Parameters) -> tuple[Vector, float, Vector]:
 
 def touches(run: Run, parameters: Parameters) -> list[str]:
     """The things that the struck ball met, in order: other balls, cushions and jaws, and the pocket it fell into."""
-    return [name for name, _ in met(run, parameters.cue.ball)]
+    return [name for name, _ in collisions_of(run, parameters.cue.ball)]
 
 
 def others(run: Run, parameters: Parameters) -> set[str]:
@@ -320,7 +322,7 @@ def others(run: Run, parameters: Parameters) -> set[str]:
 def first_contact(run: Run, parameters: Parameters) -> tuple[str, float] | None:
     """The first other ball that the struck one meets, and the speed in m/s at which they meet, along their surfaces
     included, as pictures say."""
-    events = met(run, parameters.cue.ball)
+    events = collisions_of(run, parameters.cue.ball)
     return next(((name, run.closing_speed(event)) for name, event in events if name in run.arcs), None)
 
 
@@ -340,16 +342,16 @@ def point(run: Run, parameters: Parameters) -> int | None:
 
 def scored(run: Run, parameters: Parameters) -> bool:
     """A point, or a ball potted without a scratch."""
-    caught = taken(run)
+    caught = removed_by(run)
     return point(run, parameters) is not None or (bool(caught) and parameters.cue.ball not in caught)
 
 
-@once
+@cached_per_run
 def leaving(run: Run, parameters: Parameters) -> dict[str, tuple[Moment, Moment]]:
     """Each ball as it leaves its first meeting with ball or cushion: just after it, and with the velocity that it has
     once it rolls, if it meets nothing before: ``v - 2/7 s``, with its slip s over the cloth."""
     radius, ways = parameters.ball.radius, dict[str, tuple[Moment, Moment]]()
-    for event in meetings(run):
+    for event in all_collisions(run):
         for name in {event.ball, event.partner} & (run.arcs.keys() - ways.keys()):
             arc = next((arc for arc in run.arcs[name] if arc.t1 > event.t), run.arcs[name][-1])
             _, t = arc.contact_span or (0.0, event.t)
@@ -371,21 +373,26 @@ def tip(run: Run, parameters: Parameters) -> str:
     return ", ".join(f"{abs(off):.2g} {words[off > 0]}" for off, words in offsets if off) or "centre"
 
 
+def _cushion_contacts(run: Run, parameters: Parameters) -> int:
+    """The number of collisions of balls with cushions."""
+    return sum(event.partner.endswith(" cushion") for event in all_collisions(run))
+
+
 FACTS = (
-    Fact("pockets", "potted", "", lambda run, parameters: taken(run), names=True),
-    Fact("first_contact", "first contact", "", at(first_contact, lambda meeting, it: meeting[0]), names=True),
+    Fact("pockets", "potted", "", lambda run, parameters: removed_by(run), names=True),
+    Fact("first_contact", "first contact", "", fact_from(first_contact, lambda meeting, it: meeting[0]), names=True),
     Fact("stroke", "stroke", "m/s", lambda run, parameters: parameters.cue.speed, "start"),
     Fact("tip", "tip", "", tip, "start"),
     Fact("cushions", "cushions", "", lambda run, it: sum(name.endswith(" cushion") for name in touches(run, it))),
-    Fact("contact_speed", "contact", "m/s", at(first_contact, lambda meeting, it: meeting[1])),
+    Fact("contact_speed", "contact", "m/s", fact_from(first_contact, lambda meeting, it: meeting[1])),
     Fact("path", "path", "m", lambda run, parameters: travelled(run, parameters.cue.ball)),
     REST_TIME,
-    Fact("rails", "cushions, all balls", "", lambda run, _: sum(e.partner.endswith(" cushion") for e in meetings(run))),
-    Fact("potted", "", "", lambda run, parameters: list(taken(run)), in_order=False, names=True),
-    Fact("scratch", "", "", lambda run, parameters: parameters.cue.ball in taken(run)),
+    Fact("rails", "cushions, all balls", "", _cushion_contacts),
+    Fact("potted", "", "", lambda run, parameters: list(removed_by(run)), in_order=False, names=True),
+    Fact("scratch", "", "", lambda run, parameters: parameters.cue.ball in removed_by(run)),
     Fact("point", "", "", point),
     Fact("scored", "", "", scored),
-    Fact("positions", "", "m", lambda run, parameters: {name: [*place] for name, place in left(run).items()}),
+    Fact("positions", "", "m", lambda run, parameters: {name: [*place] for name, place in in_play(run).items()}),
     Fact("leaving_speed", "", "m/s", of_leaving(0, "speed")),
     Fact("leaving_direction", "", "deg", of_leaving(0, "direction")),
     Fact("rolling_speed", "", "m/s", of_leaving(1, "speed")),

@@ -22,8 +22,8 @@ from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact
 from sandbox.sport.flight import DEGREE
-from sandbox.sport.readings import Moment, at, before
-from sandbox.sport.sliding import Body, Slide, Sliding, beside, beyond, end_of, met, taken
+from sandbox.sport.readings import Moment, before, fact_from
+from sandbox.sport.sliding import Body, Slide, Sliding, beside, beyond, collisions_of, end_of, removed_by
 
 #: USBC: from the foul line to the head pin, between pins and between their rows; from the head pin to the pit; half the
 #: widths of lane and lane with gutters; in m.
@@ -76,12 +76,16 @@ class Parameters(Sliding):
 
 
 CONTROLS = Controls(
-    strongest=14.0,
+    full_pull_speed=14.0,
     handles=(Handle(y="launch.aside"),),
     spins=(Spin("launch.spin", 20.0),),
     sliders=("launch.speed", "launch.angle", "launch.aside", "launch.spin", "launch.axis", "dry"),
     scores="strike",
-    spread=(Spread("launch.speed", 0.015), Spread("launch.angle", least=0.25), Spread("launch.spin", 0.05)),  # assumed
+    spread=(
+        Spread("launch.speed", 0.015),
+        Spread("launch.angle", minimum=0.25),
+        Spread("launch.spin", 0.05),
+    ),  # assumed
     next_start=lambda run, it: {"pin.standing": " ".join(run.result["leaves"]) or ALL},
 )
 
@@ -113,14 +117,14 @@ def build(parameters: Parameters) -> Setup:
 
 def _leaves(run: Run, parameters: Parameters) -> list[str]:
     """The pins that stand in the end."""
-    off, pins = taken(run), [ball.name for ball in run.setup.balls[1:]]
+    off, pins = removed_by(run), [ball.name for ball in run.setup.balls[1:]]
     return [name for name in pins if name not in off and dist(end_of(run, name), SPOTS[name]) <= parameters.pin.tips]
 
 
 def _met(run: Run, parameters: Parameters) -> dict[str, Moment]:
     """The pins that the ball meets itself, in order, and the ball just before."""
     first: dict[str, Moment] = {}
-    for name, event in met(run, "ball"):
+    for name, event in collisions_of(run, "ball"):
         if name in SPOTS:
             first.setdefault(name, before(run, event.t))
     return first
@@ -134,10 +138,10 @@ def _entry(run: Run, parameters: Parameters) -> Moment | None:
 FACTS = (
     Fact("pins", "pins", "", lambda run, it: len(run.setup.balls) - 1 - len(_leaves(run, it))),
     Fact("leaves", "leaves", "", _leaves, names=True),
-    Fact("entry_angle", "entry", "deg", at(_entry, "direction"), sides=ASIDE),
-    Fact("offset", "off the centre", "m", at(_entry, "y"), sides=ASIDE),
-    Fact("entry_speed", "at the pins", "m/s", at(_entry, "speed"), also="mph"),
-    Fact("time", "to the pins", "s", at(_entry, "t")),
+    Fact("entry_angle", "entry", "deg", fact_from(_entry, "direction"), sides=ASIDE),
+    Fact("offset", "off the centre", "m", fact_from(_entry, "y"), sides=ASIDE),
+    Fact("entry_speed", "at the pins", "m/s", fact_from(_entry, "speed"), also="mph"),
+    Fact("time", "to the pins", "s", fact_from(_entry, "t")),
     Fact("release", "release", "m/s", lambda run, it: it.launch.speed, "start", also="mph"),
     Fact("met", "", "", lambda run, it: list(_met(run, it)), names=True),
     Fact("strike", "", "", lambda run, it: len(run.setup.balls) > 10 and not _leaves(run, it)),
@@ -149,7 +153,7 @@ def verdict(run: SceneRun, parameters: Parameters) -> str:
     """Return the outcome in a sentence."""
     leaves, pins = run.result["leaves"], run.result["pins"]
     if not pins:
-        return "Gutter ball" if "ball" in taken(run) and taken(run)["ball"] == "gutter" else "No pin falls"
+        return "Gutter ball" if "ball" in removed_by(run) and removed_by(run)["ball"] == "gutter" else "No pin falls"
     if not leaves:
         return "Strike" if run.result["strike"] else "Spare"
     return f"{pins} down, leaves the {', '.join(leaves)}"

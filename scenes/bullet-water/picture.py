@@ -8,7 +8,7 @@ from math import cos, radians, sin
 
 from sandbox.picture.palette import scene_colours
 from sandbox.picture.places import Ground, Landscape, Post, Stripes
-from sandbox.picture.views import Box, Camera, Entry, Eye, Look, Place, Sheet, SideView, nice
+from sandbox.picture.views import Box, Camera, Entry, Eye, Look, Place, Sheet, SideView, round_number_above
 from sandbox.sport.amounts import amount, metres
 
 from .scene import Parameters, entry, halving, harmless
@@ -53,7 +53,7 @@ class Picture(SideView[Parameters]):
         """Mark depths, where a speed has halved, and where the bullet is harmless."""
         deepest = -float(self.points[:, 1].min())
         if deepest > 0.0:
-            step = nice(deepest / MARKS)
+            step = round_number_above(deepest / MARKS)
             for i in range(1, int(deepest / step) + 1):
                 x, y, text = sheet.frame.left, camera.pixel(0.0, -i * step)[1], f"{metres(i * step)} deep"
                 sheet.painter.dashes([(x, y), (sheet.frame.right, y)], self.unit, WATER["mark"], 6, 8, 0.35)

@@ -22,9 +22,9 @@ from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.air import Weather
 from sandbox.sport.amounts import metres
 from sandbox.sport.controls import Controls, Handle, Spread
-from sandbox.sport.facts import ENDED, Fact, once
+from sandbox.sport.facts import ENDED, Fact, cached_per_run
 from sandbox.sport.flight import Directed
-from sandbox.sport.readings import LAUNCH_ANGLE, Moment, at
+from sandbox.sport.readings import LAUNCH_ANGLE, Moment, fact_from
 
 from ..bullet.scene import MUZZLE_SPEED, Bullet
 
@@ -60,7 +60,7 @@ class Parameters(SceneParameters):
 
 CONTROLS = Controls(
     softest=0.3,
-    strongest=1000.0,
+    full_pull_speed=1000.0,
     handles=(Handle(y="launch.height"),),
     sliders=("bullet.mass", "bullet.radius", "water.coefficient", "launch.height", "harmless"),
     spread=(Spread("launch.speed", 0.02), Spread("water.coefficient", 0.3)),  # assumed
@@ -95,7 +95,7 @@ def entry(run: Run, parameters: Parameters) -> Moment | None:
     return next((Moment(t, *state) for t, state in run.crossings("ball", (0.0, 0.0), (0.0, 1.0))), None)
 
 
-@once
+@cached_per_run
 def harmless(run: Run, parameters: Parameters) -> Moment | None:
     """The bullet where it has become harmless in the water."""
     entered = entry(run, parameters)
@@ -117,10 +117,10 @@ def _way(run: Run, parameters: Parameters) -> float | None:
 
 FACTS = (
     Fact("penetration", "harmless after", "m", _way),
-    Fact("depth", "at a depth of", "m", at(harmless, lambda bullet, _: -bullet.y)),
-    Fact("halving", "speed halves every", "m", lambda run, parameters: halving(parameters), settled="start"),
-    Fact("entry_speed", "into the water at", "m/s", at(entry, "speed")),
-    Fact("flight_time", "", "s", at(harmless, "t")),
+    Fact("depth", "at a depth of", "m", fact_from(harmless, lambda bullet, _: -bullet.y)),
+    Fact("halving", "speed halves every", "m", lambda run, parameters: halving(parameters), final_when="start"),
+    Fact("entry_speed", "into the water at", "m/s", fact_from(entry, "speed")),
+    Fact("flight_time", "", "s", fact_from(harmless, "t")),
     MUZZLE_SPEED,
     LAUNCH_ANGLE,
     ENDED,

@@ -30,7 +30,7 @@ from sandbox.sport.amounts import amount, metres
 from sandbox.sport.controls import Controls, Handle, Spread
 from sandbox.sport.facts import ENDED, Fact
 from sandbox.sport.flight import DEGREE, Directed
-from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, Moment, apex, at, passing
+from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, Moment, apex, fact_from, passing
 
 MUZZLE_SPEED = replace(BALL_SPEED, label="muzzle speed")
 HUNDRED_YARDS = 91.44  # m
@@ -100,11 +100,11 @@ class Parameters(SceneParameters):
 
 CONTROLS = Controls(
     softest=0.3,
-    strongest=1000.0,
-    also={"zero.distance": 0.0},
+    full_pull_speed=1000.0,
+    set_on_pull={"zero.distance": 0.0},
     sliders=("bullet.coefficient", "zero.distance", "range.distance", "air.wind", "air.elevation", "air.temperature"),
     handles=(Handle("range.distance"), Handle("zero.distance")),
-    spread=(Spread("launch.speed", 0.005), Spread("launch.angle", least=0.02)),  # assumed
+    spread=(Spread("launch.speed", 0.005), Spread("launch.angle", minimum=0.02)),  # assumed
 )
 
 
@@ -165,14 +165,16 @@ def table(run: Run, parameters: Parameters) -> list[dict[str, float]]:
 
 
 FACTS = (
-    Fact("height", "at the target", "m", at(at_target, "y"), settled="target", sides=SIDES),
-    Fact("hold", "hold", "moa", at(at_target, lambda it, _: -MOA * atan2(it.y, it.x)), "target", sides=HOLDS),
-    Fact("speed", "speed there", "m/s", at(at_target, "speed"), settled="target", also="ft/s"),
-    Fact("flight_time", "flight time", "s", at(at_target, "t"), settled="target"),
-    Fact("apex", "most over sight line", "m", apex, settled="target"),
+    Fact("height", "at the target", "m", fact_from(at_target, "y"), final_when="target", sides=SIDES),
+    Fact("hold", "hold", "moa", fact_from(at_target, lambda it, _: -MOA * atan2(it.y, it.x)), "target", sides=HOLDS),
+    Fact("speed", "speed there", "m/s", fact_from(at_target, "speed"), final_when="target", also="ft/s"),
+    Fact("flight_time", "flight time", "s", fact_from(at_target, "t"), final_when="target"),
+    Fact("apex", "most over sight line", "m", apex, final_when="target"),
     MUZZLE_SPEED,
     replace(LAUNCH_ANGLE, label=""),
-    Fact("elevation", "barrel up", "moa", lambda run, parameters: 60.0 * LAUNCH_ANGLE.how(run, parameters), "start"),
+    Fact(
+        "elevation", "barrel up", "moa", lambda run, parameters: 60.0 * LAUNCH_ANGLE.compute(run, parameters), "start"
+    ),
     Fact("table", "", "", table),
     ENDED,
 )

@@ -16,7 +16,7 @@ from sandbox.engine.model.surface import Segment
 from sandbox.picture.palette import Colour, palette, scene_colours
 from sandbox.picture.places.plan import Plan
 from sandbox.picture.places.things import unit_of
-from sandbox.picture.views import AboveView, Area, Camera, Look, Mark, Painter, Sheet, near, nice
+from sandbox.picture.views import AboveView, Area, Camera, Look, Mark, Painter, Sheet, near, round_number_above
 from sandbox.sport.amounts import signed
 
 from .boxes import TOUCH, strip
@@ -42,7 +42,7 @@ class Board:
         painter.surface.fill(COLOURS["board"])
         (left, high), (right, low) = camera.world(0, 0), camera.world(*size)
         unit = unit_of(painter)
-        step = nice(60 * unit / camera.scale)
+        step = round_number_above(60 * unit / camera.scale)
         across = [((x, low), (x, high)) for x in np.arange(left // step, right / step) * step]
         along = [((left, y), (right, y)) for y in np.arange(low // step, high / step) * step]
         floor = [[(min(max(x, left), right), y) for x, y in (shape.a, shape.b)] for shape in self.shapes]

@@ -27,9 +27,9 @@ from sandbox.physics.integrators import State
 from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.air import Air, wind_in
 from sandbox.sport.controls import Controls, Handle
-from sandbox.sport.facts import ENDED, Fact, once
+from sandbox.sport.facts import ENDED, Fact, cached_per_run
 from sandbox.sport.flight import Directed
-from sandbox.sport.readings import at
+from sandbox.sport.readings import fact_from
 from sandbox.sport.solids import Solid
 
 from .boxes import TOUCH, Box, Moving, body_of
@@ -85,7 +85,7 @@ class Parameters(SceneParameters):
 
 
 CONTROLS = Controls(
-    strongest=10.0,
+    full_pull_speed=10.0,
     ball="launch.ball",
     sliders=(
         *("contact.restitution", "contact.friction", "balls[0].mass", "balls[1].mass"),
@@ -195,7 +195,7 @@ class Blow(NamedTuple):
         return meeting(one, here, other, there, TOUCH)
 
 
-@once
+@cached_per_run
 def blow(run: Run, parameters: Parameters) -> Blow | None:
     """The first blow, through to the end of the contact; None if no two balls meet."""
     event = next((e for e in run.events if e.kind == "impact" and e.partner in run.arcs), None)
@@ -257,10 +257,17 @@ def _sums(what: str) -> tuple[Fact, Fact]:
 
 FACTS = (
     Fact("lost", "energy lost", "%", _lost),
-    Fact("approach", "approach", "m/s", at(blow, lambda met, _: met.touching(met.before).closing)),
-    Fact("separation", "separation", "m/s", at(blow, lambda met, _: -met.touching(met.after).closing)),
-    Fact("first_after", "first ball", "m/s", at(blow, lambda met, _: hypot(*next(iter(met.after.values()))[2:4]))),
-    Fact("fastest", "fastest", "m/s", at(blow, lambda met, _: max(hypot(*state[2:4]) for state in met.after.values()))),
+    Fact("approach", "approach", "m/s", fact_from(blow, lambda met, _: met.touching(met.before).closing)),
+    Fact("separation", "separation", "m/s", fact_from(blow, lambda met, _: -met.touching(met.after).closing)),
+    Fact(
+        "first_after", "first ball", "m/s", fact_from(blow, lambda met, _: hypot(*next(iter(met.after.values()))[2:4]))
+    ),
+    Fact(
+        "fastest",
+        "fastest",
+        "m/s",
+        fact_from(blow, lambda met, _: max(hypot(*state[2:4]) for state in met.after.values())),
+    ),
     Fact("falls", "blows of the floor", "", _falls),
     Fact("positions", "", "m", _at_end(lambda state: list(state[:2]))),
     Fact("velocities", "", "m/s", _at_end(lambda state: list(state[2:4]))),

@@ -22,8 +22,8 @@ from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact
-from sandbox.sport.readings import at, passing
-from sandbox.sport.sliding import REST_TIME, Body, Sliding, aside, beside, beyond, end_of, left, taken
+from sandbox.sport.readings import fact_from, passing
+from sandbox.sport.sliding import REST_TIME, Body, Sliding, beside, beyond, end_of, in_play, lateral_offset, removed_by
 
 Team = Literal["red", "yellow"]
 #: The sheet (World Curling, rule R1), in m from the tee: back line, hog line, the one of release; radii of the rings.
@@ -65,13 +65,13 @@ class Parameters(Sliding):
 
 
 CONTROLS = Controls(
-    strongest=4.0,
+    full_pull_speed=4.0,
     spins=(Spin("launch.spin", 1.0),),
     ball=DELIVERED,
     handles=(Handle("stones[*].x", "stones[*].y"),),
     sliders=("launch.speed", "launch.angle", "sweep.start", "sweep.end", "ice.friction", "ice.curl"),
     scores="good",
-    spread=(Spread("launch.speed", 0.01), Spread("launch.angle", least=0.15)),  # assumed
+    spread=(Spread("launch.speed", 0.01), Spread("launch.angle", minimum=0.15)),  # assumed
     next_start=lambda run, parameters: left_on_sheet(run, parameters),
 )
 
@@ -101,7 +101,7 @@ def team_of(name: str, parameters: Parameters) -> str:
 
 def _lie(run: Run, parameters: Parameters) -> dict[str, Vector]:
     """The positions of the stones in play, in m; not the delivered one short of the hog line, unless it met one."""
-    places, met = left(run), any(event.kind == "impact" for event in run.events)
+    places, met = in_play(run), any(event.kind == "impact" for event in run.events)
     if end_of(run, DELIVERED)[0] < HOG + parameters.stone.radius and not met:
         places.pop(DELIVERED, None)
     return places
@@ -124,10 +124,15 @@ def removed(run: Run, parameters: Parameters) -> list[str]:
 FACTS = (
     Fact("scores", "scores", "", lambda run, it: _score(run, it)[0]),
     Fact("points", "points", "", lambda run, it: _score(run, it)[1]),
-    Fact("to_tee", "to the tee", "m", at(lambda run, it: _lie(run, it).get(DELIVERED), lambda at, _: hypot(*at))),
-    Fact("curl", "curl", "m", lambda run, it: aside(run, DELIVERED, it.launch), sides=("right", "left")),
+    Fact(
+        "to_tee",
+        "to the tee",
+        "m",
+        fact_from(lambda run, it: _lie(run, it).get(DELIVERED), lambda place, _: hypot(*place)),
+    ),
+    Fact("curl", "curl", "m", lambda run, it: lateral_offset(run, DELIVERED, it.launch), sides=("right", "left")),
     Fact("distance", "way up the sheet", "m", lambda run, it: end_of(run, DELIVERED)[0] - RELEASE),
-    Fact("hog_to_hog", "hog to hog", "s", at(lambda run, it: passing(run, HOG, DELIVERED), "t")),
+    Fact("hog_to_hog", "hog to hog", "s", fact_from(lambda run, it: passing(run, HOG, DELIVERED), "t")),
     REST_TIME,
     Fact("removed", "taken off", "", removed, names=True),
     Fact("friction", "", "%", lambda run, it: 100.0 * _ice(it).deceleration(it.launch.speed) / it.gravity, "start"),
@@ -139,7 +144,7 @@ FACTS = (
 
 def verdict(run: SceneRun, parameters: Parameters) -> str:
     """Return the outcome in a sentence."""
-    (team, points), line = _score(run, parameters), taken(run).get(DELIVERED)
+    (team, points), line = _score(run, parameters), removed_by(run).get(DELIVERED)
     gone = [name for name in run.result["removed"] if name != DELIVERED]
     said = "stays" if gone else f"lies {roughly(run.result['to_tee'] or 0.0)} from the tee"
     if DELIVERED in run.result["removed"]:

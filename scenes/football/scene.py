@@ -29,7 +29,7 @@ from sandbox.sport.air import Air, wind_in
 from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact
 from sandbox.sport.flight import DEGREE, RPM, Directed
-from sandbox.sport.readings import LAUNCH, apex, at, landing, passing
+from sandbox.sport.readings import LAUNCH, apex, fact_from, landing, passing
 from sandbox.sport.solids import Solid, level
 
 LONGEST, YARD = 15.0, 0.9144  # s, after which a run is ended; m
@@ -84,13 +84,13 @@ class Parameters(SceneParameters):
 
 
 CONTROLS = Controls(
-    strongest=40.0,
+    full_pull_speed=40.0,
     spins=(Spin("launch.spin", 20.0),),
     sliders=("launch.speed", "launch.angle", "launch.spin", "launch.nose", "goal.distance", "air.wind"),
     handles=(Handle("goal.distance", "goal.height", where="goal.present", goal=True),),
     scores="good",
     # assumed:
-    spread=(Spread("launch.speed", 0.01), Spread("launch.angle", least=0.5), Spread("launch.nose", least=3.0)),
+    spread=(Spread("launch.speed", 0.01), Spread("launch.angle", minimum=0.5), Spread("launch.nose", minimum=3.0)),
     fan_fact="bounce",
     fan_shots=200,
 )
@@ -161,7 +161,7 @@ def _spread(run: Run, parameters: Parameters) -> float | None:
     down = landing(run, parameters)
     if down is None or parameters.goal.present:
         return None
-    ball, sigma = run.setup.balls[0], radians(CONTROLS.spread[2].least)
+    ball, sigma = run.setup.balls[0], radians(CONTROLS.spread[2].minimum)
     assert isinstance(ball, Body)
     noses = [pi * (k + 0.5) / LANDINGS for k in range(LANDINGS)]
     if parameters.launch.turns == "spiral":
@@ -177,14 +177,14 @@ def _spread(run: Run, parameters: Parameters) -> float | None:
 
 
 FACTS = (
-    Fact("distance", "distance", "m", at(landing, "x"), settled="ground", also="yd"),
-    Fact("hang_time", "hang time", "s", at(landing, "t"), settled="ground"),
+    Fact("distance", "distance", "m", fact_from(landing, "x"), final_when="ground", also="yd"),
+    Fact("hang_time", "hang time", "s", fact_from(landing, "t"), final_when="ground"),
     Fact("apex", "apex", "m", apex),
     Fact("bounce", "bounces", "m", _bounced, also="yd"),
     Fact("bounce_spread", "bounce spread", "m", _spread),
     Fact("over", "over the bar", "m", over),
     Fact("good", "", "", lambda run, it: (over(run, it) or -1.0) > 0.0 if it.goal.present else None),
-    Fact("landing_angle", "lands at", "deg", at(landing, "descent"), settled="ground"),
+    Fact("landing_angle", "lands at", "deg", fact_from(landing, "descent"), final_when="ground"),
     Fact("nose", "nose at landing", "deg", _nose),
     *LAUNCH,
     ENDED,

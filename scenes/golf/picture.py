@@ -29,12 +29,12 @@ from sandbox.kit import (
     Stripes,
     Thing,
     dimples,
+    in_two_units,
     metres,
     mix,
-    nice,
     palette,
+    round_number_above,
     scene_colours,
-    twice,
 )
 
 from .scene import Parameters
@@ -141,7 +141,7 @@ class Picture(SideView[Parameters]):
         low, high = camera.world(0, 0)[0], camera.world(width, 0)[0]
         outline = camera.pixels(self.profile(low, high))
         deepest = min(height, max(round(eye.base), round(outline[:, 1].max())))
-        field, thick = self._field(eye, nice(STRIPE * self.unit / scale)), max(3, round(TURF * self.unit))
+        field, thick = self._field(eye, round_number_above(STRIPE * self.unit / scale)), max(3, round(TURF * self.unit))
         Landscape(**self.colours["landscape"]).draw(painter.surface, min(field.foot(eye), height), self.moved(camera))
         field.draw(painter, eye, deepest)
         if outline[:, 1].min() < deepest - 1:
@@ -267,8 +267,8 @@ class Picture(SideView[Parameters]):
         """Total, and carry."""
         why = "   at launch height" if self._ends_high else ""
         total, carry = self.run.result["total"], self.run.result["carry"] or 0.0
-        lengths = [Length(f"total {twice(total, 'yd')}", 0.0, total)]
-        lengths += [Length(f"carry {twice(carry, 'yd')}{why}", 0.0, carry, CARD["accent"])]
+        lengths = [Length(f"total {in_two_units(total, 'yd')}", 0.0, total)]
+        lengths += [Length(f"carry {in_two_units(carry, 'yd')}{why}", 0.0, carry, CARD["accent"])]
         return [length for length in lengths if length.end]
 
     @property

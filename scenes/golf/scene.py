@@ -44,12 +44,12 @@ from sandbox.kit import (
     Spin,
     Spread,
     Touches,
-    at,
+    cached_per_run,
     choice,
     down_to,
+    fact_from,
     group,
     height_on,
-    once,
     one_of,
     quantity,
     roughly,
@@ -106,9 +106,9 @@ class Parameters(Flight):
 #: Slowest and fastest putt that is tried, in m/s.
 PUTTS = 0.1, 8.0
 CONTROLS = Controls(
-    strongest=100.0,
+    full_pull_speed=100.0,
     spins=(Spin("launch.spin", 100.0),),
-    also={"start": "launch"},
+    set_on_pull={"start": "launch"},
     sliders=("launch.speed", "launch.angle", "launch.spin", "air.wind", "gravity", "pin.distance"),
     handles=(Handle("pin.distance", at=lambda it: it.ground.point(it.pin.distance)),),
     goals=lambda parameters: goals(parameters),
@@ -156,11 +156,11 @@ def goals(parameters: Parameters) -> list[Goal]:
     place = parameters.ground.point(pin)
     if parameters.launch.angle < 3.0:
         return [Goal("the cup", {"holed": True}, place, {"launch.speed": PUTTS})]
-    ways = {"launch.speed": (PUTTS[0], CONTROLS.strongest), "launch.angle": (5.0, 80.0)}
+    ways = {"launch.speed": (PUTTS[0], CONTROLS.full_pull_speed), "launch.angle": (5.0, 80.0)}
     return [Goal("a landing at the pin", {"carry": pin}, place, {key: ends}) for key, ends in ways.items()]
 
 
-@once
+@cached_per_run
 def landing(run: Run, parameters: Parameters) -> Moment | None:
     """The ball as it returns to launch height, or lands on higher ground before that: carry is how far that is."""
     return down_to(run, run.setup.balls[0].position)
@@ -200,7 +200,7 @@ def total(run: Run, parameters: Parameters) -> float:
     return run.state("ball", run.duration)[0]
 
 
-def comes_back(run: Run, parameters: Parameters) -> float | None:
+def roll_back(run: Run, parameters: Parameters) -> float | None:
     """The distance in m from the farthest place that the ball reached to its end: spun back, or rolled back down."""
     end = total(run, parameters)
     way = 1.0 if end >= 0.0 else -1.0
@@ -220,20 +220,20 @@ def ended(run: Run, parameters: Parameters) -> str:
 
 
 #: A fact of the flight: known when the ball first touches something, and not shown for a putt.
-InFlight = partial(Fact, settled="ball", where=flew)
+InFlight = partial(Fact, final_when="ball", where=flew)
 
 FACTS = (
-    InFlight("carry", "carry", "m", at(landing, "x"), also="yd"),
+    InFlight("carry", "carry", "m", fact_from(landing, "x"), also="yd"),
     Fact("total", "total", "m", total, also="yd"),
     InFlight("apex", "apex", "m", apex),
-    InFlight("flight_time", "flight time", "s", at(landing, "t")),
+    InFlight("flight_time", "flight time", "s", fact_from(landing, "t")),
     *LAUNCH,
     Fact("smash_factor", "smash factor", "", smash_factor, "start"),
     Fact("compared", "compared", "", compared_with_tour, "start"),
-    InFlight("landing_angle", "landing", "deg", at(landing, "descent")),
-    InFlight("landing_speed", "landing speed", "m/s", at(landing, "speed")),
-    InFlight("landing_spin", "landing spin", "rpm", at(landing, "rpm"), sides=LAUNCH_SPIN.sides),
-    Fact("comes_back", "comes back", "m", comes_back),
+    InFlight("landing_angle", "landing", "deg", fact_from(landing, "descent")),
+    InFlight("landing_speed", "landing speed", "m/s", fact_from(landing, "speed")),
+    InFlight("landing_spin", "landing spin", "rpm", fact_from(landing, "rpm"), sides=LAUNCH_SPIN.sides),
+    Fact("comes_back", "comes back", "m", roll_back),
     Fact("distance_to_pin", "", "m", lambda run, it: abs(total(run, it) - it.pin.distance)),
     Fact("holed", "", "", holed),
     Fact("ended", "", "", ended),

@@ -23,7 +23,7 @@ from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact
 from sandbox.sport.readings import before
-from sandbox.sport.sliding import Body, Slide, Sliding, check_inside, end_of, met, rounded, taken
+from sandbox.sport.sliding import Body, Slide, Sliding, check_inside, collisions_of, end_of, removed_by, rounded
 
 DECIDING = {"goal", "goalie", "defender", "receiver"}
 POST, DEPTH = 0.030, 1.0  # m: radius of a post (NHL rule 2.1), depth of the net
@@ -78,13 +78,13 @@ class Parameters(Sliding):
 
 
 CONTROLS = Controls(
-    strongest=50.0,
+    full_pull_speed=50.0,
     spins=(Spin("launch.spin", 50.0),),
     ball="puck",
     handles=(Handle("players[*].x", "players[*].y"), Handle("launch.x", "launch.aside")),
     sliders=("launch.speed", "launch.angle", "launch.x", "launch.aside", "rink.sliding", "puck.restitution"),
     scores="done",
-    spread=(Spread("launch.speed", 0.05), Spread("launch.angle", least=1.0)),  # assumed
+    spread=(Spread("launch.speed", 0.05), Spread("launch.angle", minimum=1.0)),  # assumed
 )
 
 
@@ -115,12 +115,12 @@ def build(parameters: Parameters) -> Setup:
 
 def touches(run: Run, parameters: Parameters) -> list[str]:
     """The things that the puck meets, in order."""
-    return [what for what, _ in met(run, "puck")]
+    return [what for what, _ in collisions_of(run, "puck")]
 
 
 def decided(run: Run, parameters: Parameters) -> tuple[float, str]:
     """When, in s, and by whom or what the shot is decided: the goal or the first player; "" where by none."""
-    found = ((event.t, what.partition(" ")[0]) for what, event in met(run, "puck"))
+    found = ((event.t, what.partition(" ")[0]) for what, event in collisions_of(run, "puck"))
     return next(((t, what) for t, what in found if what in DECIDING), (run.duration, ""))
 
 
@@ -138,7 +138,7 @@ FACTS = (
     Fact("time", "time", "s", lambda run, it: decided(run, it)[0]),
     Fact("boards", "off the boards", "", lambda run, it: touches(run, it).count("boards")),
     Fact("release", "release", "m/s", lambda run, it: it.launch.speed, "start", also="mph"),
-    Fact("goal", "", "", lambda run, it: "puck" in taken(run)),
+    Fact("goal", "", "", lambda run, it: "puck" in removed_by(run)),
     Fact("verdict", "", "", _word),
     Fact("done", "", "", lambda run, it: _word(run, it) in ("goal", "received")),
     Fact("touches", "", "", touches),

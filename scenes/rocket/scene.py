@@ -26,7 +26,7 @@ from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spread
 from sandbox.sport.facts import ENDED, Fact
 from sandbox.sport.flight import DEGREE, Directed, Sphere, forces_in_flight
-from sandbox.sport.readings import Moment, at
+from sandbox.sport.readings import Moment, fact_from
 from sandbox.sport.solids import below, check_apart, disc, level
 
 
@@ -69,10 +69,10 @@ CONTROLS = Controls(
     ball="rocket",
     speed="motor.strength",
     softest=0.5,
-    strongest=2.0,
+    full_pull_speed=2.0,
     handles=(Handle(y="launch.height"),),
     sliders=("motor.propellant", "ball.mass", "ball.drag.coefficient", "launch.rail", "air.wind", "gravity"),
-    spread=(Spread("launch.angle", least=2.0), Spread("ball.mass", 0.02)),  # assumed
+    spread=(Spread("launch.angle", minimum=2.0), Spread("ball.mass", 0.02)),  # assumed
 )
 
 
@@ -118,15 +118,15 @@ def burnout(run: Run, parameters: Parameters) -> Moment | None:
 
 
 FACTS = (
-    Fact("apex", "apex", "m", lambda run, parameters: run.highest("rocket")[1][1], settled="ground", also="ft"),
-    Fact("apex_time", "apex after", "s", lambda run, parameters: run.highest("rocket")[0], settled="ground"),
-    Fact("top_speed", "top speed", "m/s", top_speed, settled="ground", also="mph"),
+    Fact("apex", "apex", "m", lambda run, parameters: run.highest("rocket")[1][1], final_when="ground", also="ft"),
+    Fact("apex_time", "apex after", "s", lambda run, parameters: run.highest("rocket")[0], final_when="ground"),
+    Fact("top_speed", "top speed", "m/s", top_speed, final_when="ground", also="mph"),
     Fact("distance", "distance", "m", lambda run, parameters: run.before("rocket", run.duration)[0]),
     Fact("flight_time", "flight time", "s", lambda run, parameters: run.duration),
     Fact("end_speed", "speed at the end", "m/s", lambda run, _: Moment(0.0, *run.before("rocket", run.duration)).speed),
-    Fact("burnout_speed", "at burnout", "m/s", at(burnout, "speed")),
-    Fact("burnout_height", "", "m", at(burnout, "y")),
-    Fact("impulse", "impulse", "N s", lambda run, parameters: motor_of(parameters).impulse, settled="start"),
+    Fact("burnout_speed", "at burnout", "m/s", fact_from(burnout, "speed")),
+    Fact("burnout_height", "", "m", fact_from(burnout, "y")),
+    Fact("impulse", "impulse", "N s", lambda run, parameters: motor_of(parameters).impulse, final_when="start"),
     ENDED,
 )
 

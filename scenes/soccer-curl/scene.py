@@ -26,8 +26,8 @@ from sandbox.sport import flight
 from sandbox.sport.air import Air
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spin
-from sandbox.sport.facts import ENDED, Fact, once
-from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, LAUNCH_SPIN, Moment, at, first_touch, passing
+from sandbox.sport.facts import ENDED, Fact, cached_per_run
+from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, LAUNCH_SPIN, Moment, fact_from, first_touch, passing
 from sandbox.sport.solids import Extent, Solid, check_apart, disc, rectangle
 
 from ..soccer.scene import SPREAD, Goal, SoccerBall, Wall
@@ -95,7 +95,7 @@ class Parameters(SceneParameters):
 
 
 CONTROLS = Controls(
-    strongest=45.0,
+    full_pull_speed=45.0,
     spins=(Spin("launch.spin", 50.0), Spin("launch.tilt", 5.0)),
     sliders=("launch.speed", "launch.angle", "launch.spin", "launch.tilt", "goal.distance", "air.wind"),
     handles=(
@@ -149,14 +149,14 @@ def is_over(event: Event) -> bool:
     return event.ball == "ball" and event.partner in ("net", "boards")
 
 
-@once
+@cached_per_run
 def at_goal(run: Run, parameters: Parameters) -> Moment | None:
     """The ball as it passes the goal line; None if it does not get there, or is touched on its way."""
     passed, touched = passing(run, parameters.goal.distance), first_touch(run)
     return None if passed is None or (touched is not None and touched.t < passed.t) else passed
 
 
-@once
+@cached_per_run
 def scored(run: Run, parameters: Parameters) -> bool:
     """True if the ball was in the goal, between the posts."""
     goal = parameters.goal
@@ -181,7 +181,7 @@ def flight_time(run: Run, parameters: Parameters) -> float | None:
     return None if found is None else found.t
 
 
-def word(run: Run, parameters: Parameters) -> str:
+def outcome(run: Run, parameters: Parameters) -> str:
     """goal; saved, post or wall, where that was touched and it is no goal; wide; short of the goal line."""
     if scored(run, parameters):
         return "goal"
@@ -196,15 +196,21 @@ SIDES = ("right", "left")
 
 FACTS = (
     Fact("goal", "", "", scored),
-    Fact("verdict", "", "", word),
-    Fact("deviation", "bend", "m", at(at_goal, deviation), sides=SIDES),
-    Fact("inside_post", "nearer post", "m", at(at_goal, inside_post), sides=("outside", "inside")),
-    Fact("speed_at_goal", "speed at goal", "m/s", at(at_goal, "speed"), also="km/h"),
+    Fact("verdict", "", "", outcome),
+    Fact("deviation", "bend", "m", fact_from(at_goal, deviation), sides=SIDES),
+    Fact("inside_post", "nearer post", "m", fact_from(at_goal, inside_post), sides=("outside", "inside")),
+    Fact("speed_at_goal", "speed at goal", "m/s", fact_from(at_goal, "speed"), also="km/h"),
     Fact("flight_time", "flight time", "s", flight_time),
     BALL_SPEED,
     replace(LAUNCH_ANGLE, sides=SIDES),
     replace(LAUNCH_SPIN, sides=SIDES),
-    Fact("offset_at_goal", "from the middle", "m", at(at_goal, lambda ball, it: ball.y - it.goal.offset), sides=SIDES),
+    Fact(
+        "offset_at_goal",
+        "from the middle",
+        "m",
+        fact_from(at_goal, lambda ball, it: ball.y - it.goal.offset),
+        sides=SIDES,
+    ),
     ENDED,
 )
 

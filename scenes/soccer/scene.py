@@ -43,20 +43,20 @@ from sandbox.kit import (
     Surface,
     Vector,
     apex,
-    at,
+    cached_per_run,
     check_apart,
     disc,
+    fact_from,
     first_touch,
     group,
     level,
-    once,
     passing_at,
     quantity,
     roughly,
     switch,
 )
 
-SPREAD = (Spread("launch.speed", 0.02), Spread("launch.angle", least=1.0), Spread("launch.spin", 0.1))  # assumed
+SPREAD = (Spread("launch.speed", 0.02), Spread("launch.angle", minimum=1.0), Spread("launch.spin", 0.1))  # assumed
 
 
 # What soccer from above has, too.
@@ -131,7 +131,7 @@ class Parameters(Flight):
 
 
 CONTROLS = Controls(
-    strongest=45.0,
+    full_pull_speed=45.0,
     spins=(Spin("launch.spin", 50.0),),
     sliders=("launch.speed", "launch.angle", "launch.spin", "goal.distance", "wall.present", "wall.height", "air.wind"),
     handles=(
@@ -190,7 +190,7 @@ class OutOfPlay:
 at_wall, at_goal = passing_at(lambda it: it.wall.distance), passing_at(lambda it: it.goal.distance)
 
 
-@once
+@cached_per_run
 def scored(run: Run, parameters: Parameters) -> float | None:
     """When the ball was in the goal, under the bar; None if never."""
     goal = parameters.goal
@@ -218,7 +218,7 @@ def carry(run: Run, parameters: Parameters) -> float | None:
     return touched.x if touched is not None and touched.partner == "ground" else None
 
 
-def word(run: Run, parameters: Parameters) -> str:
+def outcome(run: Run, parameters: Parameters) -> str:
     """goal; bar or wall, where that was touched and it is no goal; over; short, a ball that stops on the line included;
     past, where there is no goal to hit."""
     if scored(run, parameters) is not None:
@@ -243,12 +243,12 @@ def under_bar(ball: Moment, it: Parameters) -> float | None:
 
 FACTS = (
     Fact("goal", "", "", lambda run, it: scored(run, it) is not None, entered),
-    Fact("verdict", "", "", word),
-    Fact("height_at_goal", "height at goal", "m", at(at_goal, "y")),
-    Fact("speed_at_goal", "speed at goal", "m/s", at(at_goal, "speed"), also="km/h"),
-    Fact("under_bar", "under the bar", "m", at(at_goal, under_bar)),
-    Fact("height_at_wall", "height at wall", "m", at(at_wall, "y"), where=lambda _, it: it.wall.present),
-    Fact("over_wall", "over the wall", "m", at(at_wall, over_wall)),
+    Fact("verdict", "", "", outcome),
+    Fact("height_at_goal", "height at goal", "m", fact_from(at_goal, "y")),
+    Fact("speed_at_goal", "speed at goal", "m/s", fact_from(at_goal, "speed"), also="km/h"),
+    Fact("under_bar", "under the bar", "m", fact_from(at_goal, under_bar)),
+    Fact("height_at_wall", "height at wall", "m", fact_from(at_wall, "y"), where=lambda _, it: it.wall.present),
+    Fact("over_wall", "over the wall", "m", fact_from(at_wall, over_wall)),
     Fact("carry", "carry", "m", carry),
     Fact("apex", "apex", "m", lambda run, it: apex(run, it) - it.ball.radius),
     Fact("flight_time", "flight time", "s", flight_time),

@@ -11,7 +11,7 @@ from sandbox.picture.palette import scene_colours
 from sandbox.picture.places import COURT_WIDTH, Ground, Hall, Person, Planks, Stands, tennis_court
 from sandbox.picture.places.things import net_across, pose_of, standing_table
 from sandbox.picture.views import Box, Camera, Eye, Look, NetView, Place, seams
-from sandbox.sport.net_game import taken
+from sandbox.sport.net_game import received_at
 
 from .scene import Parameters
 
@@ -50,7 +50,7 @@ class Picture(NetView[Parameters]):
 
     @cached_property
     def story_end(self) -> float:
-        return taken(self.run, self.parameters)
+        return received_at(self.run, self.parameters)
 
     @cached_property
     def place(self) -> Place:

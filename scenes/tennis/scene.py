@@ -66,13 +66,13 @@ class Parameters(net_game.NetGame):
 
 
 CONTROLS = Controls(
-    strongest=60.0,
+    full_pull_speed=60.0,
     spins=(Spin("launch.spin", 100.0),),
-    also={"start": "launch"},
+    set_on_pull={"start": "launch"},
     sliders=("release.place", "release.height", "court.restitution", "court.friction", "net.height", "air.wind"),
     handles=(Handle("release.place", "release.height"), *net_game.HANDLES),
     scores="in",
-    spread=(Spread("launch.speed", 0.03), Spread("launch.angle", least=0.8), Spread("launch.spin", 0.1)),  # assumed
+    spread=(Spread("launch.speed", 0.03), Spread("launch.angle", minimum=0.8), Spread("launch.spin", 0.1)),  # assumed
 )
 
 

@@ -46,11 +46,11 @@ class Parameters(Flight):
 
 
 CONTROLS = Controls(
-    strongest=18.0,
+    full_pull_speed=18.0,
     sliders=("launch.speed", "launch.angle", "release.height", "record", "air.density", "gravity"),
     handles=(Handle("release.place", "release.height"), Handle("record", goal=True)),
     scores="record_beaten",
-    spread=(Spread("launch.speed", 0.02), Spread("launch.angle", least=2.0)),  # assumed
+    spread=(Spread("launch.speed", 0.02), Spread("launch.angle", minimum=2.0)),  # assumed
 )
 
 
@@ -122,8 +122,8 @@ FACTS = (
     LANDING_ANGLE,
     BALL_SPEED,
     LAUNCH_ANGLE,
-    Fact("best_angle", "best angle", "deg", best_angle, settled="start"),
-    Fact("record_beaten", "", "", lambda run, it: (DISTANCE.how(run, it) or 0.0) > it.record, settled="ground"),
+    Fact("best_angle", "best angle", "deg", best_angle, final_when="start"),
+    Fact("record_beaten", "", "", lambda run, it: (DISTANCE.compute(run, it) or 0.0) > it.record, final_when="ground"),
     ENDED,
 )
 

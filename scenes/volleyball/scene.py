@@ -50,12 +50,12 @@ class Parameters(net_game.NetGame):
 
 
 CONTROLS = Controls(
-    strongest=35.0,
+    full_pull_speed=35.0,
     spins=(Spin("launch.spin", 30.0),),
     sliders=("launch.place", "launch.height", "net.height", "court.length", "air.wind"),
     handles=(Handle("launch.place", "launch.height"), *net_game.HANDLES),
     scores="in",
-    spread=(Spread("launch.speed", 0.03), Spread("launch.angle", least=1.0), Spread("launch.spin", 0.1)),  # assumed
+    spread=(Spread("launch.speed", 0.03), Spread("launch.angle", minimum=1.0), Spread("launch.spin", 0.1)),  # assumed
 )
 
 

@@ -348,13 +348,13 @@ def test_intervals_and_pairs_are_told_and_drawn(tmp_path, capsys):
 
 
 @pytest.mark.parametrize("source", ["golf", "basketball", "basketball/bank-shot", "soccer", "soccer-curl"])
-def test_a_run_that_ends_when_its_fact_is_settled_says_the_same(source):
+def test_a_run_that_ends_when_its_fact_is_final_says_the_same(source):
     """Whatever way through the engine it takes: alone, or many together."""
     scene = load(source)
     parameter = next(p for p in walk(scene.parameters) if p.key.endswith("speed") and p.value)
     points = [(share * parameter.value,) for share in (0.7, 0.98, 1.0, 1.02)]
     whole = list(runs(scene, [parameter.key], points))
-    asked = [key for key, fact in scene.facts.items() if fact.settled != "end"]
+    asked = [key for key, fact in scene.facts.items() if fact.final_when != "end"]
     assert asked
     for keys in (*([key] for key in asked), asked):
         for run, full in zip(runs(scene, [parameter.key], points, asked=keys), whole, strict=True):

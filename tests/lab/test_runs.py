@@ -1,4 +1,4 @@
-"""Many runs of a scene: built at once, and ended when the facts that are asked for are settled."""
+"""Many runs of a scene: built at once, and ended when the facts that are asked for are final."""
 
 from __future__ import annotations
 

@@ -132,7 +132,7 @@ def test_a_shot_is_decided_before_it_reaches_the_floor():
     stuck = [({}, speed) for speed in (7.970249, 7.9698058, 7.507273)]
     for changes, speed in [*upwards, ({}, 7.482), ({}, 7.5045), *stuck]:
         scene = sandbox.load("basketball", changes)
-        asked = scene.all_but_the_end
+        asked = scene.facts_except_ended
         run = next(runs(scene, ["launch.speed"], [(speed,)], asked=asked))
         full = sandbox.simulate(scene.changed({"launch.speed": speed}))
         assert run.result == {key: full.result[key] for key in asked}

@@ -10,6 +10,7 @@ from sandbox.errors import RequestError
 from sandbox.sport.amounts import (
     amount,
     converted,
+    in_two_units,
     listed,
     margin,
     metres,
@@ -18,7 +19,6 @@ from sandbox.sport.amounts import (
     shown_in,
     significant,
     times,
-    twice,
 )
 from sandbox.sport.facts import Fact
 
@@ -66,7 +66,7 @@ def test_others():
     ]  # fmt: skip
     assert [times(x) for x in (1.44, 9.94, 9.96, 86.4)] == ["1.4 times", "9.9 times", "10 times", "86 times"]
     assert listed([26.81, 9.04], "m/s", 1) == "26.8, 9.0 m/s"
-    assert twice(91.44, "yd") == "91.4 m   100 yd"
+    assert in_two_units(91.44, "yd") == "91.4 m   100 yd"
 
 
 def test_chosen_units():
@@ -77,7 +77,7 @@ def test_chosen_units():
         assert [amount(x, "m/s") for x in speeds] == ["7.2 mph", "171 mph"]
         assert [amount(45.2, "deg"), amount(1234, "")] == ["45.2°", "1234"]
         assert [roughly(252.3), roughly(0.2), metres(2.0, 2)] == ["276 yd", "7.9 in", "6.56 ft"]
-        assert twice(129.0, "ft") == "423 ft   129.0 m"
+        assert in_two_units(129.0, "ft") == "423 ft   129.0 m"
         assert margin(0.0004, "m") == "± 0.02 in"
         assert scale_unit(0.4) == ("ft", 0.3048)
         assert listed([26.81, 4.0], "m/s", 1) == "60.0, 8.9 mph"

@@ -9,7 +9,7 @@ import pytest
 import sandbox
 from sandbox.physics.spheroid import Follows
 from sandbox.sport.controls import Spread
-from sandbox.sport.net_game import word
+from sandbox.sport.net_game import outcome
 from tests.scenes.play import run_of
 
 
@@ -26,7 +26,7 @@ def test_a_ball_is_released_no_lower_than_it_lies(height: float):
 
 @pytest.mark.parametrize(("value", "expected"), [(100.0, 2.0), (-100.0, 2.0), (10.0, 0.5), (0.0, 0.5)])
 def test_a_spread_is_a_share_of_the_size_of_a_value_or_its_least(value: float, expected: float):
-    assert Spread("launch.spin", share=0.02, least=0.5).sigma(value) == expected
+    assert Spread("launch.spin", share=0.02, minimum=0.5).sigma(value) == expected
 
 
 def test_what_turns_a_nose_into_its_path_is_damped_critically():
@@ -46,4 +46,4 @@ def test_the_net_lets_pass_up_to_a_radius_below_its_edge(below: float, expected:
     parameters: Any = play.scene.parameters
     edge = parameters.net.height + play.result["net_clearance"] + below * parameters.ball.radius
     net = parameters.net.model_copy(update={"height": edge})
-    assert word(play, parameters.model_copy(update={"net": net})) == expected
+    assert outcome(play, parameters.model_copy(update={"net": net})) == expected

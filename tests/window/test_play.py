@@ -119,7 +119,7 @@ class TestPullsInEveryScene:
         assert min(abs(speed / own - 1.0) for speed in speeds) < 0.01
         assert speeds == sorted(speeds)
         assert speeds[0] == pytest.approx(controls.softest * own, rel=0.1)
-        assert speeds[-1] == pytest.approx(min(2.0 * own, controls.strongest), rel=0.05)
+        assert speeds[-1] == pytest.approx(min(2.0 * own, controls.full_pull_speed), rel=0.05)
         assert speed_of(2.0 * full) == speed_of(full + 5.0)
 
     def test_a_few_px_change_little(self, pull):

@@ -59,8 +59,8 @@ class Shots:
     def results(
         self, points: Sequence[tuple[float, ...]], phase: str = "scan", others: bool = False
     ) -> list[dict[str, Any] | None]:
-        """The targeted results at some points, and ``others`` that are settled with them; None if the run failed."""
-        asked = _settled_with(self.scene, self._names) if others else self._names
+        """The targeted results at some points, and ``others`` that become final with them; None if the run failed."""
+        asked = _final_with(self.scene, self._names) if others else self._names
         new = [point for point in dict.fromkeys(points) if point not in self._known]
         for point, run in zip(new, runs(self.scene, self._keys, new, asked=asked), strict=True):
             if isinstance(run, Exception):
@@ -83,7 +83,7 @@ class Shots:
     def finer(self, points: Sequence[tuple[float, ...]]) -> list[SceneRun | Exception]:
         """Finer runs at some points, with all facts but how a run ends."""
         new = [point for point in dict.fromkeys(points) if point not in self._finer]
-        found = runs(self.scene, self._keys, new, finer=True, asked=self.scene.all_but_the_end)
+        found = runs(self.scene, self._keys, new, finer=True, asked=self.scene.facts_except_ended)
         self._finer |= zip(new, found, strict=True)
         return [self._finer[point] for point in points]
 
@@ -109,7 +109,7 @@ class Shots:
     def checked(self, points: Sequence[tuple[float, ...]]) -> list[tuple[dict[str, Any], dict[str, float], np.ndarray]]:
         """The whole result at each of some points, its estimated errors, and the shift of the aimed-at results in a
         finer run."""
-        coarser = runs(self.scene, self._keys, points, asked=self.scene.all_but_the_end)
+        coarser = runs(self.scene, self._keys, points, asked=self.scene.facts_except_ended)
         return [self._compared(*each) for each in zip(points, coarser, self.finer(points), strict=True)]
 
     def _compared(
@@ -183,13 +183,13 @@ def _option(target: Target) -> str:
     return "--maximize" if target.value is GREATEST else "--target"
 
 
-def _settled_with(scene: Scene, names: Sequence[str]) -> list[str]:
-    """These facts, and those settled with them, since a target may jump where these change. An empty list means all
-    facts, if a target may change until the end."""
-    if scene.settles(names) is None:
+def _final_with(scene: Scene, names: Sequence[str]) -> list[str]:
+    """These facts, and those that become final with them, since a target may jump where these change. An empty list
+    means all facts, if a target may change until the end."""
+    if scene.final_when(names) is None:
         return []
-    by = [scene.facts[name].settled for name in names]
-    return [key for key, fact in scene.facts.items() if fact.settled in by]
+    by = [scene.facts[name].final_when for name in names]
+    return [key for key, fact in scene.facts.items() if fact.final_when in by]
 
 
 def _signature(result: Mapping[str, Any] | None) -> Any:
