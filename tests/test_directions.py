@@ -148,7 +148,7 @@ def test_scenes_use_what_a_scene_may():
 
 
 def test_a_scene_takes_from_the_kit_what_it_may():
-    assert broken_rules(through_kit("from sandbox.kit import Ball, Run, RequestError, at"), "here", "scene") == []
+    assert broken_rules(through_kit("from sandbox.kit import Ball, Run, fact_from"), "here", "scene") == []
     source = "from sandbox.kit import (\n    Ball,\n    SideView,\n)"
     assert broken_rules(through_kit(source), "here", "scene") == ["here: scene imports sandbox.picture.side.SideView"]
     assert broken_rules(through_kit(source), "here", "picture") == []

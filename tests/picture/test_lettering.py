@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from sandbox.picture.lettering import Labels, Lettering
 from sandbox.picture.painter import blank
-from sandbox.picture.sheet import Sheet, nice
+from sandbox.picture.sheet import Sheet, round_number_above
 from sandbox.sport.amounts import converted, metres, signed
 from tests.picture.legible import assert_legible
 
@@ -116,8 +116,8 @@ def test_yards_and_signs():
 
 
 @given(st.floats(1e-6, 1e6))
-def test_nice_steps(least):
-    step = nice(least)
+def test_round_numbers(least):
+    step = round_number_above(least)
     assert least * 0.99 < step <= least * 2.51
     assert f"{step:e}"[0] in "125"
 
