@@ -70,7 +70,7 @@ def scene(written: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pat
             'ValueError: fact_from(..., "ex"): a Moment has t',
         ),
         (OF_NEW, 'until=Touches("floor", 4)', "until=lambda event: event.foo", "AttributeError: 'Event'"),
-        (OF_NEW, 'Touches("floor"', 'Touches("flor"', "until = Touches(what='flor', times=4): there are ball, floor"),
+        (OF_NEW, 'Touches("floor"', 'Touches("flor"', "times=4): unknown name; choose from ball, floor"),
         (OF_NEW, "duration=20.0", "duration=-20.0", "duration = -20.0 s must be positive"),
         (PICTURE, '"shooting"', '"hopping"', "pose = 'hopping': there is no such pose; the poses are standing, sho"),
         (PICTURE, '"shooting"', '"serving"', "'serving': colours lacks racket; this pose needs racket, far, body, sh"),

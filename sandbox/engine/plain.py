@@ -59,7 +59,7 @@ _GRIP = 0.01
 #: A ball that moves more than this fraction of its radius in a step may pass through a surface unnoticed.
 _LEAP = 0.5
 
-#: What to do about an error that a finer step avoids.
+#: The remedy for an error that a finer step avoids.
 _REMEDY = 'lower accuracy.step, or use accuracy.method = "exact"'
 
 

@@ -45,9 +45,9 @@ def starts(balls: Sequence[Ball], obstacles: Mapping[float, Sequence[Obstacle]])
 def _overlaps(
     balls: Sequence[Ball], places: Sequence[Sequence[float]], obstacles: Mapping[float, Sequence[Obstacle]]
 ) -> Iterator[tuple[int, int | None, str, float, float, float, float]]:
-    """Each overlap of two balls, all from the same places, then of balls and surfaces, from the places when it is asked
-    for: the balls, the name of what the first overlaps, the sum of the radii and the depth in m, and the normal to the
-    first."""
+    """Each overlap of two balls, all from the same places, then of balls and surfaces, from the places when it is
+    yielded: the balls, the name of what the first overlaps, the sum of the radii and the depth in m, and the normal to
+    the first."""
     states = [_placed(*each) for each in zip(balls, places, strict=True)]
     overlapping = [
         (i, j, found)

@@ -75,6 +75,14 @@ def strike(
     along = 1.0 / head.mass + 3.5 / ball_mass + head.depth * head.depth / head.inertia
     mixed = height * head.depth / head.inertia
     squeezed = approach / across  # N s, at the end of compression
+    rubbed = _impulse_along(head, squeezed, slip, across, along, mixed)
+    v_n, v_t = (1.0 + head.restitution) * squeezed / ball_mass, rubbed / ball_mass
+    return Launch(v_n * cos(loft) + v_t * sin(loft), v_n * sin(loft) - v_t * cos(loft), 2.5 * v_t / radius)
+
+
+def _impulse_along(head: Head, squeezed: float, slip: float, across: float, along: float, mixed: float) -> float:
+    """Return the impulse Q along the face in N s, for an impulse across it that is ``squeezed`` (N s) at the end of
+    compression, and a ``slip`` u in m/s; ``across``, ``along`` and ``mixed`` are c_n, c_t and c_x in 1/kg."""
     stiffness = head.stiffness / across
     stretch = rubbed = 0.0  # m/s: stretch of the spring along, times the frequency of the one across; and N s
     for share, wave in ((1.0, _CLOSING), (head.restitution, _PARTING)):
@@ -90,5 +98,4 @@ def strike(
                 stretch = (head.friction if force > 0.0 else -head.friction) * squeezed * end / stiffness
             rubbed += step * force
             slip -= along * step * force + mixed * push
-    v_n, v_t = (1.0 + head.restitution) * squeezed / ball_mass, rubbed / ball_mass
-    return Launch(v_n * cos(loft) + v_t * sin(loft), v_n * sin(loft) - v_t * cos(loft), 2.5 * v_t / radius)
+    return rubbed

@@ -32,7 +32,7 @@ def gripping(normal: float, tangential: float, inertia_factor: float) -> Rebound
     return Rebound(normal, 1.0 - inertia_factor * part, inertia_factor * part, part, 1.0 - part)
 
 
-#: What a racket is covered with. Strings of a hand-held tennis racket: fitted to 39 filmed bounces, Cross 2005,
+#: Coverings of a racket. Strings of a hand-held tennis racket: fitted to 39 filmed bounces, Cross 2005,
 #: second-hand. Rubber: an offensive table tennis racket, number 1 of ten fitted to 8,184 filmed
 #: bounces at 4 to 9 m/s (arXiv 2604.11349): the impulse along it is 0.681 of the slip times the ball's mass.
 STRINGS = Rebound(0.420, 0.648, 0.300, 0.583, 0.400)

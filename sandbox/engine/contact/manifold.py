@@ -204,15 +204,15 @@ def _touching(
 def speeds_at(states: Sequence[State], point: Vector, normal: Vector) -> Speeds:
     """Return the speeds of the first relative to the second, or to what stands still, where they touch."""
     ux = uy = 0.0
-    for (x, y, vx, vy, spin, *_), way in zip(states, (1.0, -1.0), strict=False):
-        ux += way * (vx - spin * (point[1] - y))
-        uy += way * (vy + spin * (point[0] - x))
+    for (x, y, vx, vy, spin, *_), sign in zip(states, (1.0, -1.0), strict=False):
+        ux += sign * (vx - spin * (point[1] - y))
+        uy += sign * (vy + spin * (point[0] - x))
     nx, ny = normal
     return -(ux * nx + uy * ny), ux * ny - uy * nx, 0.0
 
 
 class Moving(Protocol):
-    """A ball or body on its way."""
+    """A ball or body during a run."""
 
     @property
     def ball(self) -> Ball: ...

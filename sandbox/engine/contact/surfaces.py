@@ -42,7 +42,7 @@ def _bounce_by(law: BounceLaw, partner: str, approach: float, along: float) -> B
     # float first: Real alone takes five times as long
     if not isinstance(bounce, Bounce) or not all(isinstance(value, (float, Real)) for value in bounce):
         raise RunError(
-            f"a ball meets {partner!r}: the scene's law must return a Bounce of numbers, such as "
+            f"a ball hit {partner!r}: the scene's law must return a Bounce of numbers, such as "
             f"Bounce(restitution=0.7, friction=0.3), and returned {bounce!r:.60}"
         )
     restitution, friction, tilt, tangential = bounce

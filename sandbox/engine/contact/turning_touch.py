@@ -82,8 +82,8 @@ def first_touch(
     t, it is when they come to overlap by more than then. ``direction`` is a guess of that of the normal, in rad."""
     bounds, found = (one.bounds(), other.bounds()), None
     for _ in range(_MOST):
-        motion, way = one.arc.state(t), other.arc.state(t)
-        here, there = pose_of(motion), pose_of(way)
+        motion, other_motion = one.arc.state(t), other.arc.state(t)
+        here, there = pose_of(motion), pose_of(other_motion)
         noise = GAP_ROUNDING * (1.0 + 0.1 * (abs(here.x) + abs(here.y)))
         if found is None:
             found = nearest(one.shape, here, other.shape, there, direction)
@@ -91,14 +91,14 @@ def first_touch(
         else:
             found = nearest(one.shape, here, other.shape, there, found.direction)
         gap, rest = found.gap + skin, until - t
-        step, approach, hurry = _apart_for(one.shape, motion, way, found, -1.0, gap, bounds, rest)
+        step, approach, bound = _safe_step(one.shape, motion, other_motion, found, -1.0, gap, bounds, rest)
         if step < rest:
-            seen = _apart_for(other.shape, way, motion, found, 1.0, gap, bounds[::-1], rest)
-            step, approach, hurry = max(step, seen[0]), min(approach, seen[1]), min(hurry, seen[2])
+            seen = _safe_step(other.shape, other_motion, motion, found, 1.0, gap, bounds[::-1], rest)
+            step, approach, bound = max(step, seen[0]), min(approach, seen[1]), min(bound, seen[2])
         if gap <= 2.0 * noise:
             if approach > CLOSING:
                 return t
-            step = max(step, sqrt(2.0 * NEGLIGIBLE_OVERLAP / hurry)) if hurry > 0.0 else inf
+            step = max(step, sqrt(2.0 * NEGLIGIBLE_OVERLAP / bound)) if bound > 0.0 else inf
         if t + step >= until:
             return None
         if t + step == t:
@@ -107,22 +107,25 @@ def first_touch(
     return t
 
 
-def _apart_for(
+def _safe_step(
     shape: Shape,
     motion: State,
     frame: State,
     found: Nearest,
-    way: float,
+    side: float,
     gap: float,
     bounds: tuple[_Bounds, ...],
     until: float,
 ) -> tuple[float, float, float]:
-    """Return for how long, up to ``until`` s, nothing of an outline reaches the strip that another carries, which lies
-    ``way`` along the normal; the speed at which the nearest points approach; and the bound K."""
+    """Return the time, up to ``until`` s, in which nothing of an outline reaches the strip that another carries; the
+    speed in m/s at which the nearest points approach; and the bound K in m/s^2.
+
+    The strip is ahead along the normal if ``side`` is 1, against it if it is -1.
+    """
     x, y, vx, vy, spin, *turned = motion
     u, v, ux, uy, frame_spin, *_ = frame
     c, s = (cos(turned[0]), sin(turned[0])) if turned else (1.0, 0.0)
-    nx, ny = way * found.nx, way * found.ny
+    nx, ny = side * found.nx, side * found.ny
     bx, by = c * nx + s * ny, c * ny - s * nx  # the normal, seen from the body
     # of the body's centre, as seen from the frame
     forward = (vx - ux) * nx + (vy - uy) * ny + frame_spin * ((y - v) * nx - (x - u) * ny)
@@ -133,21 +136,25 @@ def _apart_for(
     own, others = bounds
     size = max(shape.reach - shape.radius, shape.straightest)  # of the core: a disc's spin moves no point of it
     apart = hypot(x - u, y - v) + until * (own.speed + others.speed)
-    hurry = size * (own.spin**2 + own.turning)
-    if others.spin == 0.0:  # the normal does not turn
-        hurry += own.acceleration(nx, ny) + others.acceleration(nx, ny)
-    else:
-        hurry += own.largest + others.largest
-        hurry += 2.0 * others.spin * (own.speed + others.speed + size * own.spin)
-        hurry += (others.spin**2 + others.turning) * (apart + size)
-
+    bound = _acceleration_bound(own, others, size, apart, nx, ny)
     step, approach = until, -inf
     for distance, across in ahead:
         behind, speed = front - distance, forward + turns * across
         if behind <= EQUALLY_NEAR:
             approach = max(approach, speed)
         room = max(gap + behind, 0.0)
-        if room - speed * step - 0.5 * hurry * step * step < 0.0:
-            root = sqrt(speed * speed + 2.0 * hurry * room)
-            step = min(step, 2.0 * room / (root + speed) if speed > 0.0 else (root - speed) / hurry)
-    return step, approach, hurry
+        if room - speed * step - 0.5 * bound * step * step < 0.0:
+            root = sqrt(speed * speed + 2.0 * bound * room)
+            step = min(step, 2.0 * room / (root + speed) if speed > 0.0 else (root - speed) / bound)
+    return step, approach, bound
+
+
+def _acceleration_bound(own: _Bounds, others: _Bounds, size: float, apart: float, nx: float, ny: float) -> float:
+    """Return the bound K in m/s^2 on s_i'', for points at most ``size`` (m) from the centre of their own outline, which
+    is at most so far ``apart`` (m) from the centre of the strip's; with the normal of the strip."""
+    bound = size * (own.spin**2 + own.turning)
+    if others.spin == 0.0:  # the normal does not turn
+        return bound + (own.acceleration(nx, ny) + others.acceleration(nx, ny))
+    bound += own.largest + others.largest
+    bound += 2.0 * others.spin * (own.speed + others.speed + size * own.spin)
+    return bound + (others.spin**2 + others.turning) * (apart + size)

@@ -25,7 +25,7 @@ _ITERATIONS, _CONVERGED, _CLEAR = 50, 5e-5, 3
 #: Iterations in which the coefficient of friction follows the slip: later the slip changes too little to matter.
 _FOLLOWED = 2
 
-#: How often an interval is halved around a kink; and the step, as a fraction of the shortest contact, from which on
+#: Most halvings of an interval around a kink; and the step, as a fraction of the shortest contact, from which on
 #: both errors grow as that of the step, with its square.
 _HALVINGS, _FINE = 3, 0.07
 
@@ -77,11 +77,7 @@ class ClusterFriction:
             return motion
         normal, pressed = normal.take(acting), pressed.take(acting)
         slip = self._slips(motion, acting, normal)
-        laws = [self._laws[link] for link in acting.tolist()]
-
-        def coefficients(slip: np.ndarray) -> np.ndarray:
-            return np.array([law(a, s).friction for (law, a), s in zip(laws, np.abs(slip).tolist(), strict=True)])
-
+        coefficients = self._coefficients(acting)
         if not coefficients(slip).any():
             return motion
         mobility = self._mobility(acting, normal)
@@ -106,6 +102,15 @@ class ClusterFriction:
                 used = impulse / np.maximum(part, 1e-300)
         self._used[acting] = used
         return motion + self._changes(acting, normal, total)
+
+    def _coefficients(self, acting: np.ndarray) -> Coefficients:
+        """The laws of friction of the links that are ``acting``."""
+        laws = [self._laws[link] for link in acting.tolist()]
+
+        def coefficients(slip: np.ndarray) -> np.ndarray:
+            return np.array([law(a, s).friction for (law, a), s in zip(laws, np.abs(slip).tolist(), strict=True)])
+
+        return coefficients
 
     def _slips(self, motion: np.ndarray, acting: np.ndarray, normal: np.ndarray) -> np.ndarray:
         """The slips in m/s of the links that are ``acting``."""

@@ -153,11 +153,22 @@ def after_contact_of_bodies(
     push, rub = disc_on_ground().exchange(approach, slip, 1.0, bounce.restitution, bounce.friction, arm)
     px, py = (push * nx + rub * ny) / smaller, (push * ny - rub * nx) / smaller
     after = dict(states)
-    for index, (x, y), way in zip(contact.balls, arms, (1.0, -1.0), strict=False):
+    for index, (x, y), sign in zip(contact.balls, arms, (1.0, -1.0), strict=False):
         u, v, vx, vy, spin, *more = states[index]
-        share, turn = way / balls[index].mass, way / balls[index].inertia
+        share, turn = sign / balls[index].mass, sign / balls[index].inertia
         after[index] = (u, v, vx + share * px, vy + share * py, spin + turn * (x * py - y * px), *more)
     return after, [push / smaller]
+
+
+def _disc_on_plane(
+    contact: Contact, point: pymunk.Vec2d, size: float, first: pymunk.Body, second: pymunk.Body
+) -> tuple[pymunk.Circle, pymunk.Segment]:
+    """A disc of radius ``size`` (m) on the first body, and a piece of its tangent plane on the second, that overlap at
+    the point of a contact."""
+    normal = pymunk.Vec2d(contact.nx, contact.ny)
+    disc = pymunk.Circle(first, size, point + size * normal - first.position)
+    foot, along = point + _CLOSE * size * normal - second.position, size * normal.perpendicular()
+    return disc, pymunk.Segment(second, foot - along, foot + along, 0.0)
 
 
 def after_contacts_at_once(
@@ -179,16 +190,12 @@ def after_contacts_at_once(
         space.add(body)
     pairs: dict[frozenset[pymunk.Shape], int] = {}
     for number, contact in enumerate(contacts):
-        normal = pymunk.Vec2d(contact.nx, contact.ny)
-        point = pymunk.Vec2d(contact.point[0] - left, contact.point[1] - bottom)
         first, *others = (bodies[index] for index in contact.balls)
-        second = others[0] if others else space.static_body
+        point = pymunk.Vec2d(contact.point[0] - left, contact.point[1] - bottom)
         size = balls[contact.balls[0]].radius
-        disc = pymunk.Circle(first, size, point + size * normal - first.position)
-        foot, along = point + _CLOSE * size * normal - second.position, size * normal.perpendicular()
-        plane = pymunk.Segment(second, foot - along, foot + along, 0.0)
-        space.add(disc, plane)
-        pairs[frozenset((disc, plane))] = number
+        pair = _disc_on_plane(contact, point, size, first, others[0] if others else space.static_body)
+        space.add(*pair)
+        pairs[frozenset(pair)] = number
     impulses = [0.0] * len(contacts)
 
     def bounce(arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:

@@ -30,7 +30,7 @@ from sandbox.engine.motion.step_control import StepControl, allowed, shortest
 from sandbox.engine.paths.arc import hermite_arc
 from sandbox.engine.paths.run import Run
 
-#: Fields of a setup that are combined for flights together; how they end is asked of each.
+#: Fields of a setup that are combined for flights together; their ``until`` is called for each.
 FLIGHT = ("balls", "surfaces", "force_regions", "bounds", "duration", "discontinuities")
 
 #: Pieces of path in a batch, 300 bytes each, beyond which its shots continue one at a time, where the number of steps

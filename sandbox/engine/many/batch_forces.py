@@ -12,7 +12,7 @@ from sandbox.engine.model.tolerances import ROUNDING
 from sandbox.engine.motion.forces_on_ball import acceleration_function, by_cause
 from sandbox.physics.integrators import AccelerationFunction
 
-#: What a scene's own function may raise.
+#: Exceptions that a scene's own function may raise.
 FAILURES = (Exception, SystemExit)
 
 
@@ -41,10 +41,10 @@ def check_forces(setups: Stack, flying: InFlight, lanes: np.ndarray, together: n
         ball, state = setups[flying.shot[lane]].balls[0], tuple(flying.state[:, lane].tolist())
         try:
             alone = acceleration_function(ball)(t := float(flying.t[lane]), state)
-            off = max(abs(one - other) for one, other in zip(together[:, lane].tolist(), alone, strict=True))
-            if off > ROUNDING * sum(map(abs, alone)):  # they may cancel
+            error = max(abs(one - other) for one, other in zip(together[:, lane].tolist(), alone, strict=True))
+            if error > ROUNDING * sum(map(abs, alone)):  # they may cancel
                 size = sum(abs(fx) + abs(fy) for _, (fx, fy) in by_cause(ball.forces, t, state)) / ball.mass
-                if off > ROUNDING * (size + abs(alone[2])):
+                if error > ROUNDING * (size + abs(alone[2])):
                     raise NotVectorizable
         except FAILURES as error:
             raise NotVectorizable from error

@@ -1,4 +1,4 @@
-"""Shots that leave a batch: why, and how each is continued alone."""
+"""Shots that leave a batch: the reason, and each one's continuation alone."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from sandbox.physics.integrators import State
 
 
 class ExitReason(IntEnum):
-    """Why a shot leaves its batch."""
+    """The reason for which a shot leaves its batch."""
 
     NONE = 0
     """It stays."""
@@ -33,7 +33,7 @@ class ExitReason(IntEnum):
     """It is to be computed alone from its start."""
 
     IN_FLIGHT = auto()
-    """It is to be continued on its way."""
+    """It is to be continued in the middle of its flight."""
 
     BEFORE_IMPACT = auto()
     """It is to be continued where it touches something, before the impact."""
@@ -45,7 +45,7 @@ class ExitReason(IntEnum):
     """It is to be continued where its slide or roll has ended."""
 
 
-#: How a run has ended, for shots that leave with their run complete.
+#: The ``ended`` of a run, for shots that leave with their run complete.
 ENDED = {ExitReason.UNTIL: "until", ExitReason.REST: "rest", ExitReason.DURATION: "duration"}
 
 

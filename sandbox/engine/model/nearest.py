@@ -113,12 +113,12 @@ def meeting_points(one: Shape, here: Pose, other: Shape, there: Pose, normal: Ve
     for shape, (x, y, angle), way in ((one, here, -1.0), (other, there, 1.0)):
         c, s = cos(angle), sin(angle)
         toward = atan2(way * ny, way * nx) - angle
-        ways = []
+        places = []
         for px, py in shape.candidates(toward):
             px, py = x + c * px - s * py, y + s * px + c * py
-            ways.append((px * ny - py * nx, px * nx + py * ny + way * shape.radius))  # along, and across the normal
-        far = max(way * across for _, across in ways)
-        near = sorted(place for place in ways if way * place[1] >= far - slack - EQUALLY_NEAR)
+            places.append((px * ny - py * nx, px * nx + py * ny + way * shape.radius))  # along, and across the normal
+        far = max(way * across for _, across in places)
+        near = sorted(place for place in places if way * place[1] >= far - slack - EQUALLY_NEAR)
         ends.append((near[0], near[-1]))
     first, second = ends
     start, end = max(first[0][0], second[0][0]), min(first[1][0], second[1][0])

@@ -168,7 +168,7 @@ class Setup:
             if self.plane is not None:
                 raise ValueError("bodies cannot move on a plane seen from above: only balls can")
             if self.contact.name == "hertz":
-                raise ValueError('contact model "hertz" is for balls: bodies meet as rigid ones')
+                raise ValueError('contact model "hertz" is for balls: bodies collide as rigid')
             if cushion := next((surface.name for surface in self.surfaces if surface.nose_height is not None), None):
                 raise ValueError(f"surface {cushion!r} has a nose_height: only balls can meet it, no bodies")
         if len(names) > 1 and (losing := next((ball.name for ball in self.balls if ball.loss is not None), None)):
@@ -176,7 +176,7 @@ class Setup:
         if not 0.0 < self.duration < inf:
             raise ValueError(f"duration = {self.duration} s must be positive and finite")
         if isinstance(self.until, Touches) and self.until.what not in self.names:
-            raise ValueError(f"until = {self.until}: there are {', '.join(self.names)}")
+            raise ValueError(f"until = {self.until}: unknown name; choose from {', '.join(self.names)}")
 
     @property
     def names(self) -> list[str]:

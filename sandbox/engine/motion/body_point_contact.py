@@ -119,13 +119,13 @@ class BodyPointContact(SustainedContact):
         """Return the turn in rad until the next corner lies on the side, or the distance in m to the side's end: when
         it falls to zero the contact at this point ends."""
         outline, reach = outline_of(ball), self.obstacle.outline
-        at = reach.along(state[0], state[1]) + self.arm(ball, state).along * self._way()
+        at = reach.along(state[0], state[1]) + self.arm(ball, state).along * self._direction_of_side()
         room = float(min(at, reach.length - at))
         if isinstance(outline, Polygon) and len(outline.corners) > 1:
             down = atan2(-self.touching.ny, -self.touching.nx) - state[5]
             corner = outline.corners.index(self.touching.center)
-            for side, way in ((corner, 1.0), (corner - 1, -1.0)):
-                room = min(room, way * remainder(outline.normals[side] - down, 6.283185307179586))
+            for side, sign in ((corner, 1.0), (corner - 1, -1.0)):
+                room = min(room, sign * remainder(outline.normals[side] - down, 6.283185307179586))
         return room
 
     def edge(self, ball: Ball, arc: Arc) -> float | None:
@@ -134,7 +134,7 @@ class BodyPointContact(SustainedContact):
             return None
         return crossing(arc, lambda t, state: self.room(ball, state), GAP_ROUNDING)
 
-    def _way(self) -> float:
+    def _direction_of_side(self) -> float:
         """1 if the side runs along t, -1 if against it."""
         outline = self.obstacle.outline
         return 1.0 if outline.tx * self.touching.ny - outline.ty * self.touching.nx > 0.0 else -1.0
@@ -172,7 +172,7 @@ def body_point_contact(
         return None
     (nx, ny), shape = met.normal, outline_of(ball)
     down = atan2(-ny, -nx) - state[5]
-    core = min(shape.candidates(down), key=lambda place: _off(place, state, point, shape.radius, met.normal))
+    core = min(shape.candidates(down), key=lambda it: _distance_squared(it, state, point, shape.radius, met.normal))
     touching = Touching(met.gap, nx, ny, 0.0, core, SIDE)
     rolling = BodyPointContact(Phase.ROLLING, obstacle, touching)
     if lifts_off(ball, state, point, met.normal, applied):
@@ -185,7 +185,7 @@ def body_point_contact(
     rolling = rolling._replace(direction=copysign(1.0, starts))
     (ax, ay, turning), _, grip_margin = rolling.forces(ball, applied, state)
     if slips or grip_margin < 0.0 or obstacle.surface.friction == 0.0:
-        rub = (ax - applied[0]) * ny - (ay - applied[1]) * nx  # against the way in which it starts to slip
+        rub = (ax - applied[0]) * ny - (ay - applied[1]) * nx  # against the direction in which it starts to slip
         return _sliding(rolling, ball, state, -1.0 if rub > 0.0 else 1.0)
     if at_rest and ball.radius * rolling.direction * turning <= PUSH:
         return BodyPointContact(Phase.RESTING, obstacle, touching)
@@ -201,7 +201,7 @@ def _sliding(rolling: BodyPointContact, ball: Ball, state: State, direction: flo
     return rolling._replace(phase=Phase.SLIDING, direction=direction)
 
 
-def _off(core: Vector, state: State, point: Vector, radius: float, normal: Vector) -> float:
+def _distance_squared(core: Vector, state: State, point: Vector, radius: float, normal: Vector) -> float:
     """Return the squared distance in m^2 of a point of the core from where the body is touched."""
     c, s = cos(state[5]), sin(state[5])
     x, y = state[0] + c * core[0] - s * core[1], state[1] + s * core[0] + c * core[1]

@@ -124,7 +124,7 @@ class MovingBall:
         return self.arc
 
     def end_spin(self, t: float) -> None:
-        """Begin the second arc of its way, where its spin has ended at t."""
+        """Begin the second arc of its predicted path, where its spin has ended at t."""
 
     @property
     def on(self) -> str:
@@ -132,9 +132,11 @@ class MovingBall:
         return "" if self.contact is None else self.contact.obstacle.surface.name
 
     def arrive(self, t: float, state: State) -> None:
-        """It has moved on its arc up to t, and is in this state there. After an event on its way the next step is no
-        longer than the one that it cut: an impact changes how long a step may be, and a quarter
-        of the steps were rejected."""
+        """Move it along its arc up to t, where it is in this state.
+
+        After an event within the arc the next step is no longer than the one that it cut: an impact changes how long a
+        step may be, and a quarter of the steps were rejected.
+        """
         if t < self.arc.t1:
             self.next_step = min(self.next_step, self.arc.t1 - self.arc.t0)
         self._keep(t)

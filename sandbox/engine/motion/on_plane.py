@@ -56,13 +56,14 @@ class OnPlane(MovingBall):
             arc = self._in_closed_form(law, phase, t, h)
             out = _leaves(arc, low, high)
             if h < phase.moves_for < inf and t + h < until and (low, high) == (-inf, inf):
-                self._moves_on(phase, t, min(phase.moves_for, until - t))
+                self._predict_past_spin(phase, t, min(phase.moves_for, until - t))
             return arc if out is None else self._in_closed_form(law, phase, t, out * h), EventKind.ARC_END
         stops_in = hypot(*state[2:4]) / (hypot(phase.ax, phase.ay) or 1.0)
         arc = self._under(phase.acceleration_at, t, min(until, t + _LONGEST * stops_in))
-        out, spun = _leaves(arc, low, high), next(downward_crossings([state[4] * spin for spin in arc.curves[4]]), None)
-        u = min((u for u in (out, spun) if u is not None), default=inf)
-        self._ends_spin = spun == u
+        out = _leaves(arc, low, high)
+        spin_end = next(downward_crossings([state[4] * spin for spin in arc.curves[4]]), None)
+        u = min((u for u in (out, spin_end) if u is not None), default=inf)
+        self._ends_spin = spin_end == u
         return arc if u == inf else arc.until(arc.t0 + u * (arc.t1 - arc.t0)), EventKind.ARC_END
 
     def _in_closed_form(self, law: Plane, phase: PlanePhase, t: float, h: float) -> Arc:
@@ -86,18 +87,18 @@ class OnPlane(MovingBall):
         )
         return Arc(t, t + h, state, curves, end=end)
 
-    def _moves_on(self, phase: PlanePhase, t: float, h: float) -> None:
-        """It moves the same way for h s, though its spin ends before that."""
+    def _predict_past_spin(self, phase: PlanePhase, t: float, h: float) -> None:
+        """Predict its path for h s: its spin ends before that, and does not change it."""
         x, y, vx, vy, *_ = self.state
         ux, uy = vx + h * phase.ax, vy + h * phase.ay
-        ways = (x, x + 0.5 * h * vx, x + 0.5 * h * (vx + ux)), (y, y + 0.5 * h * vy, y + 0.5 * h * (vy + uy))
-        self._past_spin = self.version, Arc(t, t + h, self.state, (*ways, (vx, ux), (vy, uy)))
+        places = (x, x + 0.5 * h * vx, x + 0.5 * h * (vx + ux)), (y, y + 0.5 * h * vy, y + 0.5 * h * (vy + uy))
+        self._past_spin = self.version, Arc(t, t + h, self.state, (*places, (vx, ux), (vy, uy)))
 
     def end_spin(self, t: float) -> None:
-        """Go on along the same way without spin."""
-        way = self.predicted_path
-        self.arc, _ = self.advance(t, way.t1)
-        self.arc.t1 = way.t1  # to the last bit
+        """Go on along the predicted path without spin."""
+        until = self.predicted_path.t1
+        self.arc, _ = self.advance(t, until)
+        self.arc.t1 = until  # to the last bit
 
     def snap_to_contact(self, kind: EventKind) -> None:
         """Make the spin exactly zero where it ends."""

@@ -118,12 +118,12 @@ def allowed(setup: Setup, t: Any, h: Any, state: State, acceleration: Accelerati
     return h
 
 
-def _time_to_travel(way: Any, speed: Any, change: Any, soonest: Any) -> Any:
-    """Return the first time in s after the ``soonest`` at which it has travelled this way (m) at a constant
+def _time_to_travel(distance: Any, speed: Any, change: Any, soonest: Any) -> Any:
+    """Return the first time in s after the ``soonest`` at which it has travelled this ``distance`` (m) at a constant
     acceleration; inf if it never has."""
-    square = speed * speed + 2.0 * way * change
+    square = speed * speed + 2.0 * distance * change
     both = speed + where(speed < 0.0, -1.0, 1.0) * maximum(square, 0.0) ** 0.5
-    first, second = 2.0 * way / (both + TINY), -both / (change + TINY)
+    first, second = 2.0 * distance / (both + TINY), -both / (change + TINY)
     first, second = (where(t > soonest, t, inf) for t in (first, second))
     return where(square < 0.0, inf, minimum(first, second))
 

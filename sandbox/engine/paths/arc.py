@@ -25,7 +25,7 @@ class Arc:
     ``curves`` has a polynomial for each component of the state, as Bernstein coefficients in u = (t - t0) / (t1 - t0).
     After a step a coordinate is the quintic that matches it, its velocity and its acceleration at both ends (error of
     order h^6), and its velocity the derivative; a ball's spin is the cubic that matches spin and its rate at both ends.
-    ``contact`` is None in free motion; ``phase``, ``surface``, ``contact_span`` and ``drift`` tell of it.
+    ``contact`` is None in free motion; ``phase``, ``surface``, ``contact_span`` and ``drift`` describe it.
     """
 
     t0: float  # s
@@ -58,7 +58,7 @@ class Arc:
 
     @property
     def contact_span(self) -> tuple[float, float] | None:
-        """When the simulated contact with others that it is in begins and ends, in s; None if it is in none."""
+        """Begin and end in s of the simulated contact with others that it is in; None if it is in none."""
         return None if self.contact is None else self.contact.span
 
     @property
@@ -119,9 +119,9 @@ class Arc:
             self._box = min(x), min(y), max(x), max(y)
 
     def box_within(self, t: float, h: float) -> tuple[float, float, float, float]:
-        """One that holds the path for h s from t."""
-        (x, y), way = self.position(t), self.fastest() * h
-        return x - way, y - way, x + way, y + way
+        """Left, bottom, right, top (m) of a rectangle that holds the path for h s from t."""
+        (x, y), reach = self.position(t), self.fastest() * h
+        return x - reach, y - reach, x + reach, y + reach
 
     def fastest(self) -> float:
         """A speed in m/s that the ball does not exceed."""

@@ -1,4 +1,4 @@
-"""The path of one ball: its arcs, and what is asked of them."""
+"""The path of one ball: its arcs, and queries on them."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Passage = tuple[float, State]
 
 
 class Curve(Protocol):
-    """A polynomial along an arc. It is asked of arrays, too, for many arcs at once."""
+    """A polynomial along an arc. Also accepts arrays, for many arcs at once."""
 
     def __call__(self, arc: Arc, /) -> Sequence[Any]: ...
 
@@ -40,7 +40,7 @@ def climb(arc: Arc) -> Sequence[Any]:
 
 
 def height(passage: Passage) -> float:
-    """In m."""
+    """The height in m of a passage."""
     return passage[1][1]
 
 
@@ -79,7 +79,7 @@ class Path:
         return self[index] if index < len(self) and self.stops[index] == t else self.at(t)
 
     def pieces(self) -> Iterable[tuple[float, float, Sequence[float], Sequence[float]]]:
-        """Return of each arc when it begins and ends, in s, and the curves of x and y."""
+        """Begin and end in s of each arc, and its curves of x and y."""
         return ((arc.t0, arc.t1, arc.x, arc.y) for arc in self)
 
     def ends(self) -> Iterable[Passage]:

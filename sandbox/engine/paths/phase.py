@@ -47,7 +47,7 @@ class ArcContact(Protocol):
 
     @property
     def span(self) -> tuple[float, float] | None:
-        """When a simulated contact with others begins and ends, in s."""
+        """Begin and end in s of a simulated contact with others."""
 
     @property
     def drift(self) -> Vector:
