@@ -1,0 +1,95 @@
+"""The command ``sandbox sweep``: its rows, pictures, and the requests it rejects."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+
+import pytest
+from PIL import Image
+
+from sandbox.cli import main
+from tests.lab.sweeping import own_scene, table
+from tests.own_scene import COMMAND, DROP
+
+
+def test_the_command(tmp_path, capsys):
+    out, plot = tmp_path / "rows.csv", tmp_path / "map.png"
+    over = ["--over", "launch.speed=7:8:4", "--over", "launch.angle=45:60:3"]
+    assert main(["sweep", "basketball", *over, "--jobs", "1", "--out", str(out), "--plot", str(plot)]) == 0
+    told = capsys.readouterr()
+    assert told.out.startswith("12 points; 12 in ")
+    assert told.out.endswith(f"wrote {out}\nwrote {plot}\n")
+    assert told.err == ""
+    rows = table(out)
+    assert list(rows[0])[:4] == ["launch.speed", "launch.angle", "made", "verdict"]
+    assert list(rows[0])[-1] == "error"
+    assert [(row["launch.speed"], row["launch.angle"]) for row in rows][:4] == [
+        ("7.0", "45.0"), ("7.0", "52.5"), ("7.0", "60.0"), ("7.333333333333333", "45.0"),
+    ]  # fmt: skip
+    assert {row["made"] for row in rows} <= {"true", "false"}
+    with Image.open(plot) as picture:
+        assert picture.size[0] > 900
+
+
+def test_rows_on_stdout(tmp_path):
+    command = [*COMMAND, "sweep", str(DROP), "--over", "launch.height=1:2:3", "--jobs", "1", "--out", "/dev/stdout"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert len(done.stdout.splitlines()) == 4
+    assert done.stdout.startswith("launch.height,bounces,")
+
+
+ROWS = ("--over", "launch.speed=1:2:3", "--out", "x.csv")
+
+
+@pytest.mark.parametrize(
+    ("args", "told"),
+    [
+        (["--over", "launch.speed=1:2:3", "--out", "x.txt"], "must end in .csv"),
+        (["--over", "launch.speed=1:2:3", "--out", "no/x.csv"], "there is no folder"),
+        ([*ROWS, "--of", "carry"], "requires --plot"),
+        ([*ROWS, "--plot", "x.jpg"], "must end in .png"),
+        ([*ROWS, "--plot", "x.png", "--of", "aped"], "did you mean apex?"),
+        (["--over", "launch.speed=1:2:1", "--out", "x.csv", "--plot", "x.png"], "two values or more"),
+        ([*ROWS, "--samples", "0"], "'--samples': 0 is not in the range x>=1"),
+        ([*ROWS, "--seed", "2"], "--seed 2: requires --samples"),
+        ([*ROWS, "--plot", "x.png", "--of", "xyz"], "refined_steps\n"),
+        (["--out", "x.csv"], "--over"),
+        (["--over", "launch.speed=1:2:3"], "--out"),
+    ],
+)
+def test_wrong_requests_are_told_before_any_work(tmp_path, monkeypatch, capsys, args, told):
+    monkeypatch.chdir(tmp_path)
+    assert main(["sweep", "basketball", *args]) == 2
+    assert told in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_sweep_in_which_all_points_fail_says_so(tmp_path, capsys):
+    scene = own_scene(tmp_path, "    raise ValueError('never')\n")
+    out = tmp_path / "x.csv"
+    assert main(["sweep", str(scene), "--over", "launch.height=1:2:3", "--jobs", "1", "--out", str(out)]) == 1
+    errors = {row["error"] for row in table(out)}
+    assert len(errors) == 1
+    assert capsys.readouterr().err == f"error: every point failed, the first with: {(error := errors.pop())}\n"
+    assert re.fullmatch(r"ValueError: never \(drop/scene\.py, line \d+\)", error)
+
+
+@pytest.mark.parametrize(
+    ("over", "more"),
+    [
+        (["launch.height=0.5:2:9"], []),
+        (["launch.height=0.5:2:9"], ["--of", "bounced"]),
+        (["launch.height=0.5:2:9", "launch.speed=0:2:8"], ["--of", "final_height"]),
+        (["launch.height=2,1,0.5", "floor.present=true,false"], ["--of", "bounced"]),
+        (["launch.height=0.5:2", "launch.speed=0:2"], ["--samples", "30", "--of", "bounced"]),
+        (["launch.height=0.5:2", "launch.speed=0:2"], ["--samples", "30"]),
+    ],
+)
+def test_pictures(tmp_path, over, more):
+    plot = tmp_path / "x.png"
+    options = [text for axis in over for text in ("--over", axis)]
+    out = tmp_path / "x.csv"
+    assert main(["sweep", str(DROP), *options, *more, "--jobs", "1", "--out", str(out), "--plot", str(plot)]) == 0
+    with Image.open(plot) as picture:
+        assert len(picture.convert("RGB").getcolors(1 << 24)) > 20
