@@ -258,6 +258,16 @@ def test_every_module_of_the_engine_is_in_the_architecture():
     assert set(re.findall(r"`(\w+\.py)`", packages)) <= modules
 
 
+def test_what_the_architecture_names_exists():
+    page = (ROOT / "docs" / "architecture.md").read_text("utf-8")
+    source = "\n".join(path.read_text("utf-8") for path in (ROOT / "sandbox").rglob("*.py"))
+    rows = [row.split("|") for row in page.splitlines() if row.startswith("| ") and row.count("|") == 4]
+    named = {name for row in rows for name in re.findall(r"`([a-z_]+)`", row[2])}
+    named |= {name for pair in re.findall(r"`([A-Z]\w+)(?:\.(\w+))?`", page) for name in pair if name}
+    assert len(named) > 20
+    assert {name for name in named if not re.search(rf"^ *(?:def|class) {name}\b", source, re.MULTILINE)} == set()
+
+
 # Links --------------------------------------------------------------------------------------------------------------
 
 PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md"), ROOT / "assets" / "README.md"])

@@ -211,7 +211,7 @@ def speeds_at(states: Sequence[State], point: Vector, normal: Vector) -> Speeds:
     return -(ux * nx + uy * ny), ux * ny - uy * nx, 0.0
 
 
-class Moving(Protocol):
+class Mover(Protocol):
     """A ball or body during a run."""
 
     @property
@@ -222,7 +222,7 @@ class Moving(Protocol):
     def predicted_path(self) -> Arc: ...
 
 
-def pair_touches(one: Moving, other: Moving, t: float, skin: float) -> float | None:
+def pair_touches(one: Mover, other: Mover, t: float, skin: float) -> float | None:
     """The first time from t on, while both arcs last, at which two balls or bodies overlap by ``skin``, or None."""
     reach = one.ball.radius + other.ball.radius
     if all_round(one.ball, other.ball):

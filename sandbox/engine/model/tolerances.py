@@ -4,8 +4,8 @@ Coordinates are floats with 16 digits: at 100 m their rounding is 1e-14 m, and a
 lengths below rise from that in steps of about ten, and their order is what matters: a contact is found at an overlap of
 SKIN, which must be more than any rounding, and is still a contact when it is resolved, up to a gap of TOUCHING_GAP.
 
-Lengths, speeds and shares say what broke when they were made a thousand times larger or smaller, in the results of all
-scenes and presets, and in the tests of contacts and bodies; times say what would.
+Lengths, speeds and fractions say what broke when they were made a thousand times larger or smaller, in the results of
+all scenes and presets, and in the tests of contacts and bodies; times say what would.
 """
 
 from __future__ import annotations
