@@ -47,7 +47,7 @@ def tumbling(height: float) -> Setup:
     """A box that falls on a floor from a height in m."""
     crate = Body(
         "box", mass=2.0, shape=box(0.4, 0.25), position=(0.0, height), velocity=(1.2, 0.0), spin=-5.0, angle=0.5,
-        forces=(Gravity(2.0, G),),
+        forces=(Gravity(G, 2.0),),
     )  # fmt: skip
     return setup([crate], 3.0, [(-50.0, 0.0), (50.0, 0.0)])
 

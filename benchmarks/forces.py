@@ -60,7 +60,7 @@ class Flown(NamedTuple):
 
 def balls(count: int) -> list[Ball]:
     """Balls in a row, each thrown upwards at a slightly different angle."""
-    forces: list[Force] = [Gravity(MASS, GRAVITY), Drag(RADIUS, DENSITY, Constant(DRAG))]
+    forces: list[Force] = [Gravity(GRAVITY, MASS), Drag(RADIUS, DENSITY, Constant(DRAG))]
     angles = (radians(50.0 + 30.0 * i / count) for i in range(count))
     return [
         Ball(

@@ -54,7 +54,7 @@ def heap(seed: int) -> Setup:
         place = rng.uniform(-0.7, 0.7) * size, height
         mass = 10.0 ** rng.uniform(-1.5, 1.5)
         motion = {"velocity": (rng.uniform(-1.0, 1.0), rng.uniform(-1.0, 0.5)), "spin": rng.uniform(-5.0, 5.0)}
-        common: dict[str, Any] = {**motion, "position": place, "mass": mass, "forces": [Gravity(mass, G)]}
+        common: dict[str, Any] = {**motion, "position": place, "mass": mass, "forces": [Gravity(G, mass)]}
         if rng.random() < 0.2:
             bodies.append(Ball(f"ball {number}", radius=rng.uniform(0.2, 0.5) * size, **common))
         else:

@@ -186,7 +186,7 @@ def extreme_setup(draw: random.Random) -> str:
     mass, angle, far = size(0.1), draw.uniform(-1.5, 1.5), size(100.0)
     ball = Ball(
         "ball", mass, size(0.03), (signed(1.0), size(2.0)), (signed(10.0), signed(10.0)), signed(100.0),
-        forces=(Gravity(mass, size(9.81)),),
+        forces=(Gravity(size(9.81), mass),),
     )  # fmt: skip
     floor = Segment((-far * cos(angle), -far * sin(angle)), (far * cos(angle), far * sin(angle)))
     surface = Surface("floor", floor, draw.random(), friction=draw.choice((0.0, 0.4, 1e300)))
@@ -220,7 +220,7 @@ def thrown_bodies(draw: random.Random) -> str:
             "position": (x, draw.uniform(1.2, 2.0)),
             "velocity": (-x * draw.uniform(0.0, 4.0), draw.uniform(-3.0, 3.0)),
             "spin": draw.uniform(-25.0, 25.0),
-            "forces": (Gravity(mass, gravity),),
+            "forces": (Gravity(gravity, mass),),
         }
         if number == 1 and draw.random() < 0.3:
             balls.append(Ball("1", mass, 0.2, **start))
@@ -433,7 +433,7 @@ def build(parameters):
     time.sleep(0.001 * parameters.pause)
     if parameters.height < 1.05 or 1.5 < parameters.height < 1.51:
         raise ValueError("not there")
-    ball = Ball("ball", 0.1, 0.03, (0.0, parameters.height), forces=(Gravity(0.1, 9.81),))
+    ball = Ball("ball", 0.1, 0.03, (0.0, parameters.height), forces=(Gravity(9.81, 0.1),))
     floor = Surface("floor", Segment((-9, 0), (9, 0)), 0.5, 0.5)
     return Setup((ball, Ball("other", 0.1, 0.03, (5.0, 5.0))), (floor,), 0.4)
 '''

@@ -1,57 +1,132 @@
-"""A 2D sports sandbox: pick a sport, let go, and see real physics.
+"""A 2D sports sandbox: pick a sport, or describe a setup, let go, and see real physics.
 
 >>> import sandbox
 >>> scene = sandbox.load("golf", {"launch.speed": 70.0})
 >>> run = sandbox.simulate(scene)
->>> run.result["carry"]
+>>> 200 < run.result["carry"] < 250
+True
+
+``help(sandbox.simulate)`` and ``help(sandbox.Run)`` say more; docs/python.md has all names.
 """
 
 from __future__ import annotations
 
-from sandbox.scene import display
+from sandbox import display
 
 TYPE_CHECKING = False  # not from typing, which is slow to import: Ctrl-C is not handled until imports are done
 if TYPE_CHECKING:
     from types import ModuleType
     from typing import Any
 
+    from sandbox.engine.model.accuracy import Accuracy
+    from sandbox.engine.model.ball import DISC, HOLLOW_SPHERE, SOLID_SPHERE, Ball, Body, Force, Torque
+    from sandbox.engine.model.event import Event
+    from sandbox.engine.model.setup import Bounds, ContactModel, ForceRegion, Setup, Touches, Until
+    from sandbox.engine.model.shapes import Ellipse, Polygon, box, capsule, disc, regular
+    from sandbox.engine.model.surface import Bounce, Circle, ConstantBounce, Segment, Surface, Trap
+    from sandbox.engine.paths.run import Numerics, Run, State
     from sandbox.errors import RequestError, RunError, SandboxError
     from sandbox.lab.aim import Aim, aim
     from sandbox.lab.sweep import Sweep, sweep
+    from sandbox.physics.air import LogWind, UniformWind
+    from sandbox.physics.cloth import Cloth
+    from sandbox.physics.forces import Drag, Gravity, Magnus, SpinDecay
+    from sandbox.physics.ice import CurlingIce, Glide
     from sandbox.scene import Check, Scene, check, load, simulate
+    from sandbox.scene.scene_run import SceneRun
 
 __version__ = "0.1.0"
 
 #: The module of each name, imported on first use: ``sandbox --help`` needs none of them.
 _MODULES = {
+    **dict.fromkeys(("Accuracy",), "sandbox.engine.model.accuracy"),
+    **dict.fromkeys(
+        ("DISC", "HOLLOW_SPHERE", "SOLID_SPHERE", "Ball", "Body", "Force", "Torque"), "sandbox.engine.model.ball"
+    ),
+    **dict.fromkeys(("Event",), "sandbox.engine.model.event"),
+    **dict.fromkeys(
+        ("Bounds", "ContactModel", "ForceRegion", "Setup", "Touches", "Until"), "sandbox.engine.model.setup"
+    ),
+    **dict.fromkeys(("Ellipse", "Polygon", "box", "capsule", "disc", "regular"), "sandbox.engine.model.shapes"),
+    **dict.fromkeys(
+        ("Bounce", "Circle", "ConstantBounce", "Segment", "Surface", "Trap"), "sandbox.engine.model.surface"
+    ),
+    **dict.fromkeys(("Numerics", "Run", "State"), "sandbox.engine.paths.run"),
     **dict.fromkeys(("RequestError", "RunError", "SandboxError"), "sandbox.errors"),
-    **dict.fromkeys(("Check", "Scene", "check", "load", "simulate"), "sandbox.scene"),
     **dict.fromkeys(("Aim", "aim"), "sandbox.lab.aim"),
     **dict.fromkeys(("Sweep", "sweep"), "sandbox.lab.sweep"),
+    **dict.fromkeys(("LogWind", "UniformWind"), "sandbox.physics.air"),
+    **dict.fromkeys(("Cloth",), "sandbox.physics.cloth"),
+    **dict.fromkeys(("Drag", "Gravity", "Magnus", "SpinDecay"), "sandbox.physics.forces"),
+    **dict.fromkeys(("CurlingIce", "Glide"), "sandbox.physics.ice"),
+    **dict.fromkeys(("Check", "Scene", "check", "load", "simulate"), "sandbox.scene"),
+    **dict.fromkeys(("SceneRun",), "sandbox.scene.scene_run"),
 }
 
 __all__ = [
+    "DISC",
+    "HOLLOW_SPHERE",
+    "SOLID_SPHERE",
+    "Accuracy",
     "Aim",
+    "Ball",
+    "Body",
+    "Bounce",
+    "Bounds",
     "Check",
+    "Circle",
+    "Cloth",
+    "ConstantBounce",
+    "ContactModel",
+    "CurlingIce",
+    "Drag",
+    "Ellipse",
+    "Event",
+    "Force",
+    "ForceRegion",
+    "Glide",
+    "Gravity",
+    "LogWind",
+    "Magnus",
+    "Numerics",
+    "Polygon",
     "RequestError",
+    "Run",
     "RunError",
     "SandboxError",
     "Scene",
+    "SceneRun",
+    "Segment",
+    "Setup",
+    "SpinDecay",
+    "State",
+    "Surface",
     "Sweep",
+    "Torque",
+    "Touches",
+    "Trap",
+    "UniformWind",
+    "Until",
     "aim",
+    "box",
+    "capsule",
     "check",
+    "disc",
     "load",
+    "regular",
     "simulate",
     "sweep",
 ]
 
 
-def __getattr__(name: str) -> Any:
-    if name not in _MODULES:
-        raise AttributeError(f"module 'sandbox' has no attribute {name!r}")
-    from importlib import import_module
+if not TYPE_CHECKING:  # or a misspelt name would pass as one of any type
 
-    return getattr(import_module(_MODULES[name]), name)
+    def __getattr__(name: str) -> Any:
+        if name not in _MODULES:
+            raise AttributeError(f"module 'sandbox' has no attribute {name!r}")
+        from importlib import import_module
+
+        return getattr(import_module(_MODULES[name]), name)
 
 
 def _pictures() -> ModuleType:

@@ -49,8 +49,9 @@ def record(run: SceneRun, until: float | None = None, duration: float | None = N
     recorded["events"] = [
         [event.t, event.kind, event.ball, event.partner, event.speed] for event in run.events if event.t <= end
     ]
-    # A run may end with an impact: its last state is the one after it, however the time was rounded.
-    when = [run.duration if abs(t - run.duration) <= TOLERANCE else t for t in times]
+    # A run may end with an impact: its last state is the one after it, however the time was rounded. That is also the
+    # state at all later times of a record that is longer.
+    when = [run.duration if t >= run.duration - TOLERANCE else t for t in times]
     recorded["states"] = {
         ball.name: [[t, *map(float, run.state(ball.name, at))] for t, at in zip(times, when, strict=True)]
         for ball in balls

@@ -75,11 +75,11 @@ def run(
     files = outputs.requested(paths, size, fps)
     with bar("seconds simulated") as progress:
         try:
-            done = simulate(chosen, progress)
+            done = simulate(chosen, progress=progress)
         except RequestError as error:  # what only the scene can check: two balls in one place
             raise RequestError(f"{scene}: {error}") from None
         checked = check_scene(chosen, done, progress) if check else None
-        others = {source: simulate(_comparable(chosen, source, changes), progress) for source in compare}
+        others = {source: simulate(_comparable(chosen, source, changes), progress=progress) for source in compare}
     if as_json:
         said = report.as_json(chosen, done, checked, list(others.values()))
     else:

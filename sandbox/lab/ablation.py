@@ -20,7 +20,7 @@ from sandbox.lab.timing import Timed, repeat
 from sandbox.lab.verdicts import verdict
 from sandbox.physics.air import UniformWind
 from sandbox.physics.coefficients import Constant, spin_ratio_lift
-from sandbox.physics.forces import Drag, Magnus, SpinDecay
+from sandbox.physics.forces import Drag, Magnus, SpinDecay, on_ball
 from sandbox.physics.plane import without
 from sandbox.scene import compare
 from sandbox.scene.running import simulate_at
@@ -208,14 +208,14 @@ def _without(ball: Ball, name: str) -> Ball:
 
 
 def _varies(force: Drag | Magnus) -> bool:
-    return len({force.coefficient(*flow) for flow in _FLOWS}) > 1
+    return callable(force.coefficient) and len({force.coefficient(*flow) for flow in _FLOWS}) > 1
 
 
 def _at_start(ball: Ball, force: Drag | Magnus) -> float:
     """The coefficient of a force at the start; 0 for a ball at rest."""
     pull, unit = (
         hypot(*each(0.0, ball.position, ball.velocity, ball.spin))
-        for each in (force, replace(force, coefficient=Constant(1.0)))
+        for each in (force, on_ball(replace(force, coefficient=1.0), ball))
     )
     return pull / unit if unit else 0.0
 

@@ -135,7 +135,7 @@ def _lone(
     duration: float = 2.0,
 ) -> Setup:
     """A ball, with its weight unless ``forces`` are given, and what it meets, of that restitution and friction."""
-    own = [Gravity(mass, 9.81)] if forces is None else forces
+    own = [Gravity(9.81)] if forces is None else forces
     surfaces = [Surface(name, shape, *bounce) for name, shape in met.items()]
     return Setup([Ball("ball", mass, radius, position, velocity, spin, forces=own)], surfaces, duration=duration)
 
@@ -171,7 +171,7 @@ def _bullet() -> Setup:
     """9 mm and 8 g at 340 m/s: water halves its speed within 35 cm."""
     radius, density = 0.0045, 1000.0
     drag, lift = Drag(radius, density, Constant(0.5)), Magnus(radius, density, Constant(0.1))
-    forces: list[Force] = [Gravity(0.008, 9.81), drag, lift]
+    forces: list[Force] = [Gravity(9.81), drag, lift]
     return _lone({}, (0.0, 0.0), 0.008, radius, (0.0, 1.0), (340.0, 0.0), 100.0, forces, duration=5.0)
 
 
@@ -189,7 +189,7 @@ def _heap() -> Setup:
     """Balls of 2 cm that fall into a box."""
     walls = [((-0.7, 0.0), (0.7, 0.0)), ((-0.7, 0.0), (-0.7, 3.0)), ((0.7, 0.0), (0.7, 3.0))]
     surfaces = [Surface(f"side {k}", Segment(a, b, 0.02), 0.5, 0.4) for k, (a, b) in enumerate(walls)]
-    weight = [Gravity(0.005, 9.81)]
+    weight = [Gravity(9.81)]
     spots = [(-0.65 + 0.026 * (k % 50) + 0.001 * (k // 50 % 2), 0.05 + 0.03 * (k // 50)) for k in range(1000)]
     balls = [Ball(f"{k}", 0.005, 0.01, spot, forces=weight) for k, spot in enumerate(spots)]
     return Setup(balls, surfaces, duration=0.5, between_balls=ConstantBounce(Bounce(0.5, 0.3)))

@@ -104,8 +104,9 @@ def apart(a: Sequence[Point], b: Sequence[Point]) -> float:
 
 
 def places(run: Run, t: float) -> list[Point]:
-    """Positions of the balls at time t, in m."""
-    return [(state[0], state[1]) for state in (run.state(ball.name, t) for ball in run.setup.balls)]
+    """Positions of the balls at time t, in m; after the end of the run where they are then, at rest or caught."""
+    at = min(t, run.duration)
+    return [(state[0], state[1]) for state in (run.state(ball.name, at) for ball in run.setup.balls)]
 
 
 def until(setup: Setup, time: float) -> Setup:

@@ -16,12 +16,13 @@ from uuid import uuid4
 
 import numpy as np
 
+from sandbox import display
 from sandbox.errors import RequestError, RunError, Stopped
 from sandbox.lab.axes import Values, as_axis
 from sandbox.lab.plan import Plan, Record, records
 from sandbox.lab.row_file import RowFile
 from sandbox.lab.runs import Progress, no_progress
-from sandbox.scene import Scene, as_scene, display
+from sandbox.scene import Scene, as_scene
 from sandbox.workers import Call, Cluster, InTurn, Processes, WorkerLost, Workers, cores
 
 #: Target time in s of one call to a worker, so that progress is shown and Ctrl-C handled a few times a second.

@@ -13,16 +13,17 @@ from PIL import Image
 
 from sandbox.errors import RequestError
 from sandbox.files import check_size
-from sandbox.page.parts import html, picture, table
+from sandbox.page.parts import html, picture, save, table
 from sandbox.page.replay import page_of, text_of
 from sandbox.parameters import walk
 from sandbox.picture import frames
+from sandbox.scene.setup_scene import with_scene
 
 if TYPE_CHECKING:
+    from sandbox.engine.paths.run import Run
     from sandbox.lab.aim import Aim
     from sandbox.lab.sweep import Sweep
     from sandbox.scene import Scene
-    from sandbox.scene.scene_run import SceneRun
 
 Size = tuple[int, int]
 
@@ -47,25 +48,57 @@ class Animation:
         return {"text/html": f'<img alt="the run in motion" src="{url}">', "text/plain": "<Animation of a run>"}
 
 
-def poster(run: SceneRun, path: Path | str | None, size: Size | None) -> Image.Image | None:
+def poster(run: Run, path: Path | str | None, size: Size | None) -> Image.Image | None:
     """The whole run as one picture: written to ``path``, or handed back."""
-    drawn = _picture(run, size or POSTER).poster()
+    return _drawn_once(lambda: _picture(run, size or POSTER).poster(), path)
+
+
+def energy_chart(run: Run, path: Path | str | None, size: Size | None) -> Image.Image | None:
+    """The energy by cause over time: written to ``path``, or handed back."""
+    from sandbox.picture.energy_chart import energy_chart
+
+    return _drawn_once(lambda: energy_chart(with_scene(run), _checked(size or POSTER)), path)
+
+
+def graph(run: Run, path: Path | str | None, size: Size | None) -> Image.Image | None:
+    """Graphs over time: written to ``path``, or handed back."""
+    from sandbox.picture.graph import graph
+
+    return _drawn_once(lambda: graph(with_scene(run), _checked(size or POSTER)), path)
+
+
+def _drawn_once(draw: Callable[[], Any], path: Path | str | None) -> Image.Image | None:
+    """A picture: written to ``path``, or handed back."""
     if path is None:
-        return frames.to_image(drawn)
+        return frames.to_image(draw())
     _check(path, ".png")
-    frames.save_png(drawn, path)
+    frames.save_png(draw(), path)
     return None
 
 
-def frame(run: SceneRun, t: float, size: Size | None) -> Image.Image:
+def page(run: Run, path: Path | str | None) -> str | None:
+    """The page that plays the run: written to ``path``, or its text."""
+    if path is None:
+        return page_of(with_scene(run))
+    _check(path, ".html", ".htm")
+    save(page_of(with_scene(run)), Path(path))
+    return None
+
+
+def frame(run: Run, t: float, size: Size | None) -> Image.Image:
     """The run at time t in s."""
     return frames.to_image(_picture(run, size or POSTER).frame(t))
 
 
-def animate(run: SceneRun, path: Path | str | None, size: Size | None, fps: float) -> Animation | None:
+def save_frames(run: Run, folder: Path | str, fps: float, size: Size | None) -> int:
+    """Write the frames of the run into a folder; return how many."""
+    _check_rate(fps)
+    return frames.save_frames(_picture(run, size or MOVING), run, folder, fps)
+
+
+def animate(run: Run, path: Path | str | None, size: Size | None, fps: float) -> Animation | None:
     """The run in motion: written to ``path``, or handed back."""
-    if not 1 <= fps <= 240:
-        raise RequestError(f"fps = {fps:g}: must be from 1 to 240")
+    _check_rate(fps)
     drawn = _picture(run, size or MOVING)
     if path is not None:
         _check(path, *WRITERS)
@@ -77,9 +110,20 @@ def animate(run: SceneRun, path: Path | str | None, size: Size | None, fps: floa
         return Animation(file.read_bytes())
 
 
-def _picture(run: SceneRun, size: Size) -> Any:
+def _picture(run: Run, size: Size) -> Any:
+    drawn = with_scene(run)
+    return drawn.scene.picture(drawn, _checked(size))
+
+
+def _checked(size: Size) -> Size:
+    """Return the size. Raises RequestError if no picture can have it."""
     check_size(f"size = {size}", size)
-    return run.scene.picture(run, size)
+    return size
+
+
+def _check_rate(fps: float) -> None:
+    if not 1 <= fps <= 240:
+        raise RequestError(f"fps = {fps:g}: must be from 1 to 240")
 
 
 def _check(path: Path | str, *suffixes: str) -> None:
@@ -90,8 +134,9 @@ def _check(path: Path | str, *suffixes: str) -> None:
 # ------------------------------------------------------------------------------------------------------------ as HTML
 
 
-def run_html(run: SceneRun) -> str:
+def run_html(done: Run) -> str:
     """Card and poster, and the page that plays it where the notebook is trusted."""
+    run = with_scene(done)
     page = escape(page_of(run))
     shown = picture(frames.to_image(_picture(run, POSTER).poster()))
     return (

@@ -28,6 +28,7 @@ from sandbox.picture.view import View
 from sandbox.scene import Scene, load
 from sandbox.scene.finding import as_path, is_installed
 from sandbox.scene.scene_run import SceneRun
+from sandbox.scene.setup_scene import SetupScene
 from sandbox.sport.amounts import DISPLAY_UNITS, exact, ladder
 from sandbox.sport.readings import words_of
 from sandbox.text import command_line
@@ -73,6 +74,7 @@ def page_of(run: SceneRun, ghosts: Mapping[str, SceneRun] | None = None, options
         "told": view.story_end,
         "fonts": fonts(),
     }
+    about = html(scene.about), _code(command(scene, "run", *options))
     return filled(
         "run.html",
         title=html(f"{scene.title}: {verdict}"),
@@ -88,14 +90,20 @@ def page_of(run: SceneRun, ghosts: Mapping[str, SceneRun] | None = None, options
         parameters=rows(
             (each.key, text_of(each.value, each.unit)) for each in walk(scene.parameters) if each.value is not None
         ),
-        about=html(scene.about),
-        command=html(command(scene, "run", *options)),
+        about="".join(f"<p>{text}</p>\n" for text in about if text),
         data=packed(data),
     )
 
 
+def _code(text: str) -> str:
+    """Text as a command, if there is one."""
+    return f"<code>{html(text)}</code>" if text else ""
+
+
 def command(scene: Scene, does: str = "run", *options: str) -> str:
-    """The command line that runs a scene with these parameters, or ``does`` something else with it."""
+    """The command line that runs a scene with these parameters, or ``does`` something else with it; "" for a setup."""
+    if isinstance(scene, SetupScene):
+        return ""
     source = scene.title
     if not is_installed(scene.folder):
         source = f"{as_path(scene.folder)}/{scene.preset}" if scene.preset else as_path(scene.folder)

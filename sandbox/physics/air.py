@@ -39,13 +39,21 @@ def density_share(height: Any) -> Any:
     return clip(1.0 - height / 44331.0, 0.0, 1.0) ** 4.2559
 
 
+#: Density in kg/m^3 of dry air at 15 C and sea level (U.S. Standard Atmosphere 1976).
+DENSITY = 1.225
+
 #: Dynamic viscosity in Pa s of air at 15 C.
 VISCOSITY = viscosity(288.15)
 
 
 @dataclass(frozen=True)
 class UniformWind:
-    """The same wind everywhere, at all times, in m/s."""
+    """The same wind everywhere, at all times, in m/s.
+
+    >>> from sandbox import UniformWind
+    >>> UniformWind(-5.0, 0.0)(0.0, (0.0, 2.0))
+    (-5.0, 0.0)
+    """
 
     x: float
     y: float

@@ -8,6 +8,9 @@ from typing import Any
 
 from sandbox.physics.elementwise import everywhere, finite
 
+#: Most characters of a value in a message.
+_LONGEST = 60
+
 #: Each rule: a condition on a value, floats or arrays, and what is said where it does not hold.
 _RULES = {
     "positive": (lambda x: everywhere((x > 0.0) & (x < inf)), "must be positive"),
@@ -25,5 +28,16 @@ def check(what: str, thing: Any, **fields: Sequence[str]) -> None:
         holds, words = _RULES[rule]
         for name in names:
             value = getattr(thing, name)
-            if not holds(value):
-                raise ValueError(f"{what}: {name} = {value} {words}")
+            try:
+                right = holds(value)
+            except TypeError:  # such as text in place of a number
+                right = False
+            if not right:
+                shown = value if isinstance(value, float | int | tuple) else _short(value)
+                raise ValueError(f"{what}: {name} = {shown} {words}")
+
+
+def _short(value: Any) -> str:
+    """Return a value for a message, in one line."""
+    text = " ".join(repr(value).split())
+    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 3]}..."

@@ -9,12 +9,12 @@ any callable of this form.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import pi
-from typing import Any, Protocol
+from typing import Any, NoReturn, Protocol
 
-from sandbox.physics.air import VISCOSITY, density_share
-from sandbox.physics.coefficients import Coefficient, Constant
+from sandbox.physics.air import DENSITY, VISCOSITY, density_share
+from sandbox.physics.coefficients import Coefficient, Constant, spin_ratio_lift
 from sandbox.physics.elementwise import clip
 
 Wind = Callable[[float, Any], tuple[Any, Any]]
@@ -32,41 +32,109 @@ class MassLoss(Protocol):
     def rate(self, t: Any) -> Any: ...
 
 
-@dataclass(frozen=True)
-class Gravity:
-    """Weight, ``F = (0, -m g)``, of a mass m that may become less."""
+class OfBall:
+    """A force or torque that takes what it is not given, such as a mass, from the ball in whose list it is."""
 
-    mass: float  # kg, at the start
+    def on(self, ball: Any) -> Any:
+        """Return the same with what it needs of this ball or body."""
+        raise NotImplementedError
+
+    def __getattr__(self, name: str) -> NoReturn:
+        """Raise ValueError where it is called in no ball's list, without what it needs; nothing else comes here."""
+        if name in getattr(type(self), "__dataclass_fields__", ()):
+            what = type(self).__name__
+            raise ValueError(
+                f"{what} is in no ball's list of forces or torques: give it the mass or radius that it needs"
+            )
+        raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+
+
+def _computed() -> Any:
+    """A field that follows from the others, and from the ball."""
+    return field(init=False, repr=False, compare=False)
+
+
+def on_ball(term: Any, ball: Any) -> Any:
+    """Return a force or torque as it acts on this ball or body."""
+    return term.on(ball) if isinstance(term, OfBall) else term
+
+
+@dataclass(frozen=True)
+class Gravity(OfBall):
+    """Weight, ``F = (0, -m g)``, of the ball's mass m, which may become less, or of another ``mass``.
+
+    >>> from sandbox import Ball, Gravity
+    >>> ball = Ball("ball", mass=0.5, radius=0.1, position=(0, 1), forces=[Gravity(9.81)])
+    >>> ball.forces[0](0.0, (0.0, 1.0), (0.0, 0.0), 0.0)
+    (0.0, -4.905)
+    """
+
     gravity: float  # m/s^2
-    loss: MassLoss | None = None
-    _force: tuple[float, float] = field(init=False, repr=False)  # N
+    mass: float | None = None  # kg, at the start; default: the ball's, and what it loses
+    loss: MassLoss | None = field(default=None, kw_only=True)
+    _mass: float = _computed()  # kg
+    _loss: MassLoss | None = _computed()
+    _force: tuple[float, float] = _computed()  # N
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "_force", (0.0, -self.mass * self.gravity))
+        if self.mass is not None:
+            self._weigh(self.mass, self.loss)
+
+    def _weigh(self, mass: float, loss: MassLoss | None) -> None:
+        for name, value in {"_mass": mass, "_loss": loss, "_force": (0.0, -mass * self.gravity)}.items():
+            object.__setattr__(self, name, value)
+
+    def on(self, ball: Any) -> Gravity:
+        if self.mass is not None:
+            return self
+        made = replace(self)
+        made._weigh(ball.mass, ball.loss)
+        return made
+
+    @property
+    def is_constant(self) -> bool:
+        """True if nothing is lost of the mass."""
+        return self._loss is None
 
     def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
-        if self.loss is None:
+        if self._loss is None:
             return self._force
-        return 0.0, (self.loss.lost(t) - self.mass) * self.gravity
+        return 0.0, (self._loss.lost(t) - self._mass) * self.gravity
 
 
 @dataclass(frozen=True)
-class _InAir:
+class _InAir(OfBall):
     """The part that drag and lift share: the ball, the air, and the velocity relative to it."""
 
-    radius: float  # m
-    density: float  # kg/m^3, of the air
-    coefficient: Coefficient
+    radius: float | None = None  # m; default: the ball's
+    density: float = DENSITY  # kg/m^3, of the air
+    coefficient: Coefficient | float = 0.0  # a function of Reynolds number and spin ratio, or a number
     wind: Wind | None = None
     area: float | None = None  # m^2; default: the sphere's cross-section
     viscosity: float = VISCOSITY  # Pa s
-    _half_density_area: float = field(init=False, repr=False)
-    _reynolds_per_speed: float = field(init=False, repr=False)
+    _radius: float = _computed()  # m
+    _law: Coefficient = _computed()
+    _half_density_area: float = _computed()
+    _reynolds_per_speed: float = _computed()
 
     def __post_init__(self) -> None:
-        area = pi * self.radius * self.radius if self.area is None else self.area
+        law = self.coefficient if callable(self.coefficient) else Constant(self.coefficient)
+        object.__setattr__(self, "_law", law)
+        if self.radius is not None:
+            self._measure(self.radius)
+
+    def _measure(self, radius: float) -> None:
+        area = pi * radius * radius if self.area is None else self.area
+        object.__setattr__(self, "_radius", radius)
         object.__setattr__(self, "_half_density_area", 0.5 * self.density * area)
-        object.__setattr__(self, "_reynolds_per_speed", self.density * 2.0 * self.radius / self.viscosity)
+        object.__setattr__(self, "_reynolds_per_speed", self.density * 2.0 * radius / self.viscosity)
+
+    def on(self, ball: Any) -> Any:
+        if self.radius is not None:
+            return self
+        made = replace(self)
+        made._measure(ball.radius)
+        return made
 
 
 def in_wind(wind: Wind, t: float, position: Any, velocity: Any) -> tuple[Any, Any]:
@@ -77,15 +145,27 @@ def in_wind(wind: Wind, t: float, position: Any, velocity: Any) -> tuple[Any, An
 
 @dataclass(frozen=True)
 class Drag(_InAir):
-    """Quadratic drag, ``F = -1/2 rho Cd A |u| u`` with ``u = v - wind``. Clift, Grace & Weber 1978, chapter 5."""
+    """Quadratic drag, ``F = -1/2 rho Cd A |u| u`` with ``u = v - wind``. Clift, Grace & Weber 1978, chapter 5.
+
+    The default coefficient, 0.47, is that of a smooth sphere at Reynolds numbers from 1e4 to 2e5 (Hoerner 1965, chapter
+    3); the default density is that of air at 15 C at sea level.
+
+    >>> from sandbox import Ball, Drag, UniformWind
+    >>> ball = Ball("ball", mass=0.62, radius=0.12, position=(0, 2), forces=[Drag(wind=UniformWind(-5.0, 0.0))])
+    >>> fx, fy = ball.forces[0](0.0, (0.0, 2.0), (5.0, 0.0), 0.0)
+    >>> round(fx, 3)  # N, against 10 m/s
+    -1.302
+    """
+
+    coefficient: Coefficient | float = 0.47
 
     def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
         ux, uy = velocity if self.wind is None else in_wind(self.wind, t, position, velocity)
-        speed, coefficient = (ux * ux + uy * uy) ** 0.5, self.coefficient
+        speed, coefficient = (ux * ux + uy * uy) ** 0.5, self._law
         if type(coefficient) is Constant:
             value = coefficient.value
         else:
-            spin_ratio = self.radius * abs(spin) / (speed + _ALMOST_ZERO)
+            spin_ratio = self._radius * abs(spin) / (speed + _ALMOST_ZERO)
             value = coefficient(self._reynolds_per_speed * speed, spin_ratio)
         k = -self._half_density_area * value * speed
         return k * ux, k * uy
@@ -98,24 +178,31 @@ class Magnus(_InAir):
 
     With ``along_ground`` the speed, the spin ratio and the direction use the velocity over the ground, a textbook
     simplification. Source: Briggs 1959, Am. J. Phys. 27:589, for the direction; the magnitude is set by the
-    coefficient.
+    coefficient, by default the spin ratio itself.
+
+    >>> from sandbox import Ball, Magnus
+    >>> ball = Ball("ball", mass=0.43, radius=0.11, position=(0, 0), forces=[Magnus(coefficient=0.2)])
+    >>> fx, fy = ball.forces[0](0.0, (0.0, 0.0), (20.0, 0.0), 60.0)
+    >>> round(fy, 3)  # N: backspin lifts
+    1.863
     """
 
+    coefficient: Coefficient | float = spin_ratio_lift
     along_ground: bool = False
 
     def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
         wind = None if self.along_ground else self.wind
         ux, uy = velocity if wind is None else in_wind(wind, t, position, velocity)
         speed = (ux * ux + uy * uy) ** 0.5
-        size = self.radius * abs(spin)
+        size = self._radius * abs(spin)
         spin_ratio = size / (speed + _ALMOST_ZERO)
-        k = self._half_density_area * self.coefficient(self._reynolds_per_speed * speed, spin_ratio) * speed
-        k = k * (self.radius * spin / (size + _ALMOST_ZERO))  # sign of the spin, 0 without spin
+        k = self._half_density_area * self._law(self._reynolds_per_speed * speed, spin_ratio) * speed
+        k = k * (self._radius * spin / (size + _ALMOST_ZERO))  # sign of the spin, 0 without spin
         return -k * uy, k * ux
 
 
 @dataclass(frozen=True)
-class Inside:
+class Inside(OfBall):
     """A force that acts inside a medium that ends at a line, such as the drag of water: times the share of a sphere's
     diameter that lies beyond the line.
 
@@ -132,6 +219,9 @@ class Inside:
     def __name__(self) -> str:
         return self.name
 
+    def on(self, ball: Any) -> Inside:
+        return replace(self, force=on_ball(self.force, ball))
+
     def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
         (x, y), (px, py), (nx, ny) = position, self.point, self.normal
         share = clip(0.5 - ((x - px) * nx + (y - py) * ny) / (2.0 * self.radius), 0.0, 1.0)
@@ -140,7 +230,7 @@ class Inside:
 
 
 @dataclass(frozen=True)
-class Thinning:
+class Thinning(OfBall):
     """A force of air that grows thinner on the way up, times ``rho(y) / rho(0)`` of the standard atmosphere.
 
     Only the density falls: the Reynolds and Mach numbers stay those at the ground.
@@ -152,6 +242,9 @@ class Thinning:
     def __name__(self) -> str:
         return type(self.force).__name__
 
+    def on(self, ball: Any) -> Thinning:
+        return replace(self, force=on_ball(self.force, ball))
+
     def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
         share = density_share(position[1])
         fx, fy = self.force(t, position, velocity, spin)
@@ -159,20 +252,38 @@ class Thinning:
 
 
 @dataclass(frozen=True)
-class SpinDecay:
+class SpinDecay(OfBall):
     """The air slows the spin, ``dw/dt = -k |u| w / r``, here as a torque in N m.
 
     k is about 2e-5 to 6e-5 for a golf ball. Source: Smits & Smith 1994 (2e-5), Tavares et al. 2001 (2.5e-5).
+
+    >>> from sandbox import Ball, SpinDecay
+    >>> ball = Ball("ball", mass=0.0459, radius=0.02135, position=(0, 0), torques=[SpinDecay(rate=2e-5)])
+    >>> ball.torques[0](0.0, (0.0, 0.0), (70.0, 0.0), 300.0) < 0.0
+    True
     """
 
-    inertia: float  # kg m^2
-    radius: float  # m
-    rate: float  # k
+    inertia: float | None = None  # kg m^2; default: the ball's
+    radius: float | None = None  # m; default: the ball's
+    rate: float = 2e-5  # k
     wind: Wind | None = None
-    _k: float = field(init=False, repr=False)
+    _k: float = _computed()
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "_k", self.inertia * self.rate / self.radius)
+        if self.inertia is not None and self.radius is not None:
+            self._scale(self.inertia, self.radius)
+
+    def _scale(self, inertia: float, radius: float) -> None:
+        object.__setattr__(self, "_k", inertia * self.rate / radius)
+
+    def on(self, ball: Any) -> SpinDecay:
+        if self.inertia is not None and self.radius is not None:
+            return self
+        made = replace(self)
+        made._scale(
+            ball.inertia if self.inertia is None else self.inertia, ball.radius if self.radius is None else self.radius
+        )
+        return made
 
     def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> Any:
         ux, uy = velocity if self.wind is None else in_wind(self.wind, t, position, velocity)

@@ -72,7 +72,7 @@ def motion(run: SceneRun, view: View[Any]) -> tuple[np.ndarray, dict[str, tuple[
     ball = view.ball
     times = instants(run, PIECES, [ball])
     times = times[times <= (run.caught_at(ball) or run.duration)]
-    x, y, vx, vy, spin = run.states(times.tolist(), ball).T
+    x, y, vx, vy, spin = run.states(ball, times).T[:5]
     if isinstance(view, SideView):
         places = {"height": ("m", np.maximum(0.0, y - view.radius - view.ground(x)))}
     else:

@@ -70,7 +70,7 @@ class Vectors:
         """The largest speed in m/s and the largest force in N of the run; those of surfaces set no scale."""
         times = np.linspace(0.0, self.run.duration, SAMPLES)
         forces = [np.zeros((1, 2)), *(force for name, force in self.over(times).items() if name != "contact")]
-        speeds = self.run.states(times.tolist(), self.name)[:, 2:4]
+        speeds = self.run.states(self.name, times)[:, 2:4]
         return float(np.hypot(*speeds.T).max()), float(np.nanmax([np.nanmax(np.hypot(*force.T)) for force in forces]))
 
     def draw(self, sheet: Sheet, at: tuple[float, float], radius: float, t: float) -> None:

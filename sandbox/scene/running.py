@@ -6,15 +6,17 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
-from sandbox.errors import RunError
+from sandbox.errors import RequestError, RunError
 from sandbox.scene.scene import Scene, as_scene
 from sandbox.scene.scene_run import SceneRun
+from sandbox.text import shortened
 
 if TYPE_CHECKING:
     from sandbox.engine.model.accuracy import Accuracy
     from sandbox.engine.model.setup import Setup
+    from sandbox.engine.paths.run import Run
 
 Progress = Callable[[float, float], None]
 
@@ -44,15 +46,60 @@ _CHAOTIC = 1e6
 _TURN = math.pi * (3.0 - math.sqrt(5.0))
 
 
-def simulate(scene: Scene | str | Path, progress: Progress | None = None) -> SceneRun:
-    """Run the scene to its end at the accuracy that its parameters ask for; ``run.result`` holds its numbers.
+@overload
+def simulate(
+    setup_or_scene: Setup, accuracy: Accuracy | str | None = None, *, progress: Progress | None = None
+) -> Run: ...
 
-    The plain method, which may take minutes, calls ``progress`` with the time simulated and its most, in s.
+
+@overload
+def simulate(
+    setup_or_scene: Scene | str | Path, accuracy: Accuracy | str | None = None, *, progress: Progress | None = None
+) -> SceneRun: ...
+
+
+def simulate(
+    setup_or_scene: Setup | Scene | str | Path,
+    accuracy: Accuracy | str | None = None,
+    *,
+    progress: Progress | None = None,
+) -> Run:
+    """Run a setup or a scene to its end.
+
+    A setup gives a ``Run``: its paths, events and pictures (``help(sandbox.Run)``). A scene, or the name of one, gives
+    a ``SceneRun``, which is a ``Run`` with a ``result``.
+
+    ``accuracy`` is the name of a level ("fast", "balanced" or "precise") or an ``Accuracy``. By default it is that of
+    the scene's parameters, and "balanced" for a setup. The plain method, which may take minutes, calls ``progress``
+    with the time simulated and its most, in s.
+
+    Raises RequestError if what is asked for is wrong, RunError if the run cannot be completed.
+
+    >>> import sandbox
+    >>> from sandbox import Ball, Gravity, Setup
+    >>> ball = Ball("ball", mass=1.0, radius=0.1, position=(0, 0), velocity=(3, 4), forces=[Gravity(9.81)])
+    >>> run = sandbox.simulate(Setup([ball], duration=1.0), accuracy="precise")
+    >>> round(run.state("ball", 1.0).y, 9)
+    -0.905
+    >>> sandbox.simulate("golf", accuracy="fast").scene.parameters.accuracy.level
+    'fast'
     """
-    from sandbox.engine.model.accuracy import resolve
+    from sandbox.engine.model.accuracy import Accuracy, resolve
+    from sandbox.engine.model.setup import Setup
 
-    chosen = as_scene(scene)
-    return simulate_at(chosen, resolve(**chosen.parameters.accuracy.model_dump()), progress=progress)
+    if accuracy is not None and not isinstance(accuracy, Accuracy | str):
+        raise RequestError(f"accuracy = {shortened(repr(accuracy))}: must be the name of a level, or an Accuracy")
+    if isinstance(setup_or_scene, Setup):
+        from sandbox.engine import simulate as run_setup
+
+        level = accuracy if isinstance(accuracy, Accuracy) else resolve(accuracy or "balanced")
+        return run_setup(setup_or_scene, level, progress)
+    chosen = as_scene(setup_or_scene)
+    if isinstance(accuracy, str):
+        chosen = chosen.changed({"accuracy.level": accuracy}, "accuracy")
+    if not isinstance(accuracy, Accuracy):
+        accuracy = resolve(**chosen.parameters.accuracy.model_dump())
+    return simulate_at(chosen, accuracy, progress=progress)
 
 
 def simulate_at(

@@ -15,10 +15,10 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
+from sandbox import display
 from sandbox import parameters as declared
 from sandbox.errors import RequestError, RunError, sys_exit_as_error
 from sandbox.files import from_here
-from sandbox.scene import display
 from sandbox.scene.finding import Found, default_file, docstring, find, first_comment
 from sandbox.scene.modules import module_in
 from sandbox.sport.controls import Controls
@@ -273,6 +273,8 @@ def load(source: str | Path, overrides: Mapping[str, Any] | None = None, *, over
 
 def as_scene(scene: Scene | str | Path) -> Scene:
     """The scene itself, or the one that is named."""
+    if not isinstance(scene, Scene | str | Path):
+        raise RequestError(f"{shortened(repr(scene))}: must be a scene, its name, or the path of its file")
     return scene if isinstance(scene, Scene) else load(scene)
 
 

@@ -3,22 +3,46 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from sandbox.engine.paths.run import Run
-from sandbox.scene import display
+from sandbox.errors import RequestError
 
 if TYPE_CHECKING:
     from sandbox.scene.scene import Scene
 
 
+class UnknownFact(RequestError, KeyError):
+    """A run's result was asked for what is not in it."""
+
+    def __str__(self) -> str:
+        return str(self.args[0])  # a KeyError's own text has quotes around it
+
+
+class Result(dict[str, Any]):
+    """The facts of a run by name, each in its unit."""
+
+    def __missing__(self, name: object) -> NoReturn:
+        from sandbox.text import no_such_result
+
+        raise UnknownFact(f"{name!r}: {no_such_result(str(name), list(self))}")
+
+
 @dataclass(repr=False)
 class SceneRun(Run):
-    """What ``sandbox.simulate`` returns: the run of a scene's setup, and what the scene says of it."""
+    """The run of a scene: a ``Run``, and ``result`` has the facts that the scene reads from it.
+
+    >>> import sandbox
+    >>> run = sandbox.simulate("golf")
+    >>> run.scene.units["carry"], 200 < run.result["carry"] < 300
+    ('m', True)
+    """
 
     scene: Scene = field(compare=False)
     result: dict[str, Any]  # the facts, in their units
+
+    def __post_init__(self) -> None:
+        self.result = Result(self.result)
 
     @classmethod
     def of(cls, run: Run, scene: Scene, result: dict[str, Any]) -> SceneRun:
@@ -33,18 +57,3 @@ class SceneRun(Run):
     def __repr__(self) -> str:
         what = f"{self.duration:.2f} s, {len(self.events)} events, ended by {self.ended}"
         return f"<Run of {self.scene.title}: {what}>"
-
-    def poster(self, path: str | Path | None = None, size: tuple[int, int] | None = None) -> Any:
-        """The whole run as one picture: written to ``path`` (a PNG), or without one handed back as a Pillow image."""
-        return display.notebook().poster(self, path, size)
-
-    def frame(self, t: float, size: tuple[int, int] | None = None) -> Any:
-        """The run at time t in s, as a Pillow image."""
-        return display.notebook().frame(self, t, size)
-
-    def animate(self, path: str | Path | None = None, size: tuple[int, int] | None = None, fps: float = 25.0) -> Any:
-        """The run in motion: written to ``path`` (GIF or WebP), or without one handed back for a notebook to show."""
-        return display.notebook().animate(self, path, size, fps)
-
-    def _repr_html_(self) -> str:
-        return display.notebook().run_html(self)

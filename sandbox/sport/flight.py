@@ -109,7 +109,7 @@ def forces_in_flight(ball: Sphere, air: Air, gravity: float = 0.0, lift_share: f
 
     Only ``lift_share`` of the lift is in the scene's plane, less than 1 if the spin axis is tilted.
     """
-    forces: list[Force] = [Gravity(ball.mass, gravity)] if gravity > 0.0 else []
+    forces: list[Force] = [Gravity(gravity)] if gravity > 0.0 else []
     if air.density == 0.0:
         return forces
     about = (wind_in(air), ball.cross_section, air.viscosity)

@@ -79,7 +79,7 @@ def build(parameters: Parameters) -> Setup:
     surface = (0.0, 0.0)
     wet = Drag(bullet.radius, water.density, Constant(water.coefficient))
     forces: list[Force] = [
-        Gravity(bullet.mass, parameters.gravity),
+        Gravity(parameters.gravity),
         Inside(wet, surface, (0.0, 1.0), bullet.radius, "drag of water"),
     ]
     forces += [

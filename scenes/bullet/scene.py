@@ -111,7 +111,7 @@ CONTROLS = Controls(
 def build(parameters: Parameters) -> Setup:
     """The bullet, and the target in which the run ends."""
     bullet = parameters.bullet
-    forces = [Gravity(bullet.mass, parameters.gravity), *bullet.drag_in(parameters.air)]
+    forces = [Gravity(parameters.gravity), *bullet.drag_in(parameters.air)]
     angle = zeroed(parameters, forces) if parameters.zero.distance > 0.0 else parameters.launch.angle * DEGREE
     return _setup(parameters, forces, angle, parameters.range.distance)
 

@@ -123,7 +123,7 @@ def build(it: Parameters) -> Setup:
     for body, hung in zip(it.balls, hangs(it) if it.balls else (), strict=True):
         weight, forces = body.mass * it.gravity, list[Force]()
         if weight:
-            forces.append(String(hung, weight / it.strings) if it.strings else Gravity(body.mass, it.gravity))
+            forces.append(String(hung, weight / it.strings) if it.strings else Gravity(it.gravity))
         if it.air.density:
             air = it.air.density, Constant(SPHERE_DRAG), wind_in(it.air)
             forces.append(Drag(body.radius, *air, viscosity=it.air.viscosity))
@@ -133,7 +133,7 @@ def build(it: Parameters) -> Setup:
         start = (body.x, body.y), velocity, body.spin
         balls.append(Ball(body.name, body.mass, body.radius, *start, forces=forces))
     for box in it.boxes:
-        weight_of_box = [Gravity(box.mass, it.gravity)] if it.gravity else []
+        weight_of_box = [Gravity(it.gravity)] if it.gravity else []
         balls.append(body_of(box, _velocity(box, launch), weight_of_box))
     turns = [pi * part / 40 for part in range(41)]
     rim = [(-floor.radius * cos(turn), floor.radius * (1.0 - sin(turn))) for turn in turns]

@@ -106,7 +106,7 @@ def build(it: Parameters) -> Setup:
     ball, launch, spiral = it.ball, it.launch, it.launch.turns == "spiral"
     half, round_half, angle = ball.length / 2, ball.width / 2, DEGREE * (launch.angle if spiral else launch.nose)
     inertia = ball.mass * (half**2 + round_half**2) / 3.0  # about, of a thin shell: 5/3 of the solid's; assumed
-    forces: list[Any] = [Gravity(ball.mass, it.gravity)] if it.gravity else []
+    forces: list[Any] = [Gravity(it.gravity)] if it.gravity else []
     if it.air.density:
         area = pi * round_half**2
         forces.append(DragByAngle(it.air.density, area, ball.nose_drag, ball.side_drag, wind_in(it.air), spiral))

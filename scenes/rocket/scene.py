@@ -95,7 +95,7 @@ def build(parameters: Parameters) -> Setup:
     check_apart(parameters, held, below("the ground"))
     start, ex, ey = (0.0, launch.height), cos(launch.angle * DEGREE), sin(launch.angle * DEGREE)
     thrust = Thrust(motor, start, (ex, ey), launch.rail, wind_in(parameters.air))
-    weight = Gravity(rocket.mass, parameters.gravity, motor)
+    weight = Gravity(parameters.gravity, rocket.mass, loss=motor)
     forces: list[Force] = [weight, *map(Thinning, forces_in_flight(rocket, parameters.air)), thrust]
     flying = Ball("rocket", rocket.mass, rocket.radius, start, launch.velocity, forces=forces, loss=motor)
     side = where(launch.angle <= 90.0, rocket.radius, -rocket.radius)

@@ -52,7 +52,7 @@ def floor(restitution: float, friction: float) -> list[Surface]:
 
 
 def thrown(shape: Shape, *, mass: float = 2.0, **start: Any) -> Body:
-    return Body("body", shape=shape, mass=mass, forces=(Gravity(mass, G),), **start)
+    return Body("body", shape=shape, mass=mass, forces=(Gravity(G, mass),), **start)
 
 
 def run_of(balls: Sequence[Ball], duration: float, surfaces: Sequence[Surface] = (), **more: Any) -> Run:

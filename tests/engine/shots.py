@@ -43,7 +43,7 @@ def setup(speed: float, angle: float, spin: float, duration: float) -> Setup:
         velocity=(speed * cos(radians(angle)), speed * sin(radians(angle))),
         spin=spin,
         inertia_factor=HOLLOW_SPHERE,
-        forces=[Gravity(MASS, GRAVITY), Drag(RADIUS, DENSITY, Constant(DRAG)), Magnus(RADIUS, DENSITY, Constant(LIFT))],
+        forces=[Gravity(GRAVITY, MASS), Drag(RADIUS, DENSITY, Constant(DRAG)), Magnus(RADIUS, DENSITY, Constant(LIFT))],
     )
     return Setup([ball], SURFACES, duration=duration)
 

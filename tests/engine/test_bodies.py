@@ -36,7 +36,7 @@ class Push(NamedTuple):
 @pytest.mark.parametrize("friction", [0.0, 0.15, 0.9])
 def test_a_disc_as_body_is_a_ball(friction: float):
     start: dict[str, Any] = {"position": (0.0, 1.2), "velocity": (1.0, 0.5), "spin": -7.0}
-    ball = Ball("body", 2.0, 0.2, inertia_factor=0.5, forces=(Gravity(2.0, G),), **start)
+    ball = Ball("body", 2.0, 0.2, inertia_factor=0.5, forces=(Gravity(G, 2.0),), **start)
     runs = [run_of([one], 1.6, floor(0.8, friction)) for one in (ball, thrown(disc(0.2), **start))]
     assert len(runs[0].events) == len(runs[1].events) >= 2
     assert runs[1].state("body", 1.6) == pytest.approx(runs[0].state("body", 1.6), abs=1e-9)
@@ -62,7 +62,7 @@ STEEP, SLIGHT = (Segment((-50.0, rise), (50.0, -rise)) for rise in (20.0, 2.0))
 )
 def test_what_a_surface_does_to_a_ball_it_does_to_a_disc(surface: Surface):
     start: dict[str, Any] = {"position": (0.0, 0.9), "velocity": (2.0, 0.5), "spin": -7.0}
-    ball = Ball("body", 2.0, 0.2, inertia_factor=0.5, forces=(Gravity(2.0, G),), **start)
+    ball = Ball("body", 2.0, 0.2, inertia_factor=0.5, forces=(Gravity(G, 2.0),), **start)
     runs = [run_of([body], 4.0, [surface]) for body in (ball, thrown(disc(0.2), **start))]
     without = run_of([ball], 4.0, [Surface("floor", surface.shape, surface.restitution, surface.friction)])
     assert (len(runs[0].events), *runs[0].state("body", 4.0)) != pytest.approx(
@@ -152,7 +152,7 @@ def test_random_pairs_neither_tunnel_nor_gain_energy_nor_stall(seed: int):
         place = rng.uniform(-0.3, 0.3) + side, rng.uniform(1.2, 2.5)
         start = (-math.copysign(rng.uniform(0.0, 8.0), side), rng.uniform(-3.0, 3.0)), rng.uniform(-25.0, 25.0)
         turned, shape = rng.uniform(-3.0, 3.0), random_outline(rng)
-        forces = [Gravity(mass, gravity)] if gravity else []
+        forces = [Gravity(gravity, mass)] if gravity else []
         bodies.append(Body(name, *(place, *start), angle=turned, shape=shape, mass=mass, forces=forces))
     restitution, friction = rng.choice((0.0, 0.3, 0.7, 1.0)), rng.choice((0.0, 0.1, 0.5, 1.5))
     wall = Surface("wall", Segment((-4.0, 0.0), (-4.0, 50.0)), restitution, friction)

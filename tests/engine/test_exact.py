@@ -63,14 +63,14 @@ def test_quadratic_drag(p, reach, top, time, angle, level, tolerance):
 def test_vacuum_range():
     """R = v^2 sin(2 a) / g."""
     a = radians(33.0)
-    run = fly(Ball("ball", 0.2, 0.05, (0.0, 0.0), (20 * cos(a), 20 * sin(a)), forces=[Gravity(0.2, G)]), 5.0)
+    run = fly(Ball("ball", 0.2, 0.05, (0.0, 0.0), (20 * cos(a), 20 * sin(a)), forces=[Gravity(G, 0.2)]), 5.0)
     _, state = next(run.crossings("ball", (0.0, 0.0), (0.0, 1.0)))
     assert state[0] == pytest.approx(400.0 * sin(2 * a) / G, abs=1e-9)
 
 
 def drag_of_a_falling_ball():
     mass, radius, density, cd = 0.145, 0.0366, 1.2, 0.4
-    forces = [Gravity(mass, G), Drag(radius, density, Constant(cd))]
+    forces = [Gravity(G, mass), Drag(radius, density, Constant(cd))]
     terminal = sqrt(2 * mass * G / (density * cd * pi * radius**2))
     return mass, radius, forces, terminal
 
@@ -108,7 +108,7 @@ def test_cycloid():
     """F = S w x v with gravity from rest: depth 2 g / W^2, period 2 pi / W, drift g / W sideways."""
     w = 3.0
     magnus = lambda t, p, v, s: (-w * v[1], w * v[0])  # noqa: E731
-    run = fly(Ball("ball", 1.0, 0.01, (0.0, 0.0), forces=[Gravity(1.0, G), magnus]), 2 * pi / w)
+    run = fly(Ball("ball", 1.0, 0.01, (0.0, 0.0), forces=[Gravity(G, 1.0), magnus]), 2 * pi / w)
     deepest = min(run.state("ball", t)[1] for t in np.linspace(0.0, 2 * pi / w, 2001))
     assert -deepest == pytest.approx(2 * G / w**2, abs=1e-5)
     x, y, vx, vy, _ = run.state("ball", 2 * pi / w)
@@ -123,7 +123,7 @@ def test_cycloid():
 def test_an_endless_series_of_bounces_ends_when_it_should(restitution):
     """Zeno: dropped from h, the bouncing is over after sqrt(2h/g) (1+e)/(1-e)."""
     floor = Surface("floor", Segment((-1.0, 0.0), (1.0, 0.0)), restitution, 0.3)
-    ball = Ball("ball", 0.1, 0.05, (0.0, 1.05), forces=[Gravity(0.1, G)])
+    ball = Ball("ball", 0.1, 0.05, (0.0, 1.05), forces=[Gravity(G, 0.1)])
     run = fly(ball, 60.0, [floor])
     assert run.ended == "rest"
     assert run.duration == pytest.approx(sqrt(2 / G) * (1 + restitution) / (1 - restitution), abs=1e-3)
@@ -202,7 +202,7 @@ def sloping(angle, friction, resistance=0.0):
 def on_slope(angle, factor=SOLID_SPHERE, radius=0.05):
     a = radians(angle)
     return Ball("ball", 0.3, radius, (cos(a) + radius * sin(a), -sin(a) + radius * cos(a)), inertia_factor=factor,
-                forces=[Gravity(0.3, G)])  # fmt: skip
+                forces=[Gravity(G, 0.3)])  # fmt: skip
 
 
 def steepest(mu, factor):
@@ -237,7 +237,7 @@ def test_sliding_turns_into_rolling():
     """Set down without spin at v: rolls at 5/7 v from t = 2 v / (7 mu g) on."""
     mu, v = 0.2, 2.0
     floor = Surface("floor", Segment((-1.0, 0.0), (100.0, 0.0)), 0.3, mu)
-    run = fly(Ball("ball", 0.3, 0.05, (0.0, 0.05), (v, 0.0), forces=[Gravity(0.3, G)]), 2.0, [floor])
+    run = fly(Ball("ball", 0.3, 0.05, (0.0, 0.05), (v, 0.0), forces=[Gravity(G, 0.3)]), 2.0, [floor])
     t = 2 * v / (7 * mu * G)
     assert run.state("ball", t)[0] == pytest.approx(v * t - 0.5 * mu * G * t * t, abs=1e-9)
     assert run.state("ball", 2.0)[2] == pytest.approx(5 / 7 * v, abs=1e-9)
@@ -246,7 +246,7 @@ def test_sliding_turns_into_rolling():
 def test_rolling_resistance_brings_it_to_rest_for_good():
     """A rolling ball goes v^2 / (2 c g) and stays there."""
     floor = Surface("floor", Segment((-1.0, 0.0), (100.0, 0.0)), 0.3, 0.9, 0.05)
-    ball = Ball("ball", 0.3, 0.05, (0.0, 0.05), (2.0, 0.0), spin=-40.0, forces=[Gravity(0.3, G)])
+    ball = Ball("ball", 0.3, 0.05, (0.0, 0.05), (2.0, 0.0), spin=-40.0, forces=[Gravity(G, 0.3)])
     run = fly(ball, 60.0, [floor])
     assert run.ended == "rest"
     assert run.duration == pytest.approx(2.0 / (0.05 * G), abs=1e-8)
@@ -268,7 +268,7 @@ def test_leaves_a_round_top_where_the_normal_force_ends(friction, factor, cosine
     """From the top of a fixed circle, nudged: cos = 2/3 sliding without friction, 2 / (3 + I/(m r^2)) rolling."""
     top = Surface("top", Circle((0.0, 0.0), 1.0), 0.0, friction)
     ball = Ball("ball", 0.3, 0.1, (0.0, 1.1), (1e-4, 0.0), spin=-1e-3 if friction else 0.0, inertia_factor=factor,
-                forces=[Gravity(0.3, G)])  # fmt: skip
+                forces=[Gravity(G, 0.3)])  # fmt: skip
     run = fly(ball, 20.0, [top], until=lambda event: event.kind == "leave")
     x, y = run.state("ball", run.duration)[:2]
     assert run.ended == "until"
@@ -278,7 +278,7 @@ def test_leaves_a_round_top_where_the_normal_force_ends(friction, factor, cosine
 def test_rolls_over_the_end_of_a_ledge_and_falls():
     """Fast enough (v^2 > g r) it leaves the edge at once: a parabola from there."""
     ledge = Surface("ledge", Segment((-5.0, 0.0), (0.0, 0.0)), 0.3, 0.9)
-    ball = Ball("ball", 0.3, 0.05, (-1.0, 0.05), (2.0, 0.0), spin=-40.0, forces=[Gravity(0.3, G)])
+    ball = Ball("ball", 0.3, 0.05, (-1.0, 0.05), (2.0, 0.0), spin=-40.0, forces=[Gravity(G, 0.3)])
     run = fly(ball, 1.0, [ledge])
     assert [(event.kind, event.speed) for event in run.events] == [("contact", 0.0), ("leave", 0.0)]
     x, y, vx, vy, _ = run.state("ball", 1.0)
@@ -292,7 +292,7 @@ def test_rolls_over_the_end_of_a_ledge_and_falls():
 def test_a_roll_ends_where_it_should_at_any_speed(speed, resistance, level):
     """v^2 / (2 c g), whatever the length of the last arc."""
     floor = Surface("floor", Segment((-1.0, 0.0), (900.0, 0.0)), 0.3, 0.9, resistance)
-    ball = Ball("ball", 0.3, 0.02, (0.0, 0.02), (speed, 0.0), spin=-speed / 0.02, forces=[Gravity(0.3, G)])
+    ball = Ball("ball", 0.3, 0.02, (0.0, 0.02), (speed, 0.0), spin=-speed / 0.02, forces=[Gravity(G, 0.3)])
     run = fly(ball, 200.0, [floor], level)
     assert run.ended == "rest"
     assert run.state("ball", 200.0)[0] == pytest.approx(speed**2 / (2 * resistance * G), rel=1e-9)
@@ -304,7 +304,7 @@ def test_coming_off_a_round_top_never_stalls(speed, friction):
     """Wherever the normal force ends, the ball flies on from there."""
     top = Surface("top", Segment((0.0, -2.0), (0.0, 0.0), 0.01), 0.3, friction, 0.02)
     ball = Ball(
-        "ball", 0.28, 0.105, (-0.01, 0.1145), (speed, 0.0), inertia_factor=HOLLOW_SPHERE, forces=[Gravity(0.28, G)]
+        "ball", 0.28, 0.105, (-0.01, 0.1145), (speed, 0.0), inertia_factor=HOLLOW_SPHERE, forces=[Gravity(G, 0.28)]
     )
     run = fly(ball, 0.8, [top], "balanced")
     assert run.state("ball", 0.8)[1] < 0.2
@@ -353,7 +353,7 @@ def test_declaring_forces_independent_of_place_changes_nothing(kind, wind):
     """Of a function the engine cannot know it, and makes the place in each stage of a step; nor of a scene's own kind
     of force or wind."""
     air = 0.02, 1.2, Constant(0.3), wind
-    forces, torques = [Gravity(0.05, G), kind(*air), Magnus(*air)], [SpinDecay(8e-6, 0.02, 2e-5, wind)]
+    forces, torques = [Gravity(G, 0.05), kind(*air), Magnus(*air)], [SpinDecay(8e-6, 0.02, 2e-5, wind)]
     known = Ball("ball", 0.05, 0.02, (0.0, 1.0), (40.0, 30.0), 200.0, forces=forces, torques=torques)
     called = [[lambda *state, term=term: term(*state) for term in terms] for terms in (forces, torques)]
     asked = replace(known, forces=called[0], torques=called[1])

@@ -31,7 +31,7 @@ EXACT = [resolve(level) for level in LEVELS] + [resolve(integrator=name, step=1 
 
 
 def shot(*forces, mass=0.5, velocity=(10.0, 5.0)):
-    return Ball("cue", mass, 0.05, (0.0, 1.0), velocity, forces=[Gravity(mass, G), *forces])
+    return Ball("cue", mass, 0.05, (0.0, 1.0), velocity, forces=[Gravity(G, mass), *forces])
 
 
 @pytest.mark.parametrize("accuracy", [*EXACT, PLAIN], ids=lambda a: f"{a.level}-{a.method}-{a.integrator}")
@@ -109,7 +109,7 @@ def test_a_point_has_two_numbers(make):
 def bullet_in_water(velocity=(300.0, 0.0)):
     """1 g, 1 cm across, drag coefficient 0.5 at 1,000 kg/m^3: the drag's own time is 8 microseconds at first."""
     return Ball(
-        "bullet", 1e-3, 0.005, (0.0, 0.0), velocity, forces=[Gravity(1e-3, G), Drag(0.005, 1000.0, Constant(0.5))]
+        "bullet", 1e-3, 0.005, (0.0, 0.0), velocity, forces=[Gravity(G, 1e-3), Drag(0.005, 1000.0, Constant(0.5))]
     )
 
 
@@ -195,7 +195,7 @@ def test_no_energy_from_nowhere(restitution, friction, level):
     """
     floor = Surface("floor", Segment((-90.0, 0.0), (90.0, 0.0)), restitution, friction)
     walls = [Surface(f"wall {x}", Segment((x, -1.0), (x, 40.0), 0.01), restitution, friction) for x in (-3.0, 3.0)]
-    start = Ball("ball", 0.5, 0.05, (0.0, 1.0), (7.0, 4.0), 300.0, forces=[Gravity(0.5, G)])
+    start = Ball("ball", 0.5, 0.05, (0.0, 1.0), (7.0, 4.0), 300.0, forces=[Gravity(G, 0.5)])
     run = simulate(Setup([start], [floor, *walls], duration=4.0), resolve(level))
     path = run.trajectory("ball", every=1 / 300)
     energy = (
@@ -304,7 +304,7 @@ def test_numbers_that_no_float_holds_are_a_named_error(accuracy, mass, radius, p
 
     def run():
         floor = Surface("floor", Segment((-9.0, 0.0), (9.0, 0.0)), 0.5, 0.5)
-        ball = Ball("ball", mass, radius, (place, 2.0), (1.0, 0.0), forces=(Gravity(mass, G),))
+        ball = Ball("ball", mass, radius, (place, 2.0), (1.0, 0.0), forces=(Gravity(G, mass),))
         other = Ball("other", mass, radius, (-place, 2.0), (1e160, 0.0))
         simulate(Setup((ball, other), (floor,), 1.0), accuracy)
 
@@ -328,7 +328,7 @@ EXTREME = st.sampled_from([1e-320, 1e-300, 1e-160, 1e-20, 0.1, 1.0, 1e20, 1e150,
 def test_sizes_beyond_arithmetic_are_named_errors(mass, radius, speed, gravity, size, accuracy, cloth):
     """From the smallest to the largest numbers: a run, or an error that says what is wrong."""
     try:
-        shot = Ball("ball", mass, radius, (0.0, 1.0), (speed, -speed), speed, forces=[Gravity(mass, gravity)])
+        shot = Ball("ball", mass, radius, (0.0, 1.0), (speed, -speed), speed, forces=[Gravity(gravity, mass)])
         post = Surface("post", Circle((size, 0.0), size), 0.5, 0.5)
         floor = Surface("floor", Segment((-size, 0.0), (size, 0.0)), 0.5, 0.5, 0.1)
         setup = Setup([shot], [floor, post], duration=0.1, plane=Cloth(gravity=gravity) if cloth else None)

@@ -37,7 +37,7 @@ def test_a_pair_of_balls_answers_by_its_own_law(method: str, order: tuple[str, s
 def test_a_run_ends_at_the_touch_that_was_asked_for(method: str, times: int):
     """From h it is down after sqrt(2 h / g), and the bounce after the n-th touch takes 2 e^n of that."""
     g, h, e = 9.81, 1.0, FLOOR.restitution
-    ball = Ball("ball", 1.0, 0.1, (0.0, h + 0.1), forces=[Gravity(1.0, g)])
+    ball = Ball("ball", 1.0, 0.1, (0.0, h + 0.1), forces=[Gravity(g, 1.0)])
     setup = Setup([ball], [FLOOR], until=Touches("floor", times))
     run = simulate(setup, resolve(method=method, step=1e-4 if method == "plain" else None))
     fall = (2.0 * h / g) ** 0.5

@@ -71,7 +71,7 @@ def test_it_converges_to_exact_on_cloth(english: float, follow: float):
 def test_rolling_resistance_stops_a_ball(resistance: float):
     """A rolling ball is slowed by c g: it stops after v^2 / (2 c g)."""
     floor = Surface("floor", Segment((-50.0, 0.0), (50.0, 0.0)), 0.5, 0.5, resistance)
-    ball = Ball("ball", 0.2, 0.05, (0.0, 0.05), (2.0, 0.0), -2.0 / 0.05, forces=[Gravity(0.2, 9.81)])
+    ball = Ball("ball", 0.2, 0.05, (0.0, 0.05), (2.0, 0.0), -2.0 / 0.05, forces=[Gravity(9.81, 0.2)])
     run = simulate(Setup([ball], [floor], duration=10.0), resolve(**by_steps_of(1e-3)))
     assert run.ended == "rest"
     assert run.state("ball", 10.0)[0] == pytest.approx(2.0**2 / (2.0 * resistance * 9.81), rel=0.02)
@@ -127,7 +127,7 @@ def test_a_bounce_below_the_lowest_is_lost_in_the_surface():
     """Dropped from 4 mm, it would rise 1 mm: 10 mm of grass swallow that, and nothing of a bounce of 16 mm."""
     grass = Surface("grass", Segment((-9.0, 0.0), (9.0, 0.0)), 0.5, 0.5, lowest_bounce=0.01)
     for drop, rises in ((0.004, 0.0), (0.064, 0.016)):
-        ball = Ball("ball", 0.05, 0.02, (0.0, 0.02 + drop), forces=[Gravity(0.05, 9.81)])
+        ball = Ball("ball", 0.05, 0.02, (0.0, 0.02 + drop), forces=[Gravity(9.81, 0.05)])
         run = simulate(Setup([ball], [grass], duration=1.0), resolve(**by_steps_of(2e-4)))
         landed = next(event.t for event in run.events if event.kind == "impact")
         highest = max(run.state("ball", landed + 0.01 * k)[1] for k in range(1, 30)) - 0.02

@@ -32,7 +32,7 @@ G = 9.81
 def bouncing():
     floor = Surface("floor", Segment((-50.0, 0.0), (50.0, 0.0)), 0.6, 0.4, 0.05)
     inertia = 0.4 * 0.2 * 0.05**2
-    forces = [Gravity(0.2, G), Drag(0.05, 1.2, Constant(0.4)), Magnus(0.05, 1.2, Constant(0.2))]
+    forces = [Gravity(G, 0.2), Drag(0.05, 1.2, Constant(0.4)), Magnus(0.05, 1.2, Constant(0.2))]
     ball = Ball("ball", 0.2, 0.05, (0.0, 1.0), (6.0, 3.0), 20.0, forces=forces,
                 torques=[SpinDecay(inertia, 0.05, 1e-3)])  # fmt: skip
     return simulate(Setup([ball], [floor], duration=30.0), resolve("precise"))
@@ -60,7 +60,7 @@ def test_trajectory_meets_every_impact_where_that_is_asked(bouncing):
 
 def test_a_run_that_ends_with_an_impact_ends_with_its_outcome():
     floor = Surface("floor", Segment((-1.0, 0.0), (1.0, 0.0)), 0.6, 0.0)
-    ball = Ball("ball", 0.2, 0.05, (0.0, 0.55), forces=[Gravity(0.2, G)])
+    ball = Ball("ball", 0.2, 0.05, (0.0, 0.55), forces=[Gravity(G, 0.2)])
     run = simulate(Setup([ball], [floor], until=lambda event: event.kind == "impact"), resolve())
     assert run.state("ball", run.duration)[3] == pytest.approx(0.6 * sqrt(2 * G * 0.5), abs=1e-6)
 
@@ -102,7 +102,7 @@ def test_angle_is_the_integral_of_the_spin(bouncing):
 
 def test_crossings_are_exact_and_one_sided():
     """A parabola meets the height h on its way down at v/g + sqrt((v/g)^2 - 2h/g)."""
-    ball = Ball("ball", 0.2, 0.05, (0.0, 0.0), (1.0, 8.0), forces=[Gravity(0.2, G)])
+    ball = Ball("ball", 0.2, 0.05, (0.0, 0.0), (1.0, 8.0), forces=[Gravity(G, 0.2)])
     run = simulate(Setup([ball], duration=3.0), resolve())
     ((down, _),) = run.crossings("ball", (0.0, 2.0), (0.0, 1.0))
     ((up, _),) = run.crossings("ball", (0.0, 2.0), (0.0, -1.0))
@@ -194,7 +194,7 @@ def test_plain_converges_to_exact_on_soft_turf():
         return Bounce(0.4, 0.4, 0.05 * tangential / (1.0 + tangential))
 
     turf = Surface("turf", Segment((-9.0, 0.0), (99.0, 0.0)), 0.4, 0.4, 0.1, 0.005, law)
-    ball = Ball("ball", 0.05, 0.02, (0.0, 0.5), (6.0, 0.0), forces=[Gravity(0.05, G)])
+    ball = Ball("ball", 0.05, 0.02, (0.0, 0.5), (6.0, 0.0), forces=[Gravity(G, 0.05)])
     setup = Setup([ball], [turf], duration=2.5)
     exact = simulate(setup, resolve("precise"))
     errors = [
@@ -218,7 +218,7 @@ def test_the_ledger_books_touching_balls_under_one_impact():
 def test_what_the_last_impact_did_is_in_the_path(restitution):
     """A ball that falls on soft ground rests there, and one that is stopped at its landing has bounced."""
     floor = Surface("floor", Segment((-50.0, 0.0), (50.0, 0.0)), restitution, 0.4)
-    ball = Ball("ball", 0.2, 0.05, (0.0, 1.05), forces=[Gravity(0.2, G)])
+    ball = Ball("ball", 0.2, 0.05, (0.0, 1.05), forces=[Gravity(G, 0.2)])
     landed = lambda event: event.kind == "impact"  # noqa: E731
     run = simulate(Setup([ball], [floor], duration=5.0, until=landed), resolve())
     speed = (2 * G) ** 0.5
@@ -238,7 +238,7 @@ def test_energy_from_nowhere_is_said():
 
 
 def test_a_ball_that_still_rises_is_highest_at_the_end():
-    rising = Ball("ball", 0.2, 0.05, (0.0, 1.0), (0.0, 10.0), forces=[Gravity(0.2, G)])
+    rising = Ball("ball", 0.2, 0.05, (0.0, 1.0), (0.0, 10.0), forces=[Gravity(G, 0.2)])
     run = simulate(Setup([rising], duration=0.5), resolve())
     t, state = run.highest("ball")
     assert (t, state) == (0.5, run.state("ball", 0.5))

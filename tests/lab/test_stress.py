@@ -84,7 +84,7 @@ def test_a_nan_force_is_an_error_with_time_and_ball():
 
 
 def dropped(**changes: object) -> Setup:
-    ball = Ball("ball", 1.0, 0.1, (0.0, 1.0), forces=[Gravity(1.0, 9.81)])
+    ball = Ball("ball", 1.0, 0.1, (0.0, 1.0), forces=[Gravity(9.81, 1.0)])
     floor = Surface("floor", Segment((-5.0, 0.0), (5.0, 0.0)), 0.8, 0.5)
     return replace(Setup([ball], [floor], duration=1.0), **changes)
 

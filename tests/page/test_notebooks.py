@@ -59,7 +59,7 @@ def test_pictures_of_a_run(tmp_path: Path):
     with pytest.raises(RequestError, match=r"size = \(0, 0\): must be between 320x180"):
         run.poster(size=(0, 0))
     times = [0.0, 0.5, 1.0]
-    assert np.array_equal(run.states(times, "shot" if "shot" in run.arcs else "ball")[1], run.state("ball", 0.5))
+    assert np.array_equal(run.states("shot" if "shot" in run.arcs else "ball", times)[1], run.state("ball", 0.5))
     state = run.state("ball", 0.5)
     assert (state.x, state.vy) == (state[0], state[3])
 

@@ -24,7 +24,7 @@ SPINS = st.floats(-2000.0, 2000.0)
 
 
 def test_gravity():
-    assert Gravity(0.5, 9.81)(0.0, HERE, (3.0, 4.0), 5.0) == (0.0, -0.5 * 9.81)
+    assert Gravity(9.81, 0.5)(0.0, HERE, (3.0, 4.0), 5.0) == (0.0, -0.5 * 9.81)
 
 
 def test_drag_by_its_formula():
@@ -130,7 +130,7 @@ def test_floats_and_arrays_agree(shots, wx: float):
 
 
 def test_a_force_in_a_medium_grows_with_the_immersed_fraction():
-    force = Inside(Gravity(1.0, 10.0), (0.0, 2.0), (0.0, 1.0), 0.25, "drag of water")
+    force = Inside(Gravity(10.0, 1.0), (0.0, 2.0), (0.0, 1.0), 0.25, "drag of water")
     heights = np.array([3.0, 2.25, 2.125, 2.0, 1.875, 1.75, 0.0])
     shares = [0.0, 0.0, 0.25, 0.5, 0.75, 1.0, 1.0]
     together = force(0.0, (np.zeros(7), heights), (0.0, 0.0), 0.0)[1]
@@ -143,7 +143,7 @@ def test_a_force_in_a_medium_grows_with_the_immersed_fraction():
 def test_air_thins_as_in_the_standard_atmosphere():
     """Its table has 1.2250, 1.1117, 0.7364 and 0.3639 kg/m^3 at 0, 1, 5 and 11 km."""
     heights = np.array([0.0, 1000.0, 5000.0, 11000.0])
-    thinning = Thinning(Gravity(1.0, 1.2250))
+    thinning = Thinning(Gravity(1.2250, 1.0))
     assert thinning(0.0, (0.0, heights), (0.0, 0.0), 0.0)[1] == pytest.approx(
         [-1.225, -1.1117, -0.7364, -0.3639], rel=5e-4
     )

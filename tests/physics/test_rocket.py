@@ -48,7 +48,7 @@ def test_without_other_forces_it_gains_what_tsiolkovsky_says():
 
 def test_gravity_pulls_at_what_is_left():
     """v = c ln(m0 / m1) - g t: weight falls with mass."""
-    run = simulate(rocket(EVEN, Gravity(1.0, G, EVEN)), LEVELS["balanced"])
+    run = simulate(rocket(EVEN, Gravity(G, 1.0, loss=EVEN)), LEVELS["balanced"])
     assert run.state("rocket", 2.0)[3] == pytest.approx(20.0 * log(2.0) - 2.0 * G, rel=1e-6)
 
 
@@ -57,20 +57,20 @@ def test_against_drag_it_gains_what_fehskens_and_malewicki_say():
     motor, drag = Motor((0.0, 1.0), (30.0, 30.0), 0.5), Drag(0.02, 1.2, Constant(0.6))
     k = -drag(0.0, (0.0, 0.0), (0.0, 1.0), 0.0)[1]
     q = sqrt((30.0 - G) / k)
-    run = simulate(rocket(motor, drag, Gravity(1.0, G), loses=False), LEVELS["precise"])
+    run = simulate(rocket(motor, drag, Gravity(G, 1.0), loses=False), LEVELS["precise"])
     _, y, _, speed, _ = run.before("rocket", 1.0)
     assert speed == pytest.approx(q * tanh(k * q), rel=1e-9)
     assert y == pytest.approx(log(cosh(k * q)) / k, rel=1e-9)
 
 
 def test_the_ledger_knows_what_the_lost_mass_takes_away():
-    found = ledger(simulate(rocket(CURVE, Gravity(1.0, G, CURVE)), LEVELS["precise"]))
+    found = ledger(simulate(rocket(CURVE, Gravity(G, 1.0, loss=CURVE)), LEVELS["precise"]))
     assert found.work["lost mass"] < 0.0
     assert abs(found.residue) < 1e-6 * found.work["thrust"]
 
 
 def test_many_rockets_fly_as_one():
-    setups = [rocket(replace(CURVE, propellant=0.001 * (1 + i)), Gravity(1.0, G)) for i in range(40)]
+    setups = [rocket(replace(CURVE, propellant=0.001 * (1 + i)), Gravity(G, 1.0)) for i in range(40)]
     for setup, run in zip(setups, simulate_many(setups, LEVELS["balanced"]), strict=True):
         assert run.state("rocket", 2.0) == pytest.approx(simulate(setup, LEVELS["balanced"]).state("rocket", 2.0))
 

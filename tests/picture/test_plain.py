@@ -105,7 +105,7 @@ from sandbox.physics.forces import Gravity
 
 def build(it):
     plank = Body("plank", position=(0.0, 0.5), velocity=(12.0, 0.5), shape=box(1.0, 0.01), mass=1.0,
-                 forces=[Gravity(1.0, 9.81)])
+                 forces=[Gravity(9.81, 1.0)])
     return Setup([plank], [Surface("floor", Segment((-20.0, 0.0), (20.0, 0.0)), 0.3, 0.5)], 1.0)
 '''
 

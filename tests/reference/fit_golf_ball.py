@@ -54,7 +54,7 @@ def model(numbers: np.ndarray) -> tuple[Coefficient, Coefficient]:
 
 def fly(shots: np.ndarray, drag: Coefficient, lift: Coefficient) -> np.ndarray:
     """Shape (3, shots): height in yd, landing angle in deg, carry in yd."""
-    forces = Gravity(MASS, GRAVITY), Drag(RADIUS, DENSITY, drag), Magnus(RADIUS, DENSITY, lift)
+    forces = Gravity(GRAVITY, MASS), Drag(RADIUS, DENSITY, drag), Magnus(RADIUS, DENSITY, lift)
     decay = SpinDecay(INERTIA, RADIUS, SPIN_DECAY)
 
     def law(t, state):

@@ -21,6 +21,6 @@ def test_the_length_of_a_path_is_that_of_its_parabola():
     def integral(v: float) -> float:
         return 0.5 * (v * hypot(across, v) + across**2 * asinh(v / across)) / g
 
-    ball = Ball("ball", 0.1, 0.03, (0.0, 0.0), (across, up), forces=(Gravity(0.1, g),))
+    ball = Ball("ball", 0.1, 0.03, (0.0, 0.0), (across, up), forces=(Gravity(g, 0.1),))
     run = simulate(Setup((ball,), duration=duration), resolve(level="precise"))
     assert travelled(run, "ball") == pytest.approx(integral(up) - integral(up - g * duration), rel=2e-4)

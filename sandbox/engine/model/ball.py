@@ -10,6 +10,7 @@ from sandbox.engine.model.nearest import Pose, nearest
 from sandbox.engine.model.shapes import Shape, Vector, disc
 from sandbox.engine.model.tolerances import ROUNDING
 from sandbox.physics.checks import check
+from sandbox.physics.forces import on_ball
 from sandbox.renamed import with_old_fields_named
 
 if TYPE_CHECKING:
@@ -71,6 +72,9 @@ class Ball:
         lists = ["forces", "torques"]
         check(f"ball {self.name!r}", self, positive=positive, points=points, finite=["spin"], lists=lists)
         object.__setattr__(self, "inertia", self.inertia_factor * self.mass * self.radius * self.radius)
+        for name in lists:
+            terms = getattr(self, name)
+            object.__setattr__(self, name, type(terms)(on_ball(term, self) for term in terms))
 
 
 @with_old_fields_named

@@ -68,7 +68,7 @@ def acceleration_function(ball: Ball) -> AccelerationFunction:
 
 def _is_constant(force: Any) -> bool:
     """True for plain gravity, which is evaluated once; a scene's own kind of Gravity may not be constant."""
-    return type(force) is Gravity and force.loss is None
+    return type(force) is Gravity and force.is_constant
 
 
 def force_error(

@@ -4,18 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from math import dist, inf
-from typing import TYPE_CHECKING, NamedTuple
+from math import dist, inf, nan
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
+from sandbox.display import Drawable
 from sandbox.engine.model.event import Event
-from sandbox.engine.paths.path import Above, Path
+from sandbox.engine.paths.path import Above, Passage, Path
 from sandbox.errors import RequestError
-from sandbox.physics.integrators import State
 
 if TYPE_CHECKING:
     import numpy as np
 
     from sandbox.engine.model.accuracy import Accuracy
+    from sandbox.engine.model.ball import Ball
     from sandbox.engine.model.setup import Setup
     from sandbox.engine.model.shapes import Vector
 
@@ -34,8 +35,23 @@ class Numerics:
     clusters: int = 0  # impacts of several balls at once, simulated through the contact
 
 
-class Motion(NamedTuple):
-    """The state of a ball."""
+#: What is done about a time before the start or after the end of a run: an error, or NaN in place of numbers.
+Outside = Literal["error", "nan"]
+
+#: A time may be so much of the duration outside a run, which is rounding: 3 * 0.1 is more than 0.3.
+ROUNDING_OF_TIME = 1e-12
+
+
+class State(NamedTuple):
+    """The state of a ball or body at one time.
+
+    >>> import sandbox
+    >>> run = sandbox.simulate("golf")
+    >>> state = run.state("ball", 0.0)
+    >>> x, y, vx, vy, spin = state
+    >>> state.x == x, state.vx > 0.0
+    (True, True)
+    """
 
     x: float  # m
     y: float  # m
@@ -45,8 +61,21 @@ class Motion(NamedTuple):
 
 
 @dataclass
-class Run:
-    """One simulated run, from ``t = 0`` to ``duration``."""
+class Run(Drawable):
+    """One simulated run, from ``t = 0`` to ``duration``: paths, events, and what they cost.
+
+    >>> import sandbox
+    >>> from sandbox import Ball, Gravity, Segment, Setup, Surface
+    >>> ball = Ball("ball", mass=0.62, radius=0.12, position=(0, 2), velocity=(5, 6), forces=[Gravity(9.81)])
+    >>> floor = Surface("floor", Segment((-10, 0), (30, 0)), restitution=0.8, friction=0.4)
+    >>> run = sandbox.simulate(Setup([ball], [floor], duration=3.0))
+    >>> run.events[0].partner, round(run.events[0].t, 4), run.duration
+    ('floor', 1.4795, 3.0)
+    >>> round(run.state("ball", 1.0).x, 6)  # m
+    5.0
+    >>> run.states("ball", [0.0, 0.5, 1.0]).shape
+    (3, 5)
+    """
 
     setup: Setup
     accuracy: Accuracy
@@ -59,20 +88,51 @@ class Run:
     def __repr__(self) -> str:
         return f"<Run: {self.duration:.2f} s, {len(self.events)} events, ended by {self.ended}>"
 
-    def state(self, ball: str, t: float) -> Motion:
-        """x, y, vx, vy and spin of a ball at time t, constant after the end; m, m/s, rad/s.
+    def state(self, ball: str, t: float, outside: Outside = "error") -> State:
+        """Return x, y (m), vx, vy (m/s) and spin (rad/s) of a ball or body at time t in s.
 
-        At an impact it is the state just after.
+        At an impact it is the state just after. A time before the start or after the end of the run raises
+        RequestError, or gives NaN with ``outside="nan"``.
         """
-        return Motion(*self._path(ball).at(t).state(t)[:5])
+        path = self._path(ball)
+        if not self._within(path, ball, t, outside):
+            return State(nan, nan, nan, nan, nan)
+        return State(*path.at(t).state(t)[:5])
 
-    def states(self, times: Sequence[float], ball: str = "ball") -> np.ndarray:
-        """The states of a ball at these times in s, shape (times, 5): x, y, vx, vy, spin in m, m/s, rad/s."""
+    def states(self, ball: str, times: Sequence[float] | np.ndarray, outside: Outside = "error") -> np.ndarray:
+        """Return the states of a ball at these n times in s, in any order, as an array of shape (n, 5): x, y in m, vx,
+        vy in m/s, spin in rad/s. That of a body has shape (n, 6): its angle in rad comes last.
+
+        ``outside`` is as for ``state``.
+        """
         import numpy as np
 
-        return np.array([self.state(ball, float(t)) for t in times]).reshape(-1, 5)
+        path = self._path(ball)
+        columns = 6 if self._ball(ball).rotates else 5
+        missing = (nan,) * columns
+        rows = [
+            path.at(t).state(t)[:columns] if self._within(path, ball, t, outside) else missing
+            for t in np.asarray(times, dtype=float).ravel().tolist()
+        ]
+        return np.array(rows, dtype=float).reshape(-1, columns)
+
+    def _within(self, path: Path, ball: str, t: float, outside: Outside) -> bool:
+        """Return True if the run has the time t, apart from rounding. Raises RequestError if not, unless NaN may do."""
+        start, rounding = path[0].t0, ROUNDING_OF_TIME * self.duration
+        if start - rounding <= t <= self.duration + rounding:
+            return True
+        if outside == "nan":
+            return False
+        if outside != "error":
+            raise RequestError(f'outside = {outside!r}: must be "error" or "nan"')
+        span = f"from {start:.12g} to {self.duration:.12g} s"
+        raise RequestError(f'ball {ball!r}, t = {t:.12g} s: the run is {span}; outside="nan" gives NaN')
 
     # ------------------------------------------------------------------ along the paths
+
+    def _ball(self, name: str) -> Ball:
+        """The ball or body of this name."""
+        return next(ball for ball in self.setup.balls if ball.name == name)
 
     def _path(self, ball: str) -> Path:
         """The arcs of a ball. Raises RequestError if there is no such ball."""
@@ -83,7 +143,9 @@ class Run:
 
     def rolling_spin(self, ball: str, t: float) -> tuple[float, float]:
         """Spin about x and about y of a ball that rolls on a plane, in rad/s; none of one that slides as a disc."""
-        wx, wy = self._path(ball).at(t).state(t)[5:] or (0.0, 0.0)
+        path = self._path(ball)
+        self._within(path, ball, t, "error")
+        wx, wy = path.at(t).state(t)[5:] or (0.0, 0.0)
         return wx, wy
 
     def caught_at(self, ball: str) -> float | None:
@@ -92,7 +154,9 @@ class Run:
 
     def before(self, ball: str, t: float) -> State:
         """The state of a ball just before time t; differs from ``state`` if there is an impact at t."""
-        return self._path(ball).before(t).state(t)[:5]
+        path = self._path(ball)
+        self._within(path, ball, t, "error")
+        return State(*path.before(t).state(t)[:5])
 
     def closing_speed(self, event: Event) -> float:
         """Speed in m/s at which the two of an impact came together, along the surface included.
@@ -107,11 +171,13 @@ class Run:
 
     def angle(self, ball: str, t: float) -> float:
         """Angle in rad that a ball has turned since the start, or at which a body is, counter-clockwise."""
-        state = self._path(ball).at(t).state(t)
+        path = self._path(ball)
+        self._within(path, ball, t, "error")
+        state = path.at(t).state(t)
         if len(state) == 6:
             return float(state[5])
         turned = 0.0
-        for arc in self._path(ball):
+        for arc in path:
             if arc.t0 >= t:
                 break
             part = arc.until(t)
@@ -136,17 +202,17 @@ class Run:
             times |= {0.0, self.duration, *path.starts}
         return np.array([(t, *self.state(ball, t)) for t in sorted(times)])
 
-    def crossings(self, ball: str, point: Vector, normal: Vector) -> Iterator[tuple[float, State]]:
+    def crossings(self, ball: str, point: Vector, normal: Vector) -> Iterator[Passage]:
         """Each time and state at which a ball's centre passes the line through ``point`` (m) against ``normal``.
 
         As exact as the path itself, for any step: roots of its polynomials.
         """
         return iter(self._path(ball).passages(Above(*point, *normal)))
 
-    def highest(self, ball: str, until: float = inf) -> tuple[float, State]:
+    def highest(self, ball: str, until: float = inf) -> Passage:
         """Time and state at which a ball's centre is highest, up to a time at which it is not."""
         return self._path(ball).highest(until)
 
-    def ends(self, ball: str) -> Iterator[tuple[float, State]]:
+    def ends(self, ball: str) -> Iterator[Passage]:
         """Time and state at the end of each arc of a ball's path."""
         return iter(self._path(ball).ends())

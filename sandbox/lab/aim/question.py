@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from sandbox import units
+from sandbox import display, units
 from sandbox.errors import RequestError
 from sandbox.lab.axes import Span
-from sandbox.scene import Scene, display
+from sandbox.scene import Scene
 
 #: The wanted value of a number that is to be as great as possible.
 GREATEST = object()

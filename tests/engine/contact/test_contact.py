@@ -24,7 +24,7 @@ G = 9.81
 
 
 def ball(position, velocity=(0.0, 0.0), spin=0.0, radius=0.05, mass=0.3, gravity=G, name="ball"):
-    forces = [Gravity(mass, gravity)] if gravity else []
+    forces = [Gravity(gravity, mass)] if gravity else []
     return Ball(name, mass, radius, position, velocity, spin, forces=forces)
 
 
@@ -55,7 +55,7 @@ def inside(run, half, radius):
     level=st.sampled_from(["fast", "balanced", "precise"]),
 )
 def test_nothing_leaves_a_box_with_thin_walls(speed, direction, spin, radius, density, level):
-    forces = [Gravity(0.3, G)]
+    forces = [Gravity(G, 0.3)]
     if density:
         forces.append(Drag(radius, density, Constant(0.4)))
     shot = Ball("ball", 0.3, radius, (0.1, -0.2), (speed * cos(direction), speed * sin(direction)), spin, forces=forces)
@@ -418,7 +418,7 @@ def test_turf_leans_against_the_motion_whichever_way_it_goes(way: float):
 def test_sliding_ends_in_rolling_at_the_speed_of_its_inertia(factor: float, body: float):
     """Angular momentum about the point of contact stays: v = v0 / (1 + I / m r^2)."""
     floor = Surface("floor", Segment((-9.0, 0.0), (90.0, 0.0)), 0.5, 0.5)
-    slid = Ball("ball", 1.0, 0.1, (0.0, 0.1), (3.0, 0.0), inertia_factor=factor, forces=[Gravity(1.0, 9.81)])
+    slid = Ball("ball", 1.0, 0.1, (0.0, 0.1), (3.0, 0.0), inertia_factor=factor, forces=[Gravity(9.81, 1.0)])
     assert slid.inertia == pytest.approx(body * 1.0 * 0.1**2)
     assert simulate(Setup([slid], [floor], duration=2.0), resolve()).state("ball", 2.0)[2] == pytest.approx(
         3.0 / (1.0 + body), rel=1e-6
@@ -438,7 +438,7 @@ def test_a_law_is_asked_about_slow_impacts_too(speed: float):
 def test_a_rolling_ball_stops_where_its_resistance_says(resistance: float, way: float):
     """a = c g: it stops after v^2 / (2 c g), whether it starts rolling or slides first."""
     floor = Surface("floor", Segment((-90.0, 0.0), (90.0, 0.0)), 0.5, 0.5, resistance)
-    rolls = Ball("ball", 0.2, 0.05, (0.0, 0.05), (way * 2.0, 0.0), -way * 2.0 / 0.05, forces=[Gravity(0.2, 9.81)])
+    rolls = Ball("ball", 0.2, 0.05, (0.0, 0.05), (way * 2.0, 0.0), -way * 2.0 / 0.05, forces=[Gravity(9.81, 0.2)])
     run = simulate(Setup([rolls], [floor], duration=20.0), resolve())
     assert run.ended == "rest"
     assert way * run.state("ball", 20.0)[0] == pytest.approx(2.0**2 / (2.0 * resistance * 9.81), rel=1e-6)

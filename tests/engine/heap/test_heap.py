@@ -40,7 +40,7 @@ class Push:
 
 
 def ball(name, x, y, vx=0.0, vy=0.0, push=0.0):
-    return Ball(str(name), M, R, (x, y), (vx, vy), forces=[Gravity(M, G), *([Push(push)] if push else [])])
+    return Ball(str(name), M, R, (x, y), (vx, vy), forces=[Gravity(G, M), *([Push(push)] if push else [])])
 
 
 def surface(name, a, b, restitution=0.5, friction=0.5, resistance=0.02):
@@ -128,7 +128,7 @@ def scaled(scale, bodies, proportional=True):
     for place, outline in enumerate(outlines):
         common = {"position": (0.01 * place * scale, (0.04 + 0.07 * place) * scale), "velocity": (0.3 * root, 0.0)}
         mass = M * scale**3
-        common |= {"mass": mass, "forces": [Gravity(mass, G)]}
+        common |= {"mass": mass, "forces": [Gravity(G, mass)]}
         disc = Ball(str(place), radius=0.03 * scale, **common)
         balls.append(Outlined(str(place), shape=outline, angle=0.3, **common) if bodies and outline else disc)
     walls = [(-9.0, 0.0, 9.0, 0.0), (-0.06, 0.0, -0.06, 9.0), (0.06, 0.0, 0.06, 9.0)]
@@ -175,7 +175,7 @@ def test_heavy_balls_that_wedge_light_ones_come_to_rest():
     balls = []
     for number, ((x, y), r) in enumerate(zip(places, (3.219, 3.386, 0.73, 2.104, 1.006), strict=True)):
         mass = 1e-6 * r**3
-        balls.append(Ball(str(number), mass, 1e-3 * r, (1e-3 * x, 1e-3 * y), forces=[Gravity(mass, G)]))
+        balls.append(Ball(str(number), mass, 1e-3 * r, (1e-3 * x, 1e-3 * y), forces=[Gravity(G, mass)]))
     surfaces = [replace(each, restitution=0.8, friction=0.0) for each in SLOPE]
     run = run_of(balls, surfaces, 0.2, 0.0, duration=2.0)
     for each in balls:  # one that lies alone may spin on: nothing rubs on it
@@ -270,7 +270,7 @@ def test_a_pair_far_from_a_heap_meets_as_if_there_were_none():
 
 
 def test_what_rests_far_from_a_heap_that_settles_rests_once():
-    far = Outlined("far", shape=box(0.1, 0.05), mass=M, position=(2.0, 0.03), forces=[Gravity(M, G)])
+    far = Outlined("far", shape=box(0.1, 0.05), mass=M, position=(2.0, 0.03), forces=[Gravity(G, M)])
     run = run_of([far, *poured(8, 0.4)], BOX)
     rests = [event.t for event in run.events if event.kind == "rest" and event.ball == "far"]
     assert len(rests) == 1
@@ -295,8 +295,8 @@ def test_a_heap_creating_energy_is_an_error_naming_its_bodies(monkeypatch):
             member.body.position += (0.0, 1e-3)
 
     monkeypatch.setattr(Stepper, "_solve", lifting)
-    below = Outlined("below", shape=box(0.2, 0.1), mass=M, position=(0.0, 0.05), forces=[Gravity(M, G)])
-    above = Outlined("above", shape=box(0.2, 0.1), mass=M, position=(0.02, 0.15), forces=[Gravity(M, G)])
+    below = Outlined("below", shape=box(0.2, 0.1), mass=M, position=(0.0, 0.05), forces=[Gravity(G, M)])
+    above = Outlined("above", shape=box(0.2, 0.1), mass=M, position=(0.02, 0.15), forces=[Gravity(G, M)])
     with pytest.raises(
         RunError, match=r"^t = .* s: .* J appeared from nothing in the heap of 'above', 'below'"
     ) as said:
@@ -306,8 +306,8 @@ def test_a_heap_creating_energy_is_an_error_naming_its_bodies(monkeypatch):
 
 def test_a_heavy_ball_on_a_light_one_is_carried_by_it():
     """A thousand times as heavy: iterations that begin anew with each step let it sink."""
-    light = Ball("light", 0.01, R, (0.0, R), forces=[Gravity(0.01, G)])
-    heavy = Ball("heavy", 10.0, R, (0.0, 3 * R + 1e-4), forces=[Gravity(10.0, G)])
+    light = Ball("light", 0.01, R, (0.0, R), forces=[Gravity(G, 0.01)])
+    heavy = Ball("heavy", 10.0, R, (0.0, 3 * R + 1e-4), forces=[Gravity(G, 10.0)])
     walls = [surface(name, (x, 0.0), (x, 9.0), friction=0.0) for name, x in (("left", -R), ("right", R))]
     run = run_of([light, heavy], [*FLOOR, *walls], restitution=0.0, duration=1.0)
     assert run.state("heavy", run.duration)[1] == pytest.approx(3 * R, abs=1e-3 * R)

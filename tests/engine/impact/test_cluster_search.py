@@ -133,7 +133,7 @@ def test_the_path_within_a_contact_is_that_of_the_bodies():
         ClusterBall(each.mass, 1.0, 1.0, run.before(each.name, start)[:2], each.velocity, (0.0,) * 3) for each in balls
     ]
     expected = by_contact_law(bodies, times, stiffness, accuracy=1e-12)
-    found = np.array([run.states(start + times, each.name) for each in balls]).swapaxes(0, 1)
+    found = np.array([run.states(each.name, start + times) for each in balls]).swapaxes(0, 1)
     had, depth = 0.5 * masses[0] * 3.0**2, 0.05
     moving = 0.5 * (masses * found[:, :, 2] ** 2).sum(axis=1)
     pressed = 0.4 * stiffness * (np.maximum(2.0 - np.diff(found[:, :, 0]), 0.0) ** 2.5).sum(axis=1)
@@ -189,7 +189,7 @@ def test_soft_balls_do_not_pass_through_a_light_one_between_them():
     )
     run = simulate(setup, resolve())
     times = np.linspace(0.0, 0.5, 500)
-    gaps = np.diff([run.states(times, name)[:, 0] for name in "abc"], axis=0)
+    gaps = np.diff([run.states(name, times)[:, 0] for name in "abc"], axis=0)
     assert (gaps > [[sizes[0]], [sizes[1]]]).all()
     assert ledger(run).end < ledger(run).start
 
@@ -284,4 +284,4 @@ def test_no_soft_ball_of_a_cluster_leaves_through_a_wall():
     wall = Surface("wall", Segment((place, -1.0), (place, 1.0)), 0.9, 0.1)
     law, soft = ConstantBounce(Bounce(0.95, 0.05)), ContactModel("auto", 1e5)
     run = simulate(Setup(row, [wall], 0.1, between_balls=law, contact=soft), resolve())
-    assert max(run.states([0.02, 0.05, 0.1], each.name)[:, 0].max() for each in row) < place
+    assert max(run.states(each.name, [0.02, 0.05, 0.1])[:, 0].max() for each in row) < place

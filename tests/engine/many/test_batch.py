@@ -50,7 +50,7 @@ POST = Surface("post", Circle((3.0, 1.0), 0.1), 0.6, 0.3)
 
 
 def thrown(speed: float = 5.0, angle: float = 0.6, extra: Any = None, **others: Any) -> Setup:
-    forces = [Gravity(0.6, 9.81), Drag(0.12, 1.2, Constant(0.5)), *([] if extra is None else [extra])]
+    forces = [Gravity(9.81, 0.6), Drag(0.12, 1.2, Constant(0.5)), *([] if extra is None else [extra])]
     velocity = (speed * math.cos(angle), speed * math.sin(angle))
     ball = Ball("ball", 0.6, 0.12, (0.0, 2.0), velocity, -5.0, forces=forces)
     return Setup([ball], [FLOOR, POST], **{"duration": 4.0, **others})
@@ -138,7 +138,7 @@ def test_scenes_agree_with_the_engine_one_by_one(name: str, flown: list[int]):
 
 
 def test_different_kinds_run_one_at_a_time(flown: list[int]):
-    setups = [thrown(4.0 + 0.1 * i, extra=Gravity(0.1, 1.0) if i == 13 else None) for i in range(30)]
+    setups = [thrown(4.0 + 0.1 * i, extra=Gravity(1.0, 0.1) if i == 13 else None) for i in range(30)]
     for setup, run in zip(setups, simulate_many(setups, resolve()), strict=True):
         assert_same(run, simulate(setup, resolve()))
     assert flown == []
@@ -147,7 +147,7 @@ def test_different_kinds_run_one_at_a_time(flown: list[int]):
 def test_radius_mass_and_shapes_may_differ():
     setups = []
     for i in range(30):
-        ball = Ball("ball", 0.1 + 0.02 * i, 0.05 + 0.003 * i, (0.0, 2.0), (4.0, 1.0), forces=[Gravity(1.0, 9.81)])
+        ball = Ball("ball", 0.1 + 0.02 * i, 0.05 + 0.003 * i, (0.0, 2.0), (4.0, 1.0), forces=[Gravity(9.81, 1.0)])
         hill = Surface("hill", Segment((1.0, 0.0), (3.0, 0.01 * i), 0.02), 0.6, 0.1 + 0.01 * i, lowest_bounce=0.01)
         setups.append(Setup([ball], [FLOOR, hill], duration=3.0))
     for setup, run in zip(setups, simulate_many(setups, resolve()), strict=True):
@@ -181,7 +181,7 @@ class Growing:
 
 def rolled(i: int, rise: float, slope: dict[str, float], wall: dict[str, float], growing: Growing) -> Setup:
     """On a slope, to a wall, with another spin and speed each."""
-    forces = [Gravity(0.4, 9.81), Drag(0.1, 1.2, Constant(0.5)), growing]
+    forces = [Gravity(9.81, 0.4), Drag(0.1, 1.2, Constant(0.5)), growing]
     start, velocity = (-2.0, 0.12 - 0.04 * rise), (0.15 * i, 0.0)
     ball = Ball("ball", 0.4, 0.1, start, velocity, 20.0 - 2.0 * i, forces=forces, torques=[growing.turning])
     line = Segment((-5.0, -0.1 * rise), (5.0, 0.1 * rise))
@@ -265,7 +265,7 @@ def test_a_ball_that_is_to_stay_is_asked_for_its_last_event():
     """Dropped flat on dead ground after a bounce off a lively ledge: the second impact ends the run, and is lasting."""
     ledge = Surface("ledge", Segment((-1.0, 1.0), (0.3, 1.0)), 0.9, 0.0)
     dead = Surface("dead", Segment((-9.0, 0.0), (9.0, 0.0)), 0.0, 0.5)
-    drops = [Ball("ball", 0.6, 0.12, (0.0, 1.5 + 0.01 * i), (1.0, 0.0), forces=[Gravity(0.6, 9.81)]) for i in range(30)]
+    drops = [Ball("ball", 0.6, 0.12, (0.0, 1.5 + 0.01 * i), (1.0, 0.0), forces=[Gravity(9.81, 0.6)]) for i in range(30)]
     for ends in ("dead", "ledge"):
         setups = [
             Setup([ball], [ledge, dead], duration=3.0, until=lambda event, ends=ends: event.partner == ends)
@@ -374,7 +374,7 @@ def test_forces_that_mix_shots_up_only_later_are_found_out(flown: list[int]):
         speed = np.linalg.norm(velocity)  # of one ball: of many it is the norm of all
         return -0.01 * speed * velocity[0], -0.01 * speed * velocity[1]
 
-    drops = [Ball("ball", 0.6, 0.12, (0.0, 1.0 + 0.1 * i), forces=[Gravity(0.6, 9.81), drag]) for i in range(30)]
+    drops = [Ball("ball", 0.6, 0.12, (0.0, 1.0 + 0.1 * i), forces=[Gravity(9.81, 0.6), drag]) for i in range(30)]
     setups = [Setup([ball], [FLOOR], duration=1.0) for ball in drops]
     for setup, run in zip(setups, simulate_many(setups, resolve()), strict=True):
         assert_same(run, simulate(setup, resolve()))
@@ -382,7 +382,7 @@ def test_forces_that_mix_shots_up_only_later_are_found_out(flown: list[int]):
 
 
 def test_whole_numbers_are_numbers():
-    balls = [Ball("ball", 1 + i, 1, (0, 5), (5, 3), 0, forces=[Gravity(1.0 + i, 9.81)]) for i in range(30)]
+    balls = [Ball("ball", 1 + i, 1, (0, 5), (5, 3), 0, forces=[Gravity(9.81, 1.0 + i)]) for i in range(30)]
     setups = [Setup([ball], [FLOOR], duration=2) for ball in balls]
     for setup, run in zip(setups, simulate_many(setups, resolve()), strict=True):
         assert_same(run, simulate(setup, resolve()))
@@ -466,7 +466,7 @@ def test_what_a_scene_gets_wrong_is_an_error_of_its_shot():
         return 1 / int(10.0 * event.x) < 0.0  # nothing is at x = 0
 
     rough = Surface("rough", Segment((-50.0, 0.0), (50.0, 0.0)), 0.7, 0.4, law=law)
-    drops = [Ball("ball", 0.6, 0.12, (0.1 * i, 1.0 + 0.05 * i), forces=[Gravity(0.6, 9.81)]) for i in range(30)]
+    drops = [Ball("ball", 0.6, 0.12, (0.1 * i, 1.0 + 0.05 * i), forces=[Gravity(9.81, 0.6)]) for i in range(30)]
     for surface, ending in ((rough, None), (FLOOR, until)):
         setups = [Setup([ball], [surface], duration=1.0, until=ending) for ball in drops]
         runs = list(simulate_many(setups, resolve()))
@@ -483,7 +483,7 @@ def test_what_a_scene_gets_wrong_is_an_error_of_its_shot():
 
 def test_starts_in_touch_and_in_overlap():
     def start(height: float, up: float) -> Setup:
-        ball = Ball("ball", 0.6, 0.12, (0.0, height), (1.0, up), forces=[Gravity(0.6, 9.81)])
+        ball = Ball("ball", 0.6, 0.12, (0.0, height), (1.0, up), forces=[Gravity(9.81, 0.6)])
         return Setup([ball], [FLOOR, POST], duration=1.0)
 
     setups = [start(0.12, 0.1 * i) for i in range(10)] + [start(0.12, -0.1 * i) for i in range(10)]

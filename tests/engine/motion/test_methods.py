@@ -46,7 +46,7 @@ def chosen(name: str) -> Accuracy:
 
 def tossed(number: int) -> Setup:
     angle = radians(30.0 + number)
-    forces = [Gravity(0.6, 9.81), Drag(0.12, 1.2, Constant(0.5))]
+    forces = [Gravity(9.81, 0.6), Drag(0.12, 1.2, Constant(0.5))]
     ball = Ball("ball", 0.6, 0.12, (0.0, 2.0), (8.0 * cos(angle), 8.0 * sin(angle)), -5.0, forces=forces)
     return Setup([ball], [FLOOR], duration=1.5)
 
@@ -149,7 +149,7 @@ def test_a_path_may_turn_back_at_the_border_of_a_patch():
     for speed in (0.01 * k for k in range(1, 40)):
         duration = speed / g
         top = duration * (speed - 0.5 * duration * g)
-        ball = Ball("ball", 1.0, 0.1, (0.0, 0.0), (0.0, speed), forces=[Gravity(1.0, g)])
+        ball = Ball("ball", 1.0, 0.1, (0.0, 0.0), (0.0, speed), forces=[Gravity(g, 1.0)])
         region = ForceRegion(-1.0, top, 1.0, 1.0, 1e-3)
         run = simulate(Setup([ball], duration=duration, force_regions=[region]), resolve())
         assert run.state("ball", duration)[1:4] == pytest.approx((top, 0.0, 0.0), abs=1e-9)
@@ -162,7 +162,7 @@ def test_no_step_skips_a_patch_that_a_path_only_reaches_into(speed: float):
     g, mass, push, deep = 9.81, 1.0, 45.0, 0.024
     border, there = speed * speed / (2 * g) - deep, (2 * g * deep) ** 0.5
     net = lambda t, position, velocity, spin: (0.0, -push if position[1] > border else 0.0)  # noqa: E731
-    ball = Ball("ball", mass, 0.1, (0.0, 0.0), (0.0, speed), forces=[Gravity(mass, g), net])
+    ball = Ball("ball", mass, 0.1, (0.0, 0.0), (0.0, speed), forces=[Gravity(g, mass), net])
     back = 2 * ((speed - there) / g + there / (g + push / mass))
     setup = Setup([ball], duration=back, force_regions=[ForceRegion(-1.0, border, 1.0, border + 2.0, 1 / 240)])
     assert simulate(setup, resolve()).state("ball", back)[1:4] == pytest.approx((0.0, 0.0, -speed), abs=5e-3)

@@ -168,7 +168,7 @@ def test_a_domino_tips_and_strikes_its_neighbour():
             position=(x + width / 2, tall / 2),
             shape=box(width, tall),
             mass=mass,
-            forces=(Gravity(mass, G),),
+            forces=(Gravity(G, mass),),
             **({"velocity": (-spin * tall / 2, -spin * width / 2), "spin": spin} if name == "first" else {}),
         )
         for name, x in (("first", 0.0), ("second", width + gap))
