@@ -31,7 +31,7 @@ from sandbox.window.app import App
 from sandbox.window.background import steady
 from sandbox.window.game import Game
 from sandbox.window.session import Session
-from sandbox.window.view import AT_REST
+from sandbox.window.stages import AT_REST
 from sandbox.workers import Processes
 
 SIZE, FRAME = (1280, 720), 1 / 60  # px, s
@@ -44,14 +44,14 @@ def timed(
 ) -> Iterator[tuple[float, float, bool, bool]]:
     """For each frame: time and processor time in s, whether its path belongs to its parameters, and whether its fan is
     new."""
-    fan = app.view.clouds.value
+    fan = app.view.fan.job.value
     for frame in range(frames):
         before(frame)
         started, used = perf_counter(), process_time()
         app.tick(FRAME)
         spent, current = perf_counter() - started, app.game.path.settled
         sleep(max(0.0, FRAME - spent))
-        known, fan = fan, app.view.clouds.value
+        known, fan = fan, app.view.fan.job.value
         yield spent, process_time() - used, current, fan is not known
 
 
@@ -64,11 +64,11 @@ def measure(source: str, frames: int, worker: Processes, helper: Processes) -> d
     """For each activity: median and 95th percentile in ms, shares of frames, and fans per second."""
     game = Game(Session(source), worker, helper=helper)
     app = App(game, pygame.display.set_mode(SIZE))
-    while not app.view.complete:
+    while not app.view.stages.complete:
         app.tick(FRAME)
-    assert app.view.stage is not None
+    assert app.view.stages.latest is not None
     assert game.shot is not None
-    x, y = (round(value) for value in app.view.stage.ball_at(game.shot))
+    x, y = (round(value) for value in app.view.stages.latest.ball_at(game.shot))
     angle = radians(game.session.value(game.session.controls.angle) or 0.0)
     whole = whole_fan(app)
     post(pygame.MOUSEBUTTONDOWN, (x, y))
@@ -81,14 +81,14 @@ def measure(source: str, frames: int, worker: Processes, helper: Processes) -> d
         post(pygame.MOUSEMOTION, (round(x - length * cos(towards)), round(y + length * sin(towards))))
 
     found = {"aiming": summarised(timed(app, frames, pull))}
-    app.view.on |= {"fan"}
+    app.view.shown.on |= {"fan"}
     found["with a fan"] = summarised(timed(app, frames, pull)) | {"whole_s": whole}
-    app.view.on = {"ghosts", "map"}
+    app.view.shown.on = {"ghosts", "map"}
     found["with the map"] = summarised(timed(app, frames, pull))
-    app.view.on = {"ghosts"}
+    app.view.shown.on = {"ghosts"}
     post(pygame.MOUSEBUTTONUP, (x, y))
     found["watching"] = summarised(timed(app, frames))
-    app.view.on.add("view")
+    app.view.shown.on.add("view")
     found["near the ball"] = summarised(timed(app, frames))
     if game.watching.playback is not None:
         game.watching.playback.playing = False
@@ -101,12 +101,12 @@ def whole_fan(app: App) -> float:
     """Return the time in s by the clock until the fan of an aim at rest is complete, in frames as a player has them."""
     while app.game.still < AT_REST:
         app.tick(FRAME)
-    app.view.on.add("fan")
+    app.view.shown.on.add("fan")
     started = perf_counter()
-    while (fan := app.view.clouds.value) is None or fan.left > 0:
+    while (fan := app.view.fan.job.value) is None or fan.left > 0:
         for _ in timed(app, 1):
             pass
-    app.view.on.remove("fan")
+    app.view.shown.on.remove("fan")
     return perf_counter() - started
 
 

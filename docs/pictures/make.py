@@ -74,21 +74,23 @@ def window() -> None:
     game = Game(Session("basketball"), worker, patience=60.0)
     app = App(game, pygame.display.set_mode(WINDOW), patience=60.0)
     view = app.view
-    while not view.complete:
+    while not view.stages.complete:
         app.tick(FRAME)
     for key in (pygame.K_TAB, pygame.K_f):
         post(app, pygame.KEYDOWN, key=key, mod=0, unicode="", scancode=0)
-    x, y = (round(value) for value in view.stage.ball_at(game.shot))
+    x, y = (round(value) for value in view.stages.latest.ball_at(game.shot))
     across, down = PULL
     post(app, pygame.MOUSEBUTTONDOWN, pos=(x, y), button=1)
     for share in (0.4, 0.7, 1.0):
         place = round(x + share * across), round(y + share * down)
         post(app, pygame.MOUSEMOTION, pos=place, rel=(0, 0), buttons=(1, 0, 0))
-    while view.clouds.key is None or view.clouds.key[0] is not game.shot:
+    while view.fan.job.key is None or view.fan.job.key[0] is not game.shot:
         app.tick(FRAME)
     app.close()
     worker.close(abandon=True)
-    to_image(view.screen).save(HERE / "window.jpg", quality=QUALITY, subsampling=0, optimize=True, progressive=True)
+    to_image(view.screen.surface).save(
+        HERE / "window.jpg", quality=QUALITY, subsampling=0, optimize=True, progressive=True
+    )
 
 
 def post(app: App, kind: int, **values: object) -> None:

@@ -22,9 +22,10 @@ from sandbox.window.history import Changes
 from sandbox.window.memory import Memory, usual_place
 from sandbox.window.opening import LOADING
 from sandbox.window.pointer import Pointer
+from sandbox.window.screen import SIZE
 from sandbox.window.session import Session
 from sandbox.window.sound import Sound
-from sandbox.window.view import SIZE, View
+from sandbox.window.view import View
 from sandbox.window.worker import checked
 from sandbox.workers import Processes
 
@@ -61,7 +62,7 @@ class App:
         started, clock = perf_counter(), pygame.time.Clock()
         self.view.draw()  # that it loads
         pygame.display.flip()
-        while self.game.running and perf_counter() - started < FIRST and not self.view.complete:
+        while self.game.running and perf_counter() - started < FIRST and not self.view.stages.complete:
             self.tick(clock.tick(FRAMES) / 1000)
         self.view.changed = True
         steady()
@@ -98,13 +99,13 @@ class App:
             self.handle(event)
             self.last_event = started
         game, view = self.game, self.view
-        start, end = game.advance(dt, hold=self.hidden or not view.up_to_date)
+        start, end = game.advance(dt, hold=self.hidden or not view.stages.up_to_date)
         view.tick(dt)
         self._sound(start, end)
         if self.hidden or not view.needs_drawing(bool(events)):
             return False
         view.draw()
-        view.frame_cost += 0.1 * (perf_counter() - started - view.frame_cost)
+        view.screen.frame_cost += 0.1 * (perf_counter() - started - view.screen.frame_cost)
         return True
 
     def _sound(self, start: float, end: float) -> None:
@@ -123,7 +124,7 @@ class App:
         """One event of the window, the mouse or the keyboard."""
         view = self.view
         if event.type == pygame.KEYDOWN:
-            typing = view.has_panel and view.panel.typing is not None and view.over is None
+            typing = view.shown.has_panel and view.panel.typing is not None and view.shown.overlay is None
             if not self._fresh(event, typing):
                 return
             if typing:
@@ -145,11 +146,8 @@ class App:
             case pygame.DROPFILE:
                 self.game.opening.open(event.file)
             case pygame.KEYDOWN:
-                found, over = commands.pressed(event.key, event.mod), view.over
-                stays = over.key(event.key) if over is not None and not event.mod & MODIFIED else None
-                if stays is not None:
-                    view.over, view.changed = view.over if stays or view.over is not over else None, True
-                elif found is not None:
+                found, plain = commands.pressed(event.key, event.mod), not event.mod & MODIFIED
+                if not (plain and view.shown.key_in_overlay(event.key)) and found is not None:
                     commands.do(view, found[0].name, found[1])
             case _:
                 self.pointer.handle(event)

@@ -22,6 +22,8 @@ T = TypeVar("T")
 
 #: How long a frame waits for a run, in s: the rest of a frame is for drawing.
 PATIENCE = 0.005
+#: A fan or map that takes longer than this, in s, is taken for one that never ends once the aim has changed.
+HUNG = 10.0
 #: How often Python switches between threads, in s: its default of 5 ms would be a third of a frame.
 SWITCH_INTERVAL = 0.0005
 

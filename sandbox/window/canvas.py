@@ -20,7 +20,7 @@ class Canvas(Sheet):
     def __init__(self, surface: pygame.Surface) -> None:
         super().__init__(surface.get_size(), surface=surface)
 
-    def ended(self, text: str, size: str, room: float, bold: bool = False) -> str:
+    def shortened(self, text: str, size: str, room: float, bold: bool = False) -> str:
         """The text cut to ``room`` px, at a comma if there is one."""
         while ", " in text and self.lettering.width(text, size, bold) > room:
             text = text.rpartition(", ")[0]
@@ -29,8 +29,8 @@ class Canvas(Sheet):
     def numbers(self, entries: Sequence[Entry]) -> None:
         """The card along the bottom; a value that is too long is cut."""
         room = self.frame.width - 6 * self.gap
-        ended = [self.ended(entry[1], "medium", room, bold=True) for entry in entries]
-        shown = [e if text == e[1] else (e[0], text) for e, text in zip(entries, ended, strict=True)]
+        short = [self.shortened(entry[1], "medium", room, bold=True) for entry in entries]
+        shown = [e if text == e[1] else (e[0], text) for e, text in zip(entries, short, strict=True)]
         self.columns(self.card_row(), shown)
 
     def board(self, rect: pygame.Rect) -> None:
@@ -38,7 +38,7 @@ class Canvas(Sheet):
         self.painter.panel(rect.inflate(2, 2), mix(CARD["background"], CARD["quiet"], 0.5), 1.0, 10 * self.unit)
         self.painter.panel(rect, CARD["background"], 1.0, 10 * self.unit)
 
-    def veil(self, opacity: int) -> None:
+    def dim(self, opacity: int) -> None:
         """Dim what is drawn; the opacity is from 0 to 255."""
         dark = pygame.Surface(self.size, pygame.SRCALPHA)
         dark.fill((*CARD["background"], opacity))
@@ -99,7 +99,7 @@ class Canvas(Sheet):
         texts = [[(part, ink) for text, ink in lines for part in wrapped(text, "small", room)] for room in rooms]
         (first, ink), *_ = lines
         shorter = [[(part, ink) for part in wrapped(first, "small", room)] for room in rooms]
-        shortest = [[(self.ended(first, "small", room), ink)] for room in rooms]
+        shortest = [[(self.shortened(first, "small", room), ink)] for room in rooms]
         less = [self.text(each)._replace(whole=False) for each in (*shorter, *shortest)]
         return [*map(self.text, texts), *less]
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from concurrent.futures import Future
 from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -17,15 +16,14 @@ from sandbox.picture.frames import save_png
 from sandbox.picture.graph import graph
 from sandbox.picture.palette import palette
 from sandbox.scene import listings, listings_in
-from sandbox.scene.finding import folder_of, is_installed
 from sandbox.window import aim, export, replay
 from sandbox.window.find import Found, Question, find, questions, said_range
 from sandbox.window.measure import Tape
-from sandbox.window.menu import Menu, thumbnail
+from sandbox.window.menu import Menu
 from sandbox.window.overlay import Board, Chart, Choice, Mark, Overlay, Row
 from sandbox.window.shots import Played, Shot, write_csv
 from sandbox.window.table import Table
-from sandbox.window.view import AHEAD, View
+from sandbox.window.view import View
 from sandbox.window.worker import cost_and_errors, unpacked
 
 CARD = palette("card")
@@ -33,8 +31,6 @@ CARD = palette("card")
 TEXT_SIZES = (1.0, 1.15, 1.3, 1.5)
 #: Earlier shots in the graphs over time.
 MOST_GRAPHS = 5
-#: The fan can be made this many times wider or narrower.
-WIDEST = 16.0
 #: One step enlarges the picture by this factor, or moves it by this many px.
 ZOOM, PAN = 1.25, 60.0
 #: One step moves the end of the tape by this many px.
@@ -91,9 +87,9 @@ def do(view: View, command: str, by: float = 1) -> None:
         return
     found = _BY_NAME[name]
     if found.do is None:
-        view.on ^= {name}
+        view.shown.on ^= {name}
         view.lay_out()
-    elif found.group == "Panel" and not view.has_panel:
+    elif found.group == "Panel" and not view.shown.has_panel:
         do(view, "panel")
     else:
         found.do(view, by if name == command else -by)
@@ -118,26 +114,22 @@ def _go(view: View, by: float) -> None:
 
 def _pick(view: View, by: float) -> None:
     """Take hold of the next handle by key, or of the other end of the tape."""
-    if view.tape is not None and "tape" in view.on:
-        view.tape = Tape(view.tape.end, view.tape.start)
+    if view.shown.tape is not None and "tape" in view.shown.on:
+        view.shown.tape = Tape(view.shown.tape.end, view.shown.tape.start)
         return
-    keys = [spot.grip.keys for spot in view.spots]
-    if not keys:
+    if not view.targets.pick(int(by)):
         watched = " while a shot is watched" * (view.game.watching.playback is not None)
         view.game.messages.tell(f"there is nothing to move{watched}")
-        return
-    now = keys.index(view.picked_keys) if view.picked_keys in keys else -1 if by > 0 else 0
-    view.picked_keys = keys[(now + int(by)) % len(keys)]
 
 
 def _move(view: View, across: float, up: float) -> bool:
     """Move the tape's end or what was picked by key; returns whether there is anything."""
-    camera = view.camera
-    if view.tape is not None and "tape" in view.on and camera is not None:
-        x, y = camera.pixel(*view.tape.end)
-        view.tape = Tape(view.tape.start, camera.world(x + STEP * across, y - STEP * up))
+    camera = view.viewpoint.camera
+    if view.shown.tape is not None and "tape" in view.shown.on and camera is not None:
+        x, y = camera.pixel(*view.shown.tape.end)
+        view.shown.tape = Tape(view.shown.tape.start, camera.world(x + STEP * across, y - STEP * up))
         return True
-    spot = view.picked
+    spot = view.targets.picked
     if spot is None:
         return False
     step, (x, y) = spot.step(snap=True), spot.grip.place
@@ -161,15 +153,15 @@ def _with_shot(view: View, action: Callable[[Shot], object]) -> None:
 
 def _open(view: View, name: str, make: Callable[[], Overlay]) -> None:
     """Open an overlay, or close it if it is open."""
-    view.open(None if view.over is not None and view.over.name == name else make())
-    if view.over is not None:
-        view.over.name = name
+    view.shown.open(None if view.shown.overlay is not None and view.shown.overlay.name == name else make())
+    if view.shown.overlay is not None:
+        view.shown.overlay.name = name
 
 
 def _rows(view: View, group: str) -> list[Row]:
     """The commands of a group, each with its key."""
     meanings = {"accuracy": f"accuracy: {view.game.session.value('accuracy.level')}, and the next",
-                "predict": f"path while aiming: {view.ahead}, and the next"}  # fmt: skip
+                "predict": f"path while aiming: {view.shown.ahead}, and the next"}  # fmt: skip
     return [
         Row(it.name, meanings.get(it.name, it.meaning), it.shown) for it in TABLE if it.meaning and it.group == group
     ]
@@ -177,13 +169,13 @@ def _rows(view: View, group: str) -> list[Row]:
 
 def _list(view: View, name: str) -> None:
     """The commands of a group, above its button; several can be switched in turn."""
-    rows, button = _rows(view, name.capitalize()), view.bar.places[name]
+    rows, button = _rows(view, name.capitalize()), view.screen.bar.places[name]
     _open(view, name, lambda: Board(rows, partial(do, view), button, stays=name == "see"))
 
 
 def _shots(view: View, by: float) -> None:
     """The table of the shots of this scene."""
-    game, stage = view.game, view.stage
+    game, stage = view.game, view.stages.latest
 
     def played() -> list[Played]:
         return [row for row in game.shots.rows if row.start[:2] == (game.session.base.folder, game.session.source)]
@@ -221,11 +213,12 @@ def _find(view: View, by: float) -> None:
         names = {question.name: question for question in asked}
 
         def marks() -> list[Mark]:
-            places = [(q.name, q.at) for q in asked if q.at is not None and view.stage is not None]
-            return [Mark(name, np.array([view.stage.camera.pixel(*at)]), "", CARD["text"]) for name, at in places]  # type: ignore[union-attr]
+            stage, places = view.stages.latest, [(q.name, q.at) for q in asked if q.at is not None]
+            return [] if stage is None else [
+                Mark(name, np.array([stage.camera.pixel(*at)]), "", CARD["text"]) for name, at in places]  # fmt: skip
 
         rows = [Row(name, name) for name in names]
-        foot = view.bar.places["see"]
+        foot = view.screen.bar.places["see"]
         _open(view, "find", lambda: Choice("aim at ...", rows, lambda name: _find_one(view, names[name]), foot, marks))
 
 
@@ -243,7 +236,7 @@ def _find_one(view: View, question: Question) -> None:
         shots = [Shot(each.scene, unpacked(each.scene, each.run), number=i) for i, each in enumerate(found, 1)]
 
         def marks() -> list[Mark]:
-            stage = view.stage
+            stage = view.stages.latest
             return [] if stage is None else [
                 Mark(str(shot.number), stage.line(shot), str(shot.number), stage.colour_of(shot.number))
                 for shot in shots]  # fmt: skip
@@ -252,9 +245,9 @@ def _find_one(view: View, question: Question) -> None:
             game.aiming.change(found[int(number) - 1].values)
 
         rows = [Row(str(i), f"{i}   {each.said}") for i, each in enumerate(found, 1)]
-        foot, title = view.bar.places["see"], f"shots at {question.name}, the most forgiving first"
+        foot, title = view.screen.bar.places["see"], f"shots at {question.name}, the most forgiving first"
         if game.session.controls.scores:
-            view.on.add("map")
+            view.shown.on.add("map")
         _open(view, "found", lambda: Choice(title, rows, choose, foot, marks))
 
     work = game.workers.helper.submit(find, game.session.scene, question.goals)
@@ -274,22 +267,13 @@ def _menu(view: View, by: float) -> None:
     firsts = {SPORTS: sports, "recent": opened, "in this folder": own}
     groups = {**{name: rows for name, rows in firsts.items() if rows}, **groups}
 
-    def picture_of(source: str) -> Future[bytes]:
-        if source not in view.thumbnails:
-            folder = folder_of(source)  # no code runs only because it lies here
-            shown = folder is not None and is_installed(folder)
-            view.thumbnails[source] = game.workers.helper.submit(
-                thumbnail if shown else bytes, *([source] if shown else [])
-            )
-        return view.thumbnails[source]
-
     now = game.session.source.partition("/")[0]
-    _open(view, "menu", lambda: Menu("Choose a scene", groups, game.opening.open, now, picture_of, SPORTS))
+    _open(view, "menu", lambda: Menu("Choose a scene", groups, game.opening.open, now, view.thumbnails.of, SPORTS))
 
 
 def _chart(view: View, name: str, draw: Callable[[Shot, tuple[int, int]], pygame.Surface]) -> None:
     """A chart of the current shot over picture and panel, drawn in the background."""
-    shot, size = view.game.shot, (view.canvas.get_width(), view.area.height)
+    shot, size = view.game.shot, (view.screen.canvas.get_width(), view.screen.area.height)
     if shot is not None:
         _open(view, name, lambda: Chart(view.background.submit(draw, shot, size)))
 
@@ -302,25 +286,29 @@ def _graphs(view: View, by: float) -> None:
     _chart(view, "graphs", lambda shot, size: graph(shot.run, size, others))
 
 
+def _zoom(view: View, by: float) -> None:
+    """Zoom around the mouse, or the middle of the picture."""
+    view.viewpoint.zoom(ZOOM**by, view.targets.mouse if view.targets.on_picture else view.screen.area.center)
+
+
 def _wider(view: View, by: float) -> None:
-    view.fan_width = min(max(view.fan_width * 2.0**by, 1 / WIDEST), WIDEST)
-    view.on.add("fan")
+    view.shown.widen_fan(2.0**by)
 
 
 def _predict(view: View, by: float) -> None:
     """Show more or less of the path while aiming."""
-    view.ahead = AHEAD[(AHEAD.index(view.ahead) + 1) % len(AHEAD)]
-    view.game.messages.tell(f"path while aiming: {view.ahead}")
+    view.shown.show_more_ahead()
+    view.game.messages.tell(f"path while aiming: {view.shown.ahead}")
 
 
 def _tape(view: View, by: float) -> None:
     """Lay the tape from the ball, to be dragged or moved by key; or put it away."""
-    shot, camera, playback = view.game.shot, view.camera, view.game.watching.playback
-    view.on ^= {"tape"}
-    view.tape = None
-    if "tape" in view.on and shot is not None and camera is not None:
+    shot, camera, playback = view.game.shot, view.viewpoint.camera, view.game.watching.playback
+    view.shown.on ^= {"tape"}
+    view.shown.tape = None
+    if "tape" in view.shown.on and shot is not None and camera is not None:
         x, y, *_ = shot.run.state(shot.ball, playback.t if playback is not None else 0.0)
-        view.tape = Tape((x, y), camera.world(*view.area.center))
+        view.shown.tape = Tape((x, y), camera.world(*view.screen.area.center))
 
 
 def _accuracy(view: View, by: float) -> None:
@@ -336,16 +324,15 @@ def _accuracy(view: View, by: float) -> None:
 def _back(view: View, by: float) -> None:
     """Close what is open, or stop what is going on."""
     game = view.game
-    if view.over is not None:
-        view.open(None)
+    if view.shown.overlay is not None:
+        view.shown.open(None)
     elif game.grasp.holds:
         game.grasp.cancel()
-        view.free()
-    elif view.picked_keys is not None:
-        view.picked_keys = None
-    elif view.tape is not None or "tape" in view.on:
-        view.on.discard("tape")
-        view.tape = None
+        view.viewpoint.release()
+    elif view.targets.picked_keys is not None:
+        view.targets.picked_keys = None
+    elif view.shown.tape is not None or "tape" in view.shown.on:
+        view.shown.put_tape_away()
     elif not game.jobs.stop() and not game.stop():
         game.aiming.again()
 
@@ -374,7 +361,7 @@ def _save_scene(view: View) -> None:
 
 def _screenshot(view: View, by: float) -> None:
     view.draw()  # without the list that this may have been chosen from
-    _export(view, ".png", partial(save_png, view.canvas))
+    _export(view, ".png", partial(save_png, view.screen.canvas))
 
 
 def _open_replay(view: View, by: float) -> None:
@@ -455,12 +442,13 @@ TABLE: tuple[Command, ...] = (
     Command("wider", ("]", "["), "a wider, narrower fan", "See", _wider),
     Command("map", ("m",), "map: which speeds and angles score", "See"),
     Command("zoom", ("ctrl +", "ctrl -"), "larger, smaller", "See",
-            lambda view, by: view.zoom(ZOOM**by, view.at if view.area.collidepoint(view.at) else view.area.center),
+            _zoom,
             mouse="Ctrl wheel, pinch", repeats=True),
     Command("pan_across", ("alt left", "alt right"), "move the picture", "See",
-            lambda view, by: view.pan(PAN * by, 0), mouse="Ctrl drag, two fingers", repeats=True),
-    Command("pan_down", ("alt up", "alt down"), "", "See", lambda view, by: view.pan(0, PAN * by), repeats=True),
-    Command("fit", ("ctrl 0",), "see all of the shot", "See", lambda view, by: view.look(None)),
+            lambda view, by: view.viewpoint.pan(PAN * by, 0), mouse="Ctrl drag, two fingers", repeats=True),
+    Command("pan_down", ("alt up", "alt down"), "", "See",
+            lambda view, by: view.viewpoint.pan(0, PAN * by), repeats=True),
+    Command("fit", ("ctrl 0",), "see all of the shot", "See", lambda view, by: view.viewpoint.look(None)),
     Command("arrows", ("o",), "arrows: velocity and forces", "See"),
     Command("charts", ("w",), "charts over time", "See"),
     Command("graphs", ("alt w",), "charts over time, large, with earlier shots", "See", _graphs),

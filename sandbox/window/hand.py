@@ -94,7 +94,7 @@ def draw_handles(
 def label(sheet: Canvas, layout: Layout, text: str, at: tuple[float, float], below: bool) -> None:
     """A text on a card above or below a place in px."""
     room = sheet.frame.width - 4 * sheet.gap
-    forms = [sheet.text([(sheet.ended(text, "small", share * room), CARD["text"])]) for share in (1.0, 0.5, 0.3)]
+    forms = [sheet.text([(sheet.shortened(text, "small", share * room), CARD["text"])]) for share in (1.0, 0.5, 0.3)]
     away, anchor = (20 * sheet.unit, "midtop") if below else (-20 * sheet.unit, "midbottom")
     layout.put("hand", forms, (at[0], at[1] + away), anchor)
 

@@ -10,7 +10,9 @@ import pygame
 from sandbox.errors import SandboxError
 from sandbox.picture.palette import palette
 from sandbox.scene import load, simulate
+from sandbox.scene.finding import folder_of, is_installed
 from sandbox.window.overlay import HOVERED, Overlay, Row
+from sandbox.workers import Processes
 
 CARD = palette("card")
 
@@ -26,6 +28,26 @@ def thumbnail(source: str) -> bytes:
         return pygame.image.tobytes(pygame.transform.smoothscale(large, THUMBNAIL), "RGB")
     except (SandboxError, ArithmeticError, AttributeError, LookupError, TypeError, ValueError):
         return b""
+
+
+class Thumbnails:
+    """The thumbnails of scenes, made by a worker once they are asked for."""
+
+    def __init__(self, worker: Processes) -> None:
+        self.worker = worker
+        self.made: dict[str, Future[bytes]] = {}
+
+    def of(self, source: str) -> Future[bytes]:
+        """The thumbnail of a scene; an empty one if it is not installed: no code runs only because it lies here."""
+        if source not in self.made:
+            folder = folder_of(source)
+            safe = folder is not None and is_installed(folder)
+            self.made[source] = self.worker.submit(thumbnail, source) if safe else self.worker.submit(bytes)
+        return self.made[source]
+
+    def cancel(self) -> None:
+        """Drop those that nobody waits for any more."""
+        self.made = {source: work for source, work in self.made.items() if not work.cancel()}
 
 
 class Menu(Overlay):

@@ -35,21 +35,20 @@ class Pointer:
             return
         if len(self.fingers) > 1 and getattr(event, "touch", False):
             return
-        x, y = getattr(event, "pos", (0, 0))
-        at = round(view.shrunk * x), round(view.shrunk * y)
+        at = view.screen.from_window(getattr(event, "pos", (0, 0)))
         match event.type:
             case pygame.MOUSEMOTION:
                 if self.drag is not None:
                     self.drag(at)
-                view.at = at
+                view.targets.mouse = at
             case pygame.MOUSEBUTTONDOWN if event.button == pygame.BUTTON_LEFT:
-                view.at = at
+                view.targets.mouse = at
                 self.drag = self._pressed(at)
             case pygame.MOUSEBUTTONDOWN if event.button == pygame.BUTTON_RIGHT:
                 self.drag = self._lay(at)
             case pygame.MOUSEBUTTONDOWN if event.button == pygame.BUTTON_MIDDLE:
-                view.at = at
-                self.drag = self._pan if view.area.collidepoint(at) else None
+                view.targets.mouse = at
+                self.drag = self._pan if view.screen.area.collidepoint(at) else None
             case pygame.MOUSEBUTTONUP if event.button == pygame.BUTTON_LEFT:
                 self._released()
             case pygame.MOUSEBUTTONUP if event.button in (pygame.BUTTON_RIGHT, pygame.BUTTON_MIDDLE):
@@ -60,7 +59,7 @@ class Pointer:
     def _touched(self, event: pygame.event.Event) -> None:
         """Fingers on a touch screen."""
         before = list(self.fingers.values())
-        width, height = self.view.canvas.get_size()
+        width, height = self.view.screen.canvas.get_size()
         if event.type == pygame.FINGERUP:
             self.fingers.pop(event.finger_id, None)
         else:
@@ -71,18 +70,18 @@ class Pointer:
             self._released()
         elif len(now) == len(before) == 2:
             (x0, y0), (x, y) = (np.mean(points, axis=0) for points in (before, now))
-            self.view.pan(x - x0, y - y0)
-            self.view.zoom(dist(*now) / max(dist(*before), 1.0), (x, y))
+            self.view.viewpoint.pan(x - x0, y - y0)
+            self.view.viewpoint.zoom(dist(*now) / max(dist(*before), 1.0), (x, y))
 
     def _turned(self, event: pygame.event.Event) -> None:
         """The wheel, or a trackpad: the size of the picture with Ctrl, or while a shot is watched; else spin."""
         held, view = pygame.key.get_mods(), self.view
-        if view.over is not None:
-            view.over.scroll(-event.y)
-        elif view.on_panel(view.at):
+        if view.shown.overlay is not None:
+            view.shown.overlay.scroll(-event.y)
+        elif view.on_panel(view.targets.mouse):
             view.panel.scroll(-event.y)
         elif held & pygame.KMOD_CTRL or view.game.watching.playback is not None:
-            view.zoom(NOTCH ** getattr(event, "precise_y", event.y), view.at)
+            view.viewpoint.zoom(NOTCH ** getattr(event, "precise_y", event.y), view.targets.mouse)
         else:
             other = bool(held & pygame.KMOD_SHIFT) or event.x != 0
             view.game.aiming.nudge(aim.spun(view.game.session, int(other), event.y or event.x))
@@ -90,40 +89,38 @@ class Pointer:
     def _pressed(self, at: Place) -> Callable[[Place], object] | None:
         """Do what a press does; returns what dragging from there does."""
         view, game = self.view, self.view.game
-        button = view.bar.command_at(at)
+        button = view.screen.bar.command_at(at)
         view.panel.enter()
         if button is not None:
             commands.do(view, button)
-        elif view.over is not None:
-            over, view.over = view.over, None
-            if over.pressed(at):
-                view.over = over
-        elif view.bar.on_line(at) and game.watching.playback is not None:
+        elif view.shown.overlay is not None:
+            view.shown.click_overlay(at)
+        elif view.screen.bar.on_line(at) and game.watching.playback is not None:
             game.watching.playback.playing = False
             return self._begun(self._scrub, at)
         elif view.on_panel(at):
             drag = view.panel.press(at)
             return self._begun(drag, at) if drag is not None else None
-        elif view.area.collidepoint(at):
+        elif view.screen.area.collidepoint(at):
             return self._on_picture(at)
         return None
 
     def _on_picture(self, at: Place) -> Callable[[Place], object] | None:
         view, game = self.view, self.view.game
-        if "tape" in view.on:
+        if "tape" in view.shown.on:
             return self._lay(at)
         if pygame.key.get_mods() & pygame.KMOD_CTRL:
             return self._pan
-        card = next((name for name, rect in view.cards.items() if rect.collidepoint(at)), None)
+        card = view.targets.card_at(at)
         if card == "map":
             return self._begun(self._aim_on_map, at)
         if card == "charts":
             commands.do(view, "graphs")
-        elif (spot := view.spot_at(at)) is not None:
-            view.hold()
+        elif (spot := view.targets.spot_at(at)) is not None:
+            view.viewpoint.hold()
             game.grasp.begin_drag(spot.grip)
             return lambda to: self._drag_handle(spot, at, to)
-        elif (pad := view.pad) is not None and pad.rect.collidepoint(at):
+        elif (pad := view.targets.pad) is not None and pad.rect.collidepoint(at):
             return self._begun(lambda to: game.aiming.nudge(pad.changes(to)), at)
         elif game.watching.playback is None:
             return self._pull(at)
@@ -142,20 +139,20 @@ class Pointer:
 
     def _aim_on_map(self, to: Place) -> None:
         """Aim with the speed and the angle at a place of the map."""
-        view, known = self.view, self.view.maps.value
-        rect = view.cards.get("map")
+        view, known = self.view, self.view.map.job.value
+        rect = view.targets.cards.get("map")
         if known is not None and rect is not None:
             shares = (to[0] - rect.left) / rect.width, (rect.bottom - to[1]) / rect.height
             across, up = (min(max(share, 0.0), 1.0) for share in shares)
             view.game.aiming.nudge(aim.aimed(view.game.session, *known.aim(across, up)))
 
     def _pan(self, to: Place) -> None:
-        self.view.pan(to[0] - self.view.at[0], to[1] - self.view.at[1])
+        self.view.viewpoint.pan(to[0] - self.view.targets.mouse[0], to[1] - self.view.targets.mouse[1])
 
     def _scrub(self, to: Place) -> None:
         playback = self.view.game.watching.playback
         if playback is not None:
-            playback.seek(self.view.bar.share(to) * playback.duration)
+            playback.seek(self.view.screen.bar.share(to) * playback.duration)
             self.view.changed = True
 
     def _drag_handle(self, spot: Spot, start: Place, to: Place) -> None:
@@ -165,8 +162,8 @@ class Pointer:
 
     def _pull(self, at: Place) -> Callable[[Place], object]:
         view = self.view
-        stretch = view.stage.camera.stretch if view.stage is not None else 1.0
-        view.game.grasp.begin_pull(at, view.canvas.get_size(), view.area.height, stretch)
+        stretch = view.stages.latest.camera.stretch if view.stages.latest is not None else 1.0
+        view.game.grasp.begin_pull(at, view.screen.canvas.get_size(), view.screen.area.height, stretch)
         return view.game.grasp.pull_to
 
     def _perhaps_pull(self, start: Place, to: Place) -> None:
@@ -178,17 +175,17 @@ class Pointer:
 
     def _lay(self, at: Place) -> Callable[[Place], object] | None:
         view = self.view
-        if view.camera is None or not view.area.collidepoint(at):
+        if view.viewpoint.camera is None or not view.screen.area.collidepoint(at):
             return None
-        start = view.camera.world(*at)
+        start = view.viewpoint.camera.world(*at)
 
         def lay(to: Place) -> None:
-            if view.camera is not None:
-                view.tape = Tape(start, view.camera.world(*to))
+            if view.viewpoint.camera is not None:
+                view.shown.tape = Tape(start, view.viewpoint.camera.world(*to))
 
         return self._begun(lay, at)
 
     def _released(self) -> None:
         self.drag = None
         self.view.game.grasp.release()
-        self.view.free()
+        self.view.viewpoint.release()

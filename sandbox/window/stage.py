@@ -132,7 +132,7 @@ class Stage:
         labels.labels.take_path(self.line(around).tolist(), 5 * sheet.unit)
         for shot in shown:
             name = str(shot.number) if shot.number else "before saving"
-            text = sheet.ended(f"{name}:  {shot.verdict}", "small", 0.3 * sheet.size[0])
+            text = sheet.shortened(f"{name}:  {shot.verdict}", "small", 0.3 * sheet.size[0])
             line = self.line(shot)
             places = line[np.linspace(len(line) - 1, 0, PLACES).round().astype(int)]
             beyond = ((1.0, -1.0), (-1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))

@@ -83,7 +83,7 @@ class Player:
 
     def pull(self, by: tuple[int, int], let_go: bool = True) -> None:
         """Pull the ball back by so many px."""
-        x, y = (round(value) for value in self.view.stage.ball_at(self.game.shot))
+        x, y = (round(value) for value in self.view.stages.latest.ball_at(self.game.shot))
         self.press((x, y))
         for part in (0.3, 0.6, 1.0):
             self.move((round(x + part * by[0]), round(y + part * by[1])))
@@ -93,10 +93,10 @@ class Player:
     @property
     def sheet(self) -> Canvas:
         """What the picture is drawn on."""
-        return Canvas(self.view.canvas.subsurface(self.view.area))
+        return Canvas(self.view.screen.canvas.subsurface(self.view.screen.area))
 
     def button(self, command: str) -> None:
-        self.click(self.view.bar.buttons[command].center)
+        self.click(self.view.screen.bar.buttons[command].center)
 
 
 @pytest.fixture(scope="session")

@@ -40,10 +40,10 @@ class TestSaving:
         assert own.game.path.before_save.run.result == before
 
     def test_the_picture_changes_with_picture_py(self, own):
-        kind = type(own.view.stage.picture)
+        kind = type(own.view.stages.latest.picture)
         edit(own, "picture.py", "\n\nclass Picture", "\n\nMINE = True\n\n\nclass Picture")
-        assert type(own.view.stage.picture) is not kind
-        assert own.view.stage.shot is own.game.shot
+        assert type(own.view.stages.latest.picture) is not kind
+        assert own.view.stages.latest.shot is own.game.shot
 
     @pytest.mark.parametrize("name", ["scene.py", "picture.py"])
     def test_a_syntax_error_is_shown_with_its_line_until_mended(self, own, name):
@@ -196,8 +196,10 @@ class TestWhatIsOpen:
         player.settle()
         assert "soccer" in pygame.display.get_caption()[0]
         player.button("menu")
-        player.click(next(rect.center for rect, what in player.view.over.places if what == "recent"))
-        rect = next(rect for rect, what in player.view.over.places if getattr(what, "action", None) == str(file))
+        player.click(next(rect.center for rect, what in player.view.shown.overlay.places if what == "recent"))
+        rect = next(
+            rect for rect, what in player.view.shown.overlay.places if getattr(what, "action", None) == str(file)
+        )
         player.click(rect.center)
         assert player.game.session.title == "mine.toml"
 
@@ -205,9 +207,9 @@ class TestWhatIsOpen:
         player = player("golf/putt")
         for key, name in ((pygame.K_l, "menu"), (pygame.K_h, "help"), (pygame.K_j, "energy"), (pygame.K_l, "menu")):
             player.key(key)
-            assert player.view.over.name == name
+            assert player.view.shown.overlay.name == name
         player.key(pygame.K_ESCAPE)
-        assert player.view.over is None
+        assert player.view.shown.overlay is None
 
     def test_a_click_on_a_shot_that_is_watched_leaves_it(self, player):
         player = player("billiards")

@@ -96,23 +96,23 @@ class TestInBilliards:
         assert not game.shot.scored
         asking.key(pygame.K_ESCAPE)
         asking.key(pygame.K_SLASH)
-        assert view.over.name == "find"
+        assert view.shown.overlay.name == "find"
         x, y = game.session.value("balls[1].x"), game.session.value("balls[1].y")
-        asking.click(tuple(map(round, view.stage.camera.pixel(x, y))))
+        asking.click(tuple(map(round, view.stages.latest.camera.pixel(x, y))))
         asking.settle()
-        assert view.over.name == "found"
-        (mark,) = view.over.marks()
+        assert view.shown.overlay.name == "found"
+        (mark,) = view.shown.overlay.marks()
         middle = mark.line[len(mark.line) // 2]
         asking.click((round(middle[0]), round(middle[1])))
         asking.settle()
-        assert view.over is None
+        assert view.shown.overlay is None
         assert game.session.value("cue.angle") == pytest.approx(angle, abs=0.2)
         assert game.shot.scored
         asking.key(pygame.K_z, pygame.KMOD_CTRL)
         assert game.session.value("cue.angle") == angle + 30.0
 
     def test_by_key_alone_or_not_at_all(self, asking):
-        over = asking.view.over
+        over = asking.view.shown.overlay
         assert over.chosen.action == "ball 1"
         asking.key(pygame.K_DOWN)
         assert over.chosen.action == "left head corner pocket"
@@ -123,7 +123,7 @@ class TestInBilliards:
         asking.key(pygame.K_ESCAPE)
         assert not asking.game.jobs.waiting
         asking.settle()
-        assert asking.view.over is None
+        assert asking.view.shown.overlay is None
 
 
 def test_a_scene_that_does_not_score_says_so(player):

@@ -76,7 +76,7 @@ def test_the_menu_shows_thumbnails_texts_and_own_files(remembering, tmp_path, mo
     monkeypatch.chdir(tmp_path)
     new_scene(tmp_path / "ours")
     remembering.key(pygame.K_l)
-    menu = remembering.view.over
+    menu = remembering.view.shown.overlay
     assert {"recent", "in this folder", "golf"} <= menu.groups.keys()
     assert [row.action for row in menu.groups["in this folder"]] == ["./ours", "./ours/still"]
     remembering.settle()
@@ -98,10 +98,10 @@ def test_the_menu_shows_thumbnails_texts_and_own_files(remembering, tmp_path, mo
 def test_thumbnails_that_nobody_waits_for_are_not_drawn(remembering):
     waiting = [Future(), Future()]
     waiting[1].set_result(b"")
-    remembering.view.thumbnails.update(zip(("golf", "soccer"), waiting, strict=True))
+    remembering.view.thumbnails.made.update(zip(("golf", "soccer"), waiting, strict=True))
     remembering.frames(1)
     assert waiting[0].cancelled()
-    assert list(remembering.view.thumbnails) == ["soccer"]
+    assert list(remembering.view.thumbnails.made) == ["soccer"]
 
 
 def test_a_scene_that_cannot_be_drawn_has_no_thumbnail(tmp_path):

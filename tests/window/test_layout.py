@@ -12,8 +12,10 @@ from sandbox.scene import listings
 from sandbox.window import commands
 from sandbox.window.app import App
 from sandbox.window.fan import Cloud
+from sandbox.window.fan_of_shot import FanKey, FanOfShot
 from sandbox.window.game import Game
 from sandbox.window.layout import Form, Layout
+from sandbox.window.map_of_shot import MapKey, MapOfShot
 from sandbox.window.score_map import ScoreMap
 from sandbox.window.session import Session
 from sandbox.window.view import View
@@ -28,19 +30,20 @@ CELLS = np.arange(13 * 9, dtype=np.uint8).reshape(13, 9) % 2
 
 def known(view: View) -> None:
     """A fan and a map as if they had been computed."""
-    shot, camera = view.game.shot, view.stage.camera
-    view.clouds.key, view.clouds.value = (shot, 1.0, camera, False), Cloud((0, 0), (0, 0), b"", SAID, 100, 37, 0)
+    shot, camera = view.game.shot, view.stages.latest.camera
+    cloud = Cloud((0, 0), (0, 0), b"", SAID, 100, 37, 0)
+    view.fan.job.key, view.fan.job.value = FanKey(shot, 1.0, camera, False, 0), cloud
     speed, angle = shot.aim
-    view.maps.key = shot.scene_without_aim, shot.scene, 1
-    view.maps.value = ScoreMap((speed - 1, speed + 1), (angle - 9, angle + 9), ("m/s", "deg"), CELLS, 0.1)
+    view.map.job.key = MapKey(shot.scene_without_aim, shot.scene, 1)
+    view.map.job.value = ScoreMap((speed - 1, speed + 1), (angle - 9, angle + 9), ("m/s", "deg"), CELLS, 0.1)
 
 
 def check(view: View) -> None:
     """Draw, and compare all rectangles with each other."""
-    game, stage = view.game, view.stage
+    game, stage = view.game, view.stages.latest
     view.draw()
     t = game.watching.playback.t if game.watching.playback is not None else 0.0
-    placed, sheet = view.layout.placed, view._sheet()
+    placed, sheet = view.drawing.layout.placed, view.screen.sheet
     kept = stage.kept_clear(game.shot, t)
     numbers = pygame.Rect(sheet.frame.left, sheet.card_row(), sheet.frame.width, sheet.frame.bottom - sheet.card_row())
     for (one, rect), (other, beside) in combinations(placed.items(), 2):
@@ -54,8 +57,8 @@ def check(view: View) -> None:
 
 @pytest.mark.parametrize("source", SCENES)
 def test_nothing_covers_anything_in_any_scene_and_size(source, monkeypatch):
-    for wanted in ("_cloud_wanted", "_map_wanted"):
-        monkeypatch.setattr(View, wanted, lambda view: None)
+    for part in (FanOfShot, MapOfShot):
+        monkeypatch.setattr(part, "wanted", None)
     pygame.display.init()
     app = App(
         Game(Session(source), Here(), patience=60.0), pygame.display.set_mode(SIZES[0], pygame.RESIZABLE), patience=60.0
@@ -65,7 +68,7 @@ def test_nothing_covers_anything_in_any_scene_and_size(source, monkeypatch):
         for size in SIZES:
             pygame.display.set_mode(size, pygame.RESIZABLE)
             for panel in (set(), {"panel"}):
-                view.on = {"ghosts", "fan", "map", "charts", "cost", *panel}
+                view.shown.on = {"ghosts", "fan", "map", "charts", "cost", *panel}
                 view.resized()
                 view.lay_out()
                 for _ in range(200):
@@ -77,20 +80,20 @@ def test_nothing_covers_anything_in_any_scene_and_size(source, monkeypatch):
                 check(view)
                 if size == SIZES[0]:
                     app.game.messages.tell("a message of some length, as of what was written to a file somewhere")
-                    spins, view.on = app.game.session.controls.spins, view.on ^ {"pad"}
+                    spins, view.shown.on = app.game.session.controls.spins, view.shown.on ^ {"pad"}
                     check(view)
-                    assert ("pad" in view.layout.placed) <= bool(spins)
-                    for at in list(view.stage.line(app.game.shot)[::7]):
-                        view.at = round(at[0]), round(at[1])
+                    assert ("pad" in view.drawing.layout.placed) <= bool(spins)
+                    for at in list(view.stages.latest.line(app.game.shot)[::7]):
+                        view.targets.mouse = round(at[0]), round(at[1])
                         check(view)
-                    view.at = (-1, -1)
+                    view.targets.mouse = (-1, -1)
                     app.game.notices.clear() if isinstance(app.game.notices, list) else None
         app.game.aiming.shoot()
         for share in (0.0, 0.3, 0.6, 1.0):
             app.game.watching.playback.seek(share * app.game.watching.playback.duration)
             app.game.watching.playback.playing = False
             app.tick(0.0)
-            if view.up_to_date:
+            if view.stages.up_to_date:
                 known(view)
                 check(view)
     finally:
@@ -108,10 +111,10 @@ def test_a_list_leaves_the_ball_and_what_is_aimed_at_in_sight(player, source, na
     player.settle()
     view = player.view
     view.draw()
-    rect = view.over.place(view._whole())
-    assert view.over.name == name
-    assert rect.collidelist(view.stage.clear_of(view.game.shot, 0.0)) < 0
-    assert rect.collidelist(list(view.layout.placed.values())) < 0
+    rect = view.shown.overlay.place(view.screen.whole)
+    assert view.shown.overlay.name == name
+    assert rect.collidelist(view.stages.latest.clear_of(view.game.shot, 0.0)) < 0
+    assert rect.collidelist(list(view.drawing.layout.placed.values())) < 0
 
 
 class TestALayout:

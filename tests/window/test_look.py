@@ -44,7 +44,7 @@ def test_the_panel(player, golden):
 
 def test_a_hoop_that_is_dragged(player, golden):
     player = player("basketball/free-throw", SIZE)
-    x, y = next(at for grip, at, *_ in player.view.spots if "hoop.distance" in grip.keys)
+    x, y = next(at for grip, at, *_ in player.view.targets.spots if "hoop.distance" in grip.keys)
     player.press((round(x), round(y)))
     player.move((round(x) + 40, round(y) - 20))
     player.settle()
@@ -60,8 +60,8 @@ def test_the_table_of_shots_and_what_is_pinned(player, golden):
         player.game.aiming.again()
     player.game.watching.pin(player.game.shots.rows[1])
     player.key(pygame.K_q)
-    player.view.over.sort("launch.speed")
-    player.view.over.chosen = player.game.shots.rows[1]
+    player.view.shown.overlay.sort("launch.speed")
+    player.view.shown.overlay.chosen = player.game.shots.rows[1]
     player.settle()
     player.view.draw()
     golden.check("window-shots", player.screen)

@@ -10,7 +10,7 @@ import pytest
 
 def drag(player, across: float, up: float) -> None:
     """Press in the middle of the ball, and drag so many radii."""
-    pad = player.view.pad
+    pad = player.view.targets.pad
     x, y = pad.centre
     player.press((round(x), round(y)))
     player.move((round(x + across * pad.radius), round(y - up * pad.radius)))
@@ -27,9 +27,9 @@ def test_the_tip_of_the_cue_is_dragged_up_to_a_miscue(player):
     drag(player, 0.9, 0.9)
     assert hypot(value("cue.english"), value("cue.follow")) == pytest.approx(0.5, abs=0.02)
     assert player.game.failure is None
-    assert player.view.pad.texts[-1] == "level cue"
+    assert player.view.targets.pad.texts[-1] == "level cue"
     player.key(pygame.K_2)
-    assert player.view.pad is None
+    assert player.view.targets.pad is None
 
 
 def test_rate_and_tilt_are_set_on_it_where_a_spin_has_both(player):
@@ -44,10 +44,10 @@ def test_rate_and_tilt_are_set_on_it_where_a_spin_has_both(player):
 
 def test_where_there_is_one_spin_it_is_shown_by_key(player):
     player = player("golf")
-    assert player.view.pad is None
+    assert player.view.targets.pad is None
     player.key(pygame.K_2)
-    pad = player.view.pad
+    pad = player.view.targets.pad
     drag(player, 0.5, 0.9)
     assert player.game.session.value("launch.spin") == pytest.approx(0.5 * pad.reaches[0], rel=0.05)
     player.key(pygame.K_SPACE)
-    assert player.view.pad is None
+    assert player.view.targets.pad is None

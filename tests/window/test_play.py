@@ -15,8 +15,8 @@ import pytest
 import sandbox
 from sandbox.scene import Scene, listings
 from sandbox.window.commands import TABLE
+from sandbox.window.screen import SMALLEST
 from sandbox.window.shots import LONGEST_FRAME, STEP
-from sandbox.window.view import SMALLEST
 
 from .conftest import Player
 from .test_game import Here
@@ -58,7 +58,7 @@ def test_a_pull_aims_opposite_and_shows_the_path(player):
     assert player.game.watching.playback is None
     assert player.game.shot is not before
     angle = player.game.session.value("launch.angle")
-    stretch = player.view.stage.camera.stretch
+    stretch = player.view.stages.latest.camera.stretch
     assert angle == pytest.approx(np.degrees(np.arctan2(60 / stretch, 150)), abs=0.5)
     assert player.game.shot.run.setup.balls[0].velocity[0] > 0
 
@@ -95,13 +95,13 @@ class TestPullsInEveryScene:
     def pull(self, source):
         """Gives the speed of a pull by so many px."""
         player = Player(Here(), source)
-        stage, shot, game = player.view.stage, player.game.shot, player.game
+        stage, shot, game = player.view.stages.latest, player.game.shot, player.game
         angle = np.radians(shot.aim[1])
         way = np.array([-np.cos(angle), np.sin(angle) * stage.camera.stretch])
         game.grasp.begin_pull(
             tuple(map(round, stage.ball_at(shot))),
             player.screen.get_size(),
-            player.view.area.height,
+            player.view.screen.area.height,
             stage.camera.stretch,
         )
 
@@ -167,7 +167,7 @@ def test_what_is_drawn_was_built_once(source, monkeypatch):
     try:
         assert len(built) == 2
         player.key(pygame.K_UP)
-        for x, y in [spot.at for spot in player.view.spots][:1]:
+        for x, y in [spot.at for spot in player.view.targets.spots][:1]:
             player.press((round(x), round(y)))
             player.move((round(x) + 9, round(y) + 7))
             player.release((round(x) + 9, round(y) + 7))
@@ -221,7 +221,7 @@ class TestWatching:
         assert playback.t == pytest.approx(t + LONGEST_FRAME)
 
     def test_speeds_are_1_16_to_8_and_the_time_line_can_be_dragged(self, player):
-        playback, line = player.game.watching.playback, player.view.bar.line
+        playback, line = player.game.watching.playback, player.view.screen.bar.line
         for key, rate in ((pygame.K_MINUS, 1 / 16), (pygame.K_EQUALS, 8)):
             for _ in range(12):
                 player.key(key)
@@ -257,33 +257,33 @@ class TestScenes:
     def test_the_menu_opens_another_scene_by_mouse(self, player):
         player = player("golf")
         player.button("menu")
-        player.click(next(rect.center for rect, what in player.view.over.places if what == "billiards"))
-        rows = [place for place in player.view.over.places if not isinstance(place[1], str)]
+        player.click(next(rect.center for rect, what in player.view.shown.overlay.places if what == "billiards"))
+        rows = [place for place in player.view.shown.overlay.places if not isinstance(place[1], str)]
         player.move(rows[0][0].center)
         player.send(pygame.MOUSEWHEEL, x=0, y=-1, flipped=False)
-        rect, row = [place for place in player.view.over.places if not isinstance(place[1], str)][1]
+        rect, row = [place for place in player.view.shown.overlay.places if not isinstance(place[1], str)][1]
         player.click(rect.center)
         assert row.action.startswith("billiards/")
         assert player.game.session.title == row.action
-        assert player.view.over is None
+        assert player.view.shown.overlay is None
 
     def test_the_menu_opens_another_scene_by_key(self, player):
         player = player("golf")
         player.key(pygame.K_l)
         player.key(pygame.K_DOWN)
         sports = [listing.name for listing in listings() if "/" not in listing.name]
-        assert player.view.over.chosen.action == sports[sports.index("golf") + 1]
+        assert player.view.shown.overlay.chosen.action == sports[sports.index("golf") + 1]
         player.key(pygame.K_UP)
         player.key(pygame.K_UP)
-        assert player.view.over.chosen.action == sports[sports.index("golf") - 1]
+        assert player.view.shown.overlay.chosen.action == sports[sports.index("golf") - 1]
         player.key(pygame.K_LEFT)
         player.key(pygame.K_UP)
-        chosen = player.view.over.chosen.action
+        chosen = player.view.shown.overlay.chosen.action
         assert chosen.startswith(f"{sports[-1]}/")
         assert not chosen.startswith("golf")
         player.key(pygame.K_RETURN)
         assert player.game.session.title == chosen
-        assert player.view.over is None
+        assert player.view.shown.overlay is None
 
 
 def test_impossible_parameters_are_reported_and_not_taken(player):
@@ -302,14 +302,14 @@ def test_any_size_is_drawn(player, size):
     player = player("golf")
     player.screen = pygame.display.set_mode(size, pygame.RESIZABLE)
     player.send(pygame.VIDEORESIZE, size=size, w=size[0], h=size[1])
-    bar = player.view.bar
+    bar = player.view.screen.bar
     scale = min(1.0, *(px / least for px, least in zip(size, SMALLEST, strict=True)))  # all of it is seen
     assert bar.rect.bottom * scale == pytest.approx(size[1], abs=1)
-    assert player.view.stage.size[0] * scale == pytest.approx(size[0], abs=1)
+    assert player.view.stages.latest.size[0] * scale == pytest.approx(size[0], abs=1)
     assert picture(player)[:, : round(scale * bar.rect.top)].std() > 10
     assert picture(player)[:, round(scale * bar.rect.top) + 1 :].std() > 10
     player.click(tuple(round(scale * px) for px in bar.buttons["see"].center))
-    assert player.view.over.name == "see"
+    assert player.view.shown.overlay.name == "see"
     player.key(pygame.K_ESCAPE)
     player.pull((-60, 20))
     player.frames(3)
@@ -343,8 +343,8 @@ def test_full_screen_and_back(player):
     for size in (display, (800, 500)):
         player.key(pygame.K_F11)
         player.frames(2)
-        assert player.view.canvas.get_size() == size
-        assert player.view.bar.rect.bottom == size[1]
+        assert player.view.screen.canvas.get_size() == size
+        assert player.view.screen.bar.rect.bottom == size[1]
 
 
 def test_the_key_for_leaving_leaves(player):

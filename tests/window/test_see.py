@@ -19,6 +19,7 @@ from sandbox.picture.camera import Camera
 from sandbox.picture.lettering import Lettering
 from sandbox.scene import simulate
 from sandbox.window import commands
+from sandbox.window.background import HUNG
 from sandbox.window.canvas import Canvas
 from sandbox.window.charts import Charts
 from sandbox.window.commands import GROUPS, HINTS, TABLE
@@ -27,7 +28,8 @@ from sandbox.window.measure import reading
 from sandbox.window.path import LONG
 from sandbox.window.score_map import COARSE, FINER, SCORED, score_map
 from sandbox.window.session import Session
-from sandbox.window.view import AHEAD, AT_REST, HUNG
+from sandbox.window.shown import AHEAD
+from sandbox.window.stages import AT_REST
 from sandbox.workers import Processes
 
 PUTT = "golf/putt"
@@ -65,7 +67,7 @@ class TestTheFan:
         player = player("basketball")
         player.key(pygame.K_f)
         player.settle()
-        fan = player.view.clouds.value
+        fan = player.view.fan.job.value
         assert fan.shots == SHOTS
         assert 0 < fan.scored < SHOTS
         share, spread = fan.said
@@ -129,10 +131,10 @@ class TestTheFan:
         player.game.workers.helper = Processes(1)
         try:
             player.key(pygame.K_f)
-            while not player.view.elsewhere.value:
+            while not player.view.fan.elsewhere.value:
                 player.frames()
                 sleep(0.01)
-            assert FEWEST <= player.view.clouds.value.shots < SHOTS
+            assert FEWEST <= player.view.fan.job.value.shots < SHOTS
             asked, submit = [], player.game.workers.helper.submit
             monkeypatch.setattr(player.game.workers.helper, "submit", lambda *call: asked.append(call) or submit(*call))
             player.key(pygame.K_UP)
@@ -149,12 +151,12 @@ class TestTheFan:
         player.key(pygame.K_f)
         player.game.aiming.nudge({"launch.speed": 70.0})
         player.frames(1, dt=0.0)
-        while player.view.clouds.work is not None:
+        while player.view.fan.job.work is not None:
             player.frames(1, dt=0.0)
-        assert player.view.clouds.value.said[0].startswith(f"{SHOTS} shots; carry 2")
+        assert player.view.fan.job.value.said[0].startswith(f"{SHOTS} shots; carry 2")
         player.frames(1, dt=AT_REST)
         player.settle()
-        assert f" of {SHOTS} score: " in player.view.clouds.value.said[0]
+        assert f" of {SHOTS} score: " in player.view.fan.job.value.said[0]
 
     def test_it_is_drawn_and_put_away(self, player):
         player = player(PUTT)
@@ -187,12 +189,12 @@ class TestTheFan:
         player = player(PUTT)
         player.key(pygame.K_f)
         player.settle()
-        first = player.view.clouds.value
+        first = player.view.fan.job.value
         player.key(pygame.K_UP)
         player.settle()
-        assert player.view.clouds.value is not first
-        assert player.view.clouds.key[0] is player.game.shot
-        player.view.clouds.work = Future()  # the next one takes for ever
+        assert player.view.fan.job.value is not first
+        assert player.view.fan.job.key[0] is player.game.shot
+        player.view.fan.job.work = Future()  # the next one takes for ever
         player.game.aiming.change({"pin.distance": 6.0})
         player.frames(20)
         assert "the fan ..." in [text for text, _ in written]
@@ -201,10 +203,10 @@ class TestTheFan:
         player = player(PUTT)
         player.key(pygame.K_RIGHTBRACKET)
         player.settle()
-        assert player.view.clouds.value.said[1].startswith(f"speed ± {short(2 * 0.015 * 2.95)} m/s")
+        assert player.view.fan.job.value.said[1].startswith(f"speed ± {short(2 * 0.015 * 2.95)} m/s")
         for _ in range(9):
             player.key(pygame.K_LEFTBRACKET)
-        assert player.view.fan_width == 1 / 16
+        assert player.view.shown.fan_width == 1 / 16
 
     def test_a_shot_that_does_not_begin_as_a_players_has_none(self, player):
         player = player("golf/club-head")
@@ -212,8 +214,8 @@ class TestTheFan:
         player.key(pygame.K_m)
         player.frames(2, dt=0.2)
         player.settle()
-        assert "no fan" in player.view.clouds.value.said[0]
-        assert "does not start from the player's controls" in str(player.view.maps.error)
+        assert "no fan" in player.view.fan.job.value.said[0]
+        assert "does not start from the player's controls" in str(player.view.map.job.error)
 
     def test_a_shot_is_watched_with_its_fan(self, player, written):
         player = player(PUTT)
@@ -222,8 +224,8 @@ class TestTheFan:
         player.frames(12)
         player.settle()
         assert player.game.watching.playback is not None
-        assert player.view.clouds.value.shots == SHOTS
-        assert player.view.clouds.value.said[0] in [text for text, _ in written]
+        assert player.view.fan.job.value.shots == SHOTS
+        assert player.view.fan.job.value.said[0] in [text for text, _ in written]
 
     def test_an_endless_shot_is_killed_when_the_aim_changes(self, player, monkeypatch):
         player = player(PUTT)
@@ -231,26 +233,26 @@ class TestTheFan:
         player.settle()
         killed = []
         view = player.view
-        for latest in (view.clouds, view.maps):
+        for latest in (view.fan.job, view.map.job):
             monkeypatch.setattr(latest, "abandon", killed.append)
             latest.work, latest.began, latest.work_for = Future(), perf_counter() - 3.0, "before"
         player.key(pygame.K_UP)
         player.frames(1)
         assert not killed  # a break takes so long
-        for latest in (view.clouds, view.maps):
+        for latest in (view.fan.job, view.map.job):
             latest.began -= HUNG
         player.frames(1)
         assert len(killed) == 2
-        assert view.maps.work is None
+        assert view.map.job.work is None
         player.settle()
-        assert view.clouds.key[0] is player.game.shot
-        assert view.clouds.value.shots
+        assert view.fan.job.key[0] is player.game.shot
+        assert view.fan.job.value.shots
 
     def test_the_path_does_not_wait_for_endless_shots_of_the_fan(self, player, monkeypatch):
         player = player(PUTT)
         player.key(pygame.K_f)
         player.settle()
-        killed, latest = [], player.view.elsewhere
+        killed, latest = [], player.view.fan.elsewhere
         monkeypatch.setattr(latest, "abandon", killed.append)
         latest.work, latest.began, latest.work_for = Future(), perf_counter(), "before"
         player.game.workers.path.never = True
@@ -281,10 +283,10 @@ class TestTheMap:
         player.key(pygame.K_m)
         player.frames(2, dt=0.2)
         player.settle()
-        known = player.view.maps.value
+        known = player.view.map.job.value
         assert known.cells.shape in (COARSE, (FINER * COARSE[0], FINER * COARSE[1]))
         assert differ(picture(player), plain) > 0.02
-        rect = player.view.cards["map"]
+        rect = player.view.targets.cards["map"]
         at = rect.left + rect.width // 4, rect.top + rect.height // 3
         player.move(at)
         player.press(rect.center)
@@ -297,9 +299,9 @@ class TestTheMap:
         assert player.game.session.value("launch.angle") == pytest.approx(angle, abs=0.01)
         player.frames(5, dt=0.2)
         player.settle()
-        assert player.view.maps.value is known  # the aim is on it
+        assert player.view.map.job.value is known  # the aim is on it
         player.key(pygame.K_m)
-        player.move((5, player.view.bar.rect.bottom - 5))
+        player.move((5, player.view.screen.bar.rect.bottom - 5))
         player.game.aiming.reset()
         player.settle()
         player.frames(2, dt=9.0)
@@ -311,9 +313,9 @@ class TestReading:
         player = player("golf")
         game, view = player.game, player.view
         t = 0.4 * game.shot.run.duration
-        at = view.stage.camera.pixel(*game.shot.run.state("ball", t)[:2])
+        at = view.stages.latest.camera.pixel(*game.shot.run.state("ball", t)[:2])
         mouse = round(at[0]), round(at[1]) - 3
-        read = reading(game.shot, view.stage.camera, mouse, 12.0, None)
+        read = reading(game.shot, view.stages.latest.camera, mouse, 12.0, None)
         assert read.t == pytest.approx(t, rel=0.02)
         assert hypot(read.at[0] - mouse[0], read.at[1] - mouse[1]) < 5
         plain = picture(player)
@@ -321,15 +323,15 @@ class TestReading:
         assert differ(picture(player), plain) > 0.01
 
         for away, until in (((600, 20), None), (mouse, 0.5 * t)):  # or where it has not flown yet
-            assert reading(game.shot, view.stage.camera, away, 12.0, until) is None
+            assert reading(game.shot, view.stages.latest.camera, away, 12.0, until) is None
 
     def test_of_many_balls_the_nearest_is_read(self, player):
         player = player("billiards")
         game, view = player.game, player.view
         run, ball = game.shot.run, "5"  # which leaves the axis that the cue ball stays on
         x, y, *_ = run.state(ball, run.duration)
-        at = view.stage.camera.pixel(x, y)
-        assert reading(game.shot, view.stage.camera, (round(at[0]), round(at[1])), 12.0, None).ball == ball
+        at = view.stages.latest.camera.pixel(x, y)
+        assert reading(game.shot, view.stages.latest.camera, (round(at[0]), round(at[1])), 12.0, None).ball == ball
 
 
 def test_the_player_may_have_to_predict_what_happens(player):
@@ -340,11 +342,11 @@ def test_the_player_may_have_to_predict_what_happens(player):
     untils = []
     player.key(pygame.K_f)
     for _ in AHEAD:
-        untils.append(view.until(shot))
+        untils.append(view.shown.until(shot))
         player.frames(1)
         written = said(player)
-        assert (card in written) == (shot.verdict in written) == (view.ahead == "all")
-        assert any("score" in text for text in written) == (view.ahead == "all")
+        assert (card in written) == (shot.verdict in written) == (view.shown.ahead == "all")
+        assert any("score" in text for text in written) == (view.shown.ahead == "all")
         player.key(pygame.K_y)
     everything, to_contact, metre, nothing = untils
     assert (everything, to_contact, nothing) == (None, contact, 0.0)
@@ -360,36 +362,36 @@ def test_the_player_may_have_to_predict_what_happens(player):
 class TestTheTape:
     def test_it_measures_metres(self, player):
         player = player("basketball")
-        camera = player.view.stage.camera
+        camera = player.view.stages.latest.camera
         ends = [tuple(map(round, camera.pixel(*place))) for place in ((1.0, 1.0), (4.0, 5.0))]
         player.key(pygame.K_t)
         player.press(ends[0])
         player.move(ends[1])
         player.release(ends[1])
-        assert player.view.tape.length == pytest.approx(5.0, abs=2 / camera.scale)
+        assert player.view.shown.tape.length == pytest.approx(5.0, abs=2 / camera.scale)
         assert player.game.grasp.pull is None
         player.move((5, 5))
-        assert player.view.tape.length == pytest.approx(5.0, abs=2 / camera.scale)
+        assert player.view.shown.tape.length == pytest.approx(5.0, abs=2 / camera.scale)
         player.key(pygame.K_ESCAPE)
-        assert player.view.tape is None
-        assert "tape" not in player.view.on
+        assert player.view.shown.tape is None
+        assert "tape" not in player.view.shown.on
 
     def test_arrows_move_one_end_and_k_takes_the_other(self, player):
         player = player("basketball")
         aimed = player.game.session.changes
         player.key(pygame.K_t)
-        start, end = player.view.tape.start, player.view.tape.end
+        start, end = player.view.shown.tape.start, player.view.shown.tape.end
         assert start == player.game.shot.run.state("ball", 0.0)[:2]
         player.key(pygame.K_RIGHT)
         player.key(pygame.K_UP)
-        along, up = np.subtract(player.view.tape.end, end)
+        along, up = np.subtract(player.view.shown.tape.end, end)
         assert along == pytest.approx(up)
-        assert up == pytest.approx(commands.STEP / player.view.stage.camera.scale)
+        assert up == pytest.approx(commands.STEP / player.view.stages.latest.camera.scale)
         player.key(pygame.K_k)
         player.key(pygame.K_LEFT)
-        assert player.view.tape.end[0] < start[0]
+        assert player.view.shown.tape.end[0] < start[0]
         player.key(pygame.K_t)
-        assert player.view.tape is None
+        assert player.view.shown.tape is None
         assert player.game.session.changes == aimed
 
     def test_the_right_button_lays_it_without_a_key(self, player):
@@ -397,7 +399,7 @@ class TestTheTape:
         player.send(pygame.MOUSEBUTTONDOWN, pos=(300, 300), button=3, touch=False)
         player.move((500, 300))
         player.send(pygame.MOUSEBUTTONUP, pos=(500, 300), button=3, touch=False)
-        assert player.view.tape.length == pytest.approx(200 / player.view.stage.camera.scale)
+        assert player.view.shown.tape.length == pytest.approx(200 / player.view.stages.latest.camera.scale)
         assert player.game.watching.playback is None
 
 
@@ -425,8 +427,8 @@ def test_the_charts_show_the_state_at_the_time(player, written):
     for text in (f"{hypot(vx, vy):.1f} m/s", f"{height:.1f} m"):
         assert texts.count(text) == 2  # over the strips, and on the card
     assert {"speed (m/s)", "height (m)", "spin (rpm)", "0 s", "2000"} <= set(texts)
-    player.click(player.view.cards["charts"].center)
-    assert player.view.over is not None  # the same, large
+    player.click(player.view.targets.cards["charts"].center)
+    assert player.view.shown.overlay is not None  # the same, large
     player.settle()  # it is drawn in another thread
 
 
@@ -468,8 +470,8 @@ def test_the_energy_chart_is_an_overlay_until_a_click(player):
     player.key(pygame.K_j)
     player.settle()
     assert differ(picture(player), plain) > 0.5
-    whole = 1280, player.view.area.height  # over the panel too
-    assert player.view.over.pictures["chart"].result().get_size() == whole
+    whole = 1280, player.view.screen.area.height  # over the panel too
+    assert player.view.shown.overlay.pictures["chart"].result().get_size() == whole
     player.click((600, 300))
     assert differ(picture(player), plain) < 0.2
     assert not player.game.shots.paths
@@ -489,38 +491,38 @@ class TestTheLists:
         monkeypatch.setattr(commands, "do", lambda view, command: done.append(command))
         rows = [command for command in TABLE if command.group.lower() == group and command.meaning]
         for number, command in enumerate(rows):
-            player.view.over = None
+            player.view.shown.overlay = None
             do(player.view, group)
             player.frames(1)
-            player.click(player.view.over.places[number][0].center)
+            player.click(player.view.shown.overlay.places[number][0].center)
             assert done[-1] == command.name
 
     def test_a_button_toggles_it_and_it_survives_resizing(self, player):
         player = player(PUTT)
         player.button("see")
-        assert player.view.over.name == "see"
+        assert player.view.shown.overlay.name == "see"
         player.button("see")
-        assert player.view.over is None
+        assert player.view.shown.overlay is None
         player.button("keep")
         player.key(pygame.K_ESCAPE)
-        assert player.view.over is None
+        assert player.view.shown.overlay is None
         player.button("more")
         player.key(pygame.K_TAB)
-        assert player.view.has_panel
+        assert player.view.shown.has_panel
         player.screen = pygame.display.set_mode((900, 600), pygame.RESIZABLE)
         player.send(pygame.VIDEORESIZE, size=(900, 600), w=900, h=600)
-        foot = max(place.bottom for place, _ in player.view.over.places)
-        assert 0 < player.view.bar.rect.top - foot < 20
+        foot = max(place.bottom for place, _ in player.view.shown.overlay.places)
+        assert 0 < player.view.screen.bar.rect.top - foot < 20
 
     def test_the_mouse_switches_what_is_shown_and_marks_it(self, player):
         player = player(PUTT)
         assert player.view.switched == {"ghosts", PUTT}
         player.button("see")
-        place = next(rect for rect, row in player.view.over.places if row.action == "charts")
+        place = next(rect for rect, row in player.view.shown.overlay.places if row.action == "charts")
         player.click(place.center)
-        assert "charts" in player.view.on
+        assert "charts" in player.view.shown.on
         player.click((300, 100))
-        assert player.view.over is None
+        assert player.view.shown.overlay is None
         assert player.game.grasp.pull is None
         player.key(pygame.K_o)
         assert player.view.switched == {"ghosts", "charts", "arrows", PUTT}
@@ -529,7 +531,7 @@ class TestTheLists:
         player = player(PUTT, (640, 400))
         player.key(pygame.K_TAB)
         player.key(pygame.K_l)
-        place, row = max(player.view.over.places, key=lambda each: each[0].left)
+        place, row = max(player.view.shown.overlay.places, key=lambda each: each[0].left)
         assert player.view.panel.rect.collidepoint(place.center)
         player.click(place.center)
         assert player.game.session.title == row.action

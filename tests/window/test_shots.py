@@ -29,11 +29,11 @@ def table(player):
 
 
 def numbers(player) -> list[int]:
-    return [row.number for row in player.view.over.rows]
+    return [row.number for row in player.view.shown.overlay.rows]
 
 
 def place(player, what):
-    return next(rect.center for rect, each in player.view.over.places if each == what)
+    return next(rect.center for rect, each in player.view.shown.overlay.places if each == what)
 
 
 def test_it_is_sorted_by_a_click_or_a_key_and_says_the_mean(table):
@@ -44,10 +44,10 @@ def test_it_is_sorted_by_a_click_or_a_key_and_says_the_mean(table):
     assert numbers(table) == [3, 1, 2, 4]
     for _ in range(3):
         table.key(pygame.K_LEFT)
-    assert table.view.over.by == table.view.over.columns[-2]
+    assert table.view.shown.overlay.by == table.view.shown.overlay.columns[-2]
     from .test_see import said
 
-    table.view.over.by = "launch.speed"
+    table.view.shown.overlay.by = "launch.speed"
     mean, spread = np.mean(SPEEDS), np.std(SPEEDS, ddof=1)
     written = said(table)
     assert f"speed: mean {mean:.2f} m/s, standard deviation {spread:.2f} m/s" in written
@@ -68,7 +68,7 @@ def test_a_shot_is_pinned_deleted_and_gone_back_to(table):
     table.key(pygame.K_DELETE)
     assert [row.number for row in game.shots.rows] == [1, 2, 4]
     table.key(pygame.K_RETURN)
-    assert table.view.over is None
+    assert table.view.shown.overlay is None
     table.settle()
     assert game.session.value("launch.speed") == SPEEDS[1]
     assert game.shot.run.result == game.shots.rows[1].result
@@ -90,7 +90,7 @@ def test_a_pinned_path_stays_and_a_dropped_one_is_recomputed(table, monkeypatch)
     table.settle()
     assert first.shot.run.result == first.result
     drawn = []
-    monkeypatch.setattr(view.stage, "draw_ghosts", lambda sheet, ghosts: drawn.append(ghosts))
+    monkeypatch.setattr(view.stages.latest, "draw_ghosts", lambda sheet, ghosts: drawn.append(ghosts))
     view.draw()
     assert [shot.number for shot in drawn[-1]][:2] == [1, 2]
     game.watching.pin(first)
@@ -113,7 +113,7 @@ def test_it_is_of_this_scene_and_scrolls(table):
         table.game.aiming.shoot()
         table.game.aiming.again()
     table.frames(1)
-    over = table.view.over
+    over = table.view.shown.overlay
     assert over.seen < 44
     shown = [each for _, each in over.places if not isinstance(each, str)]
     table.move(place(table, shown[0]))
@@ -127,5 +127,5 @@ def test_it_is_of_this_scene_and_scrolls(table):
     table.key(pygame.K_ESCAPE)
     table.game.opening.open("golf/moon")
     table.key(pygame.K_q)
-    assert table.view.over is None
+    assert table.view.shown.overlay is None
     assert "no shots yet" in table.game.notices[-1][0]

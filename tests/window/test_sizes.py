@@ -91,7 +91,7 @@ def test_long_numbers_end_where_their_room_does(player, written, pull):
     ]
     assert len(numbers) >= 1 + pull
     for _, rect in numbers:
-        assert player.view.area.contains(rect)
+        assert player.view.screen.area.contains(rect)
 
 
 @pytest.mark.parametrize("size", [(480, 400), (480, 920), (640, 400), (960, 1000), (1200, 400), (1280, 720)])
@@ -100,7 +100,7 @@ def test_every_scene_and_every_key_can_be_seen(player, size, written, name):
     player = player(PUTT, size)
     commands.do(player.view, name)
     player.frames(1)
-    over, area, said = player.view.over, pygame.Rect(0, 0, size[0], player.view.area.height), set()
+    over, area, said = player.view.shown.overlay, pygame.Rect(0, 0, size[0], player.view.screen.area.height), set()
     if name == "menu":
         every, over.picture_of = {listing.name for listing in listings()}, lambda source: Future()
     else:
@@ -128,7 +128,7 @@ def test_nothing_of_the_panel_overlaps_and_texts_have_room(player, size, written
     for group in panel.groups:
         panel.turn_to(group)
         written.clear()
-        panel.draw(Canvas(player.view.canvas), (-1, -1))
+        panel.draw(Canvas(player.view.screen.canvas), (-1, -1))
         places = [rect for rect, _ in panel.places]
         assert all(panel.rect.contains(rect) for rect in places)
         for rects in (places, [rect for _, rect in written]):
@@ -143,10 +143,12 @@ def test_cards_leave_room_for_each_other_and_the_numbers(player, size):
         player.key(key)
     player.frames(2, dt=0.2)
     player.settle()
-    cards, sheet = player.view.cards, player.sheet
+    cards, sheet = player.view.targets.cards, player.sheet
     assert set(cards) == {"map", "charts"}
     assert not cards["map"].colliderect(cards["charts"])
-    assert all(card.bottom < sheet.card_row() and not card.colliderect(player.view.head) for card in cards.values())
+    assert all(
+        card.bottom < sheet.card_row() and not card.colliderect(player.view.cards.head) for card in cards.values()
+    )
 
 
 def test_a_list_that_does_not_fit_is_scrolled_by_key_and_wheel(player, monkeypatch):
@@ -154,7 +156,7 @@ def test_a_list_that_does_not_fit_is_scrolled_by_key_and_wheel(player, monkeypat
     player = player(PUTT, (480, 400))
     commands.do(player.view, "see")
     player.frames(1)
-    over, area = player.view.over, pygame.Rect(0, 0, 480, player.view.area.height)
+    over, area = player.view.shown.overlay, pygame.Rect(0, 0, 480, player.view.screen.area.height)
     assert over.seen < len(over.rows)
     for row in over.rows:
         player.key(pygame.K_DOWN)

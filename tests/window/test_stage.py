@@ -17,12 +17,14 @@ from sandbox.scene import listings, load, simulate
 from sandbox.window import commands
 from sandbox.window.app import App
 from sandbox.window.canvas import Canvas
+from sandbox.window.fan_of_shot import OUTDATED, FanOfShot
 from sandbox.window.game import Game
 from sandbox.window.pointer import NOTCH
+from sandbox.window.screen import SMALLEST
 from sandbox.window.session import Session
 from sandbox.window.shots import PATHS, Shot
 from sandbox.window.stage import Stage
-from sandbox.window.view import CARD, OUTDATED, SMALLEST, View
+from sandbox.window.view import CARD, View
 
 from .test_game import Here
 
@@ -75,12 +77,13 @@ class Watched(View):
     """Checks each time that it draws a shot that the stage under it is that shot's."""
 
     def pull_for_test(self) -> None:
-        self.game.grasp.begin_pull((200, 200), self.area.size, self.area.height, 1.0)
+        area = self.screen.area
+        self.game.grasp.begin_pull((200, 200), area.size, area.height, 1.0)
         self.game.grasp.pull_to((150, 210))
 
     def drag_for_test(self) -> None:
-        for grip, *_ in self.spots[-2:-1]:
-            self.hold()
+        for grip, *_ in self.targets.spots[-2:-1]:
+            self.viewpoint.hold()
             self.game.grasp.begin_drag(grip)
             self.game.grasp.drag_to((grip.place[0] + 0.1, grip.place[1] + 0.1), 0.01)
 
@@ -99,7 +102,7 @@ class Watched(View):
 
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(Stage, "draw_path", on_its_own)
-            patch.setattr("sandbox.window.view.reason", raised)
+            patch.setattr("sandbox.window.drawing.reason", raised)
             super().draw()
 
 
@@ -131,15 +134,15 @@ def test_the_stage_belongs_to_the_shot(screen, source, actions):
         for action in actions:
             if app.game.grasp.holds:
                 app.game.grasp.release()
-                app.view.free()
+                app.view.viewpoint.release()
             if app.game.session.base.name not in PLACES:
                 app.game.opening.open(source)
             ACTIONS[action](app.view)
             app.tick(0.016)
         app.game.grasp.release()
-        app.view.free()
+        app.view.viewpoint.release()
         settled(app)
-        stage, shot = app.view.stage, app.game.shot
+        stage, shot = app.view.stages.latest, app.game.shot
         assert stage.shot.scene.parameters == shot.scene.parameters
         assert stage.shot.scene.folder == shot.scene.folder
         if app.game.watching.playback is None:
@@ -151,32 +154,32 @@ def test_the_stage_belongs_to_the_shot(screen, source, actions):
 class TestTheCamera:
     def test_it_zooms_out_for_a_strong_pull_and_in_for_a_weak_one(self, player):
         player = player("golf/putt")
-        scale = player.view.stage.camera.scale
+        scale = player.view.stages.latest.camera.scale
         player.game.aiming.change({"launch.speed": 30.0})
         player.settle()
-        far = player.view.stage.camera.scale
+        far = player.view.stages.latest.camera.scale
         assert far < 0.5 * scale
         player.game.aiming.change({"launch.speed": 2.9})
         player.settle()
-        assert player.view.stage.camera.scale > 0.8 * scale
+        assert player.view.stages.latest.camera.scale > 0.8 * scale
 
     def test_a_little_change_of_the_aim_leaves_it_alone(self, player):
         player = player("golf")
-        camera = player.view.stage.camera
+        camera = player.view.stages.latest.camera
         for _ in range(3):
             player.key(pygame.K_DOWN)
             player.settle()
-        assert player.view.stage.camera == camera
-        assert player.view.stage.shot is player.game.shot
+        assert player.view.stages.latest.camera == camera
+        assert player.view.stages.latest.shot is player.game.shot
 
     def test_ctrl_and_wheel_or_keys_zoom_drag_moves_and_a_key_fits(self, player, monkeypatch):
         player = player("golf")
-        whole = player.view.stage.camera
+        whole = player.view.stages.latest.camera
         monkeypatch.setattr(pygame.key, "get_mods", lambda: pygame.KMOD_CTRL)
         player.move((640, 300))
         player.send(pygame.MOUSEWHEEL, x=0, y=3, flipped=False)
         player.settle()
-        near = player.view.stage.camera
+        near = player.view.stages.latest.camera
         assert near.scale > 1.4 * whole.scale
         assert near.world(640, 300) == pytest.approx(whole.world(640, 300))
         assert player.game.session.changes.values == {}
@@ -184,35 +187,35 @@ class TestTheCamera:
         player.move((700, 280))
         player.release((700, 280))
         player.settle()
-        assert player.view.stage.camera.world(700, 280) == pytest.approx(near.world(640, 300))
+        assert player.view.stages.latest.camera.world(700, 280) == pytest.approx(near.world(640, 300))
         player.key(pygame.K_EQUALS, pygame.KMOD_CTRL)
         player.key(pygame.K_RIGHT, pygame.KMOD_ALT)
         player.key(pygame.K_0, pygame.KMOD_CTRL)
         player.settle()
-        assert player.view.stage.camera == whole
+        assert player.view.stages.latest.camera == whole
 
     def test_it_keeps_zoom_and_place_in_play_pause_and_replay(self, player):
         player = player("basketball", (640, 400))
-        player.view.zoom(3.0, (200, 150))
+        player.view.viewpoint.zoom(3.0, (200, 150))
         player.settle()
-        near = player.view.stage.camera
+        near = player.view.stages.latest.camera
         for keys in ([pygame.K_SPACE], [pygame.K_SPACE], [pygame.K_RETURN, pygame.K_p]):
             for key in keys:
                 player.key(key)
             player.settle()
-            assert player.view.stage.camera == player.view.camera == near
+            assert player.view.stages.latest.camera == player.view.viewpoint.camera == near
         player.move((200, 150))
         player.send(pygame.MOUSEWHEEL, x=0, y=1, precise_x=0.0, precise_y=0.5, flipped=False)
         player.settle()
-        assert player.view.camera.scale == pytest.approx(NOTCH**0.5 * near.scale)
-        assert player.view.camera.world(200, 150) == pytest.approx(near.world(200, 150))
+        assert player.view.viewpoint.camera.scale == pytest.approx(NOTCH**0.5 * near.scale)
+        assert player.view.viewpoint.camera.world(200, 150) == pytest.approx(near.world(200, 150))
         player.game.watching.playback.playing = False
-        place = player.view.camera.world(300, 200)
+        place = player.view.viewpoint.camera.world(300, 200)
         player.press((300, 200))
         player.move((330, 190))
         player.release((330, 190))
         player.settle()
-        assert player.view.camera.world(330, 190) == pytest.approx(place)
+        assert player.view.viewpoint.camera.world(330, 190) == pytest.approx(place)
         assert player.game.watching.playback is not None
 
     @pytest.mark.parametrize("source", ["golf", "billiards"])
@@ -223,13 +226,13 @@ class TestTheCamera:
         player.settle()
         player.game.watching.playback.playing = False
         ball = player.game.shot.run.state(player.game.shot.ball, player.game.watching.playback.t)[:2]
-        far = player.view.camera
-        player.view.zoom(2.0, (5, 5))
+        far = player.view.viewpoint.camera
+        player.view.viewpoint.zoom(2.0, (5, 5))
         player.frames(2)
-        assert player.view.camera.scale == pytest.approx(2 * far.scale)
-        assert player.view.camera.pixel(*ball) == pytest.approx(far.pixel(*ball), abs=0.6)
+        assert player.view.viewpoint.camera.scale == pytest.approx(2 * far.scale)
+        assert player.view.viewpoint.camera.pixel(*ball) == pytest.approx(far.pixel(*ball), abs=0.6)
         player.key(pygame.K_0, pygame.KMOD_CTRL)
-        assert player.view.camera == far
+        assert player.view.viewpoint.camera == far
 
     def test_two_fingers_zoom_and_move_it_and_one_pulls(self, player):
         player = player("golf", (640, 400))
@@ -237,7 +240,7 @@ class TestTheCamera:
         def finger(kind: int, number: int, at: tuple[float, float]) -> None:
             player.send(kind, finger_id=number, touch_id=1, x=at[0] / 640, y=at[1] / 400, dx=0.0, dy=0.0, pressure=1.0)
 
-        whole = player.view.stage.camera
+        whole = player.view.stages.latest.camera
         finger(pygame.FINGERDOWN, 1, (200, 150))
         player.send(pygame.MOUSEBUTTONDOWN, pos=(200, 150), button=1, touch=True)
         assert player.game.grasp.pull is not None
@@ -249,8 +252,8 @@ class TestTheCamera:
             finger(pygame.FINGERUP, number, (400, 150))
         player.send(pygame.MOUSEBUTTONUP, pos=(210, 150), button=1, touch=True)
         player.settle()
-        assert player.view.stage.camera.scale == pytest.approx(2 * whole.scale)
-        assert player.view.stage.camera.world(300, 150) == pytest.approx(whole.world(250, 150))
+        assert player.view.stages.latest.camera.scale == pytest.approx(2 * whole.scale)
+        assert player.view.stages.latest.camera.world(300, 150) == pytest.approx(whole.world(250, 150))
         assert not player.game.shots.paths
         assert player.game.session.changes.values == {}
 
@@ -258,16 +261,16 @@ class TestTheCamera:
 def test_the_picture_stays_until_the_new_stage_is_composed(player):
     player = player("golf")
     before = pygame.surfarray.array3d(player.screen)[:600, :600]
-    player.view.patience, player.view.stages.work = 0.0, Future()  # a stage that takes for ever
+    player.view.stages.patience, player.view.stages.job.work = 0.0, Future()  # a stage that takes for ever
     player.key(pygame.K_TAB)
-    while not player.view.has_panel:
+    while not player.view.shown.has_panel:
         player.frames(1)
     assert (pygame.surfarray.array3d(player.screen)[:600, :600] == before).mean() > 0.9
 
 
 def test_until_then_it_fills_a_window_that_grows(player):
     player = player("golf", SMALLEST)
-    player.view.patience, player.view.stages.work = 0.0, Future()
+    player.view.stages.patience, player.view.stages.job.work = 0.0, Future()
     pygame.display.set_mode((960, 600), pygame.RESIZABLE)
     player.view.resized()
     player.frames(1)
@@ -294,7 +297,7 @@ def test_only_nudges_and_steps_repeat(player):
     player = player("golf")
     for _ in range(3):
         player.send(pygame.KEYDOWN, key=pygame.K_TAB, mod=0, unicode="", scancode=0)
-    assert player.view.has_panel
+    assert player.view.shown.has_panel
     player.send(pygame.KEYUP, key=pygame.K_TAB, mod=0, unicode="", scancode=0)
     before = player.game.session.value("launch.angle")
     for _ in range(3):
@@ -319,20 +322,26 @@ def test_the_near_part_shows_the_shot_that_is_aimed_and_no_other(source):
     assert (pictures[0] != pictures[2]).any()
 
 
-def test_a_fan_of_another_aim_is_dim_until_its_own_comes(player):
+def test_a_fan_of_another_aim_is_dim_until_its_own_comes(player, monkeypatch):
+    alphas, image = [], FanOfShot.image
+
+    def noted(*of):
+        found = image(*of)
+        alphas.append(found[0].get_alpha())
+        return found
+
     player = player("basketball", (640, 400))
     player.key(pygame.K_f)
     player.frames(2, dt=0.2)
     player.settle()
-    view, alphas = player.view, []
-    view._once("cloud", view.clouds.value, lambda: pytest.fail("it was drawn"))
-    alphas.append(view._once("cloud", view.clouds.value, object).get_alpha())
+    view = player.view
+    monkeypatch.setattr(FanOfShot, "image", noted)
+    view.draw()
     player.game.aiming.change({"launch.angle": 60.0})
     player.game.settle()
-    view.clouds.work = Future()  # a fan that takes for ever
+    view.fan.job.work = Future()  # a fan that takes for ever
     view.draw()
-    alphas.append(view._once("cloud", view.clouds.value, object).get_alpha())
-    view.clouds.work = None
+    view.fan.job.work = None
     assert alphas == [255, OUTDATED]
 
 

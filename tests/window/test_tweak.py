@@ -187,11 +187,11 @@ class TestThePanel:
     def test_a_group_is_chosen_from_a_list(self, player):
         player.click(next(rect.center for rect, what in player.view.panel.places if what == FAVOURITES))
         player.frames(1)
-        assert "golf" in (actions := {row.text: row.action for row in player.view.over.rows})
+        assert "golf" in (actions := {row.text: row.action for row in player.view.shown.overlay.rows})
         assert not player.view.switched & set(actions.values()), "the scene is on, its group is not"
-        player.click(next(rect.center for rect, row in player.view.over.places if row.text == "launch"))
+        player.click(next(rect.center for rect, row in player.view.shown.overlay.places if row.text == "launch"))
         assert player.view.panel.group == "launch"
-        assert player.view.over is None
+        assert player.view.shown.overlay is None
 
     def test_a_choice_changes_the_rows_and_undo_restores_them(self, player):
         turn_to(player, "ball.drag")
@@ -215,7 +215,7 @@ class TestThePanelByKey:
     def test_the_first_key_opens_it(self, player):
         player = player("golf")
         player.key(pygame.K_DOWN, pygame.KMOD_CTRL)
-        assert player.view.has_panel
+        assert player.view.shown.has_panel
         assert player.game.session.changes.values == {}
 
     def test_a_row_is_chosen_and_changed_and_taken_back(self, player):
@@ -308,7 +308,7 @@ class TestSaving:
         assert game.notices[0][0].startswith("read ")
         assert game.session.base.name == "soccer"
         assert game.shot.scene is game.session.scene
-        assert view.stage.shot is game.shot
+        assert view.stages.latest.shot is game.shot
         assert game.watching.playback is game.path.before_save is None
         assert game.session.changes.values == {}
         assert not game.ghosts

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from types import SimpleNamespace
 
+import pygame
 import pytest
 
 from sandbox.scene import listings, load, simulate
 from sandbox.window.canvas import Canvas
 from sandbox.window.shots import Shot
+from sandbox.window.shown import Shown
 from sandbox.window.stage import Stage
-from sandbox.window.view import View
+from sandbox.window.stages import Stages
+from sandbox.window.viewpoint import Viewpoint
 
 SIZE = (320, 240)
 SCENES = sorted(item.name for item in listings() if "/" not in item.name)
@@ -18,13 +21,13 @@ SCENES = sorted(item.name for item in listings() if "/" not in item.name)
 AWAY = ((0, 0), (3000, 0), (-6000, 0), (0, 3000), (0, -6000))
 
 
-class Camera(View):
-    """Only the part of a view that chooses the camera."""
-
-    def __init__(self, shot: Shot) -> None:
-        watching = SimpleNamespace(playback=None)
-        self.game, self.stage = SimpleNamespace(shot=shot, watching=watching), Stage(shot, SIZE)
-        self.area, self.chosen, self.on = self.stage.backdrop.get_rect(), None, set()
+def viewpoint_of(shot: Shot) -> Viewpoint:
+    """The camera of a shot that is aimed."""
+    game = SimpleNamespace(shot=shot, watching=SimpleNamespace(playback=None))
+    screen = SimpleNamespace(area=pygame.Rect((0, 0), SIZE))
+    stages = Stages(game, screen, None, 0.0)
+    stages.latest = Stage(shot, SIZE)
+    return Viewpoint(game, screen, Shown(game), stages)
 
 
 @pytest.mark.parametrize("source", SCENES)
@@ -32,13 +35,13 @@ class Camera(View):
 def test_any_camera_has_a_picture(source, factor):
     scene = load(source)
     shot = Shot(scene, simulate(scene))
-    view = Camera(shot)
-    view.zoom(factor, view.area.center)
-    nearest = view.chosen
+    view = viewpoint_of(shot)
+    view.zoom(factor, (SIZE[0] / 2, SIZE[1] / 2))
+    nearest = view.stages.chosen
     for across, down in AWAY:
-        view.chosen = nearest
+        view.stages.chosen = nearest
         view.pan(across, down)
-        stage = Stage(shot, SIZE, view.chosen)
+        stage = Stage(shot, SIZE, view.stages.chosen)
         sheet = Canvas(stage.backdrop)
         stage.draw_path(sheet, shot)
         stage.draw_balls(sheet, shot, 0.0)

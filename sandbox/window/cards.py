@@ -1,0 +1,142 @@
+"""What is said of the shot over its picture: headline and numbers, fan, map, charts, cost, hints, and readings."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import pygame
+
+from sandbox.picture.palette import Colour, palette
+from sandbox.picture.sheet import Entry
+from sandbox.sport.amounts import metres
+from sandbox.window.background import KeyedCache, LatestJob
+from sandbox.window.canvas import Canvas
+from sandbox.window.charts import Charts
+from sandbox.window.fan_of_shot import FanOfShot
+from sandbox.window.game import Game
+from sandbox.window.layout import Layout
+from sandbox.window.map_of_shot import MapOfShot
+from sandbox.window.measure import NEAR, draw_reading, reading
+from sandbox.window.messages import reason
+from sandbox.window.score_map import map_forms
+from sandbox.window.screen import Screen
+from sandbox.window.shots import Shot
+from sandbox.window.shown import Shown
+from sandbox.window.stage import Stage, headline
+from sandbox.window.targets import Targets
+from sandbox.window.viewpoint import Viewpoint
+
+CARD = palette("card")
+
+
+class Cards:
+    """Draws the cards of a shot where a layout finds room, and says to ``targets`` which can be clicked."""
+
+    def __init__(
+        self,
+        game: Game,
+        screen: Screen,
+        shown: Shown,
+        viewpoint: Viewpoint,
+        fan: FanOfShot,
+        map: MapOfShot,
+        targets: Targets,
+    ) -> None:
+        self.game, self.screen, self.shown, self.viewpoint = game, screen, shown, viewpoint
+        self.fan, self.map, self.targets = fan, map, targets
+        self.head = pygame.Rect(0, 0, 0, 0)  # where the headline is
+        self._once = KeyedCache()
+
+    def draw_head(self, sheet: Canvas, layout: Layout, text: str, notes: Sequence[str], colour: Colour) -> None:
+        """The headline at the upper left, or where there is room."""
+        rect = layout.put("headline", headline(sheet, text, notes, colour), sheet.frame.topleft, "topleft")
+        self.head = rect or pygame.Rect(*sheet.frame.topleft, 0, 0)
+
+    def draw_words(self, sheet: Canvas, layout: Layout, stage: Stage, shot: Shot, forces: Sequence[Entry]) -> None:
+        """The headline, and the numbers along the bottom."""
+        playback = self.game.watching.playback
+        text, colour = shot.verdict, CARD["good"] if shot.scored else CARD["text"]
+        entries: Sequence[Entry] = shot.card
+        if self.shown.hides_path:
+            text, colour, entries = "Where will it go?", CARD["text"], [("aimed", shot.aimed)]
+        if playback is not None and not playback.over:
+            text, colour, entries = f"{playback.t:.2f} s", CARD["text"], stage.picture.live(playback.t)
+            forces = ()  # they are among them
+        self.draw_head(sheet, layout, text, [*self._notes(shot), *stage.notes], colour)
+        numbers, overlay = pygame.Rect(0, sheet.card_row(), *sheet.size), self.shown.overlay
+        if overlay is None or not overlay.place(self.screen.whole).colliderect(numbers):
+            sheet.numbers([*entries, *forces])
+
+    def _notes(self, shot: Shot) -> list[str]:
+        """What can be done now, or how the shot is watched."""
+        game, playback = self.game, self.game.watching.playback
+        if game.grasp.pull is not None:
+            return ["let go to shoot, Esc to cancel"]
+        if game.grasp.grip is not None:
+            return ["Shift goes in steps, Esc to cancel"]
+        if playback is None:
+            return ["pull back anywhere and let go, or press Space"]
+        notes = [f"{'replay' if shot.recorded else 'shot'} {shot.number}"]
+        if playback.slowed:
+            notes.append(f"slow motion, {round(1 / playback.rate)} times slower (+ for faster)")
+        if playback.over:
+            again = "continue" if game.session.controls.next_start is not None else "aim again"
+            notes.append(f"Enter to {again}, R to see it again")
+        return notes
+
+    def draw_cards(self, sheet: Canvas, layout: Layout, stage: Stage, shot: Shot) -> None:
+        """Cards at the right: fan, map, charts, cost, hints."""
+        game, shown, corner = self.game, self.shown, sheet.frame.topright
+
+        def note(name: str, *lines: tuple[str, Colour]) -> None:
+            layout.put(name, sheet.notes(lines), corner, "topright")
+
+        if "fan" in shown.on and not shown.hides_path:
+            found = self.fan.of(shot)
+            share, spread = found.said if found is not None else (_why_none(self.fan.job, "the fan"), "")
+            colour = CARD["text" if self.fan.matches(shot) else "quiet"]
+            note("fan", (share, colour), *[(spread, CARD["quiet"])] * bool(spread))
+        if "map" in shown.on and not shown.hides_path:
+            known = self.map.of(shot)
+            if known is None:
+                note("map", (_why_none(self.map.job, "the map"), CARD["text"]))
+            else:
+                forms = map_forms(sheet, known, shot.aim, lambda cells: self.targets.cards.update({"map": cells}))
+                layout.put("map", forms, corner, "topright")
+        if "charts" in shown.on and not shown.hides_path:
+            charts: Charts = self._once("charts", (shot, game.memory.look), lambda: Charts(shot, stage.picture))
+            t = shown.time if game.watching.playback is not None else None
+            left = sheet.frame.left, layout.room.bottom
+            at, anchor = (corner, "topright") if shot.upright else (left, "bottomleft")
+            rect = layout.put("charts", charts.forms(sheet, t), at, anchor)
+            self.targets.cards |= {"charts": rect} if rect is not None else {}
+        if "cost" in shown.on:
+            level = game.session.value("accuracy.level")
+            text = f"frame {1e3 * self.screen.frame_cost:.1f} ms; run {1e3 * game.path.cost:.1f} ms, {level}"
+            note("cost", (text, CARD["accent"]))
+        hints = [(text, CARD["accent"]) for text in game.memory.hints.values()]
+        if hints and game.grasp.pull is None:
+            note("hints", *hints)
+
+    def draw_readings(self, sheet: Canvas, layout: Layout, stage: Stage, shot: Shot) -> None:
+        """The tape, and what the mouse reads."""
+        shown, camera, mouse = self.shown, self.viewpoint.camera, self.targets.mouse
+        if camera is None or shown.hides_path:
+            return
+        if shown.tape is not None:
+            shown.tape.draw(sheet, layout, camera, shot.upright)
+        reads = self.targets.on_picture and not pygame.mouse.get_pressed()[2]
+        if not reads or shown.follows or shown.overlay is not None or self.game.grasp.holds:
+            return
+        read = reading(shot, camera, mouse, NEAR * sheet.unit, shown.until(shot))
+        if read is not None:
+            picture, (x, y, *_) = stage.picture, shot.run.state(read.ball, read.t)
+            others = [("x", metres(x)), ("y", metres(y)), *picture.moving(read.ball, read.t)]
+            entries = picture.live(read.t) if read.ball == shot.ball else others
+            draw_reading(sheet, layout, shot, read, entries)
+
+
+def _why_none(job: LatestJob[Any], what: str) -> str:
+    """The reason why there is no such value."""
+    return f"{what} ..." if job.error is None else reason(job.error)

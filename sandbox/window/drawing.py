@@ -1,0 +1,203 @@
+"""The picture above the bar: the shot on its stage, what the hand holds, and messages.
+
+Until the stage of the current shot is ready, the last picture stays: a path is never drawn on the stage of another
+place.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import pygame
+
+from sandbox.picture.palette import palette
+from sandbox.picture.sheet import Entry
+from sandbox.picture.vectors import Vectors
+from sandbox.window import hand
+from sandbox.window.background import KeyedCache
+from sandbox.window.canvas import Canvas
+from sandbox.window.cards import Cards
+from sandbox.window.fan_of_shot import FanOfShot
+from sandbox.window.game import Game
+from sandbox.window.layout import Form, Layout
+from sandbox.window.messages import reason
+from sandbox.window.pad import Pad
+from sandbox.window.screen import Screen
+from sandbox.window.shots import Shot
+from sandbox.window.shown import Shown
+from sandbox.window.stage import Stage
+from sandbox.window.stages import Stages
+from sandbox.window.targets import Targets
+from sandbox.window.viewpoint import Viewpoint
+
+CARD = palette("card")
+
+#: Opacity (of 255) of what dims a picture without a path.
+DIMMED = 150
+
+
+class Drawing:
+    """Draws the picture; ``layout`` has the places of what was drawn last."""
+
+    def __init__(
+        self,
+        game: Game,
+        screen: Screen,
+        shown: Shown,
+        stages: Stages,
+        viewpoint: Viewpoint,
+        fan: FanOfShot,
+        targets: Targets,
+        cards: Cards,
+    ) -> None:
+        self.game, self.screen, self.shown, self.stages, self.viewpoint = game, screen, shown, stages, viewpoint
+        self.fan, self.targets, self.cards = fan, targets, cards
+        self.layout = Layout(screen.area, 0)
+        self._last: pygame.Surface | None = None  # the last picture of a shot
+        self._once = KeyedCache()
+
+    def draw(self) -> None:
+        """Everything above the bar."""
+        try:
+            self._draw()
+        except Exception as error:  # a scene's own code
+            sheet = self.screen.sheet
+            sheet.surface.fill(CARD["background"])
+            text = f"{self.game.session.title} cannot be drawn: {reason(error)}"
+            sheet.messages(self._layout(sheet), [(text, True)])
+
+    def _draw(self) -> None:
+        game, shot, sheet, stage = self.game, self.game.shot, self.screen.sheet, self._stage()
+        self.targets.clear()
+        if stage is not None and shot is not None and not self._no_path:
+            self._draw_all(sheet, stage, shot)
+            return
+        self.layout = self._layout(sheet)
+        if stage is not None:
+            self._draw_no_path(sheet, stage)
+        else:
+            self._draw_last(sheet)
+        self._draw_messages(sheet)
+        if game.failure is None:
+            self._draw_hand(sheet, shot)
+
+    @property
+    def _no_path(self) -> bool:
+        """True if the current parameters have no path, or none yet."""
+        return self.game.failure is not None or self.game.late
+
+    def _stage(self) -> Stage | None:
+        """The stage to draw on; None while the last picture stays."""
+        game, shot = self.game, self.game.shot
+        if shot is None or self.stages.undrawable is not None:
+            return None
+        same = game.watching.playback is not None or shot.place == game.session.place
+        return self.stages.of(shot) if same or self._no_path else None
+
+    def _draw_all(self, sheet: Canvas, stage: Stage, shot: Shot) -> None:
+        """The shot, and what lies over it."""
+        self.layout = self._layout(sheet, stage, shot)
+        forces = self._draw_shot(sheet, stage, shot)
+        if not self.shown.follows:
+            self.cards.draw_words(sheet, self.layout, stage, shot, forces)
+        self._keep(sheet)
+        self._draw_messages(sheet)
+        self._draw_hand(sheet, shot)
+        self.cards.draw_readings(sheet, self.layout, stage, shot)
+        self.cards.draw_cards(sheet, self.layout, stage, shot)
+        if "ghosts" in self.shown.on and self.game.grasp.pull is None and not self.shown.follows:
+            stage.label_ghosts(sheet, self.game.ghosts, shot, self.layout)
+
+    def _draw_no_path(self, sheet: Canvas, stage: Stage) -> None:
+        """The place, dark and without a path."""
+        sheet.surface.blit(stage.backdrop, (0, 0))
+        sheet.dim(DIMMED)
+        if self.game.failure is not None:
+            head, note, colour = "No path", "the run failed with these parameters", CARD["bad"]
+        else:
+            head, note, colour = "Computing ...", "the run of these parameters takes long", CARD["text"]
+        self.cards.draw_head(sheet, self.layout, head, [note], colour)
+        self._keep(sheet)
+
+    def _keep(self, sheet: Canvas) -> None:
+        """Keep what is drawn until there is another picture."""
+        if self._last is None or self._last.get_size() != sheet.size:
+            self._last = pygame.Surface(sheet.size)
+        self._last.blit(sheet.surface, (0, 0))
+
+    def _draw_last(self, sheet: Canvas) -> None:
+        """The last picture, or at first that the scene is loaded; dark if no other will come."""
+        sheet.surface.fill(CARD["background"])
+        if self._last is not None:
+            larger = max(px / before for px, before in zip(sheet.size, self._last.get_size(), strict=True))
+            sheet.surface.blit(pygame.transform.smoothscale_by(self._last, larger), (0, 0))
+        elif not self.stages.complete:
+            middle = sheet.surface.get_rect().center
+            sheet.write(f"loading {self.game.session.title} ...", "large", middle, CARD["quiet"], "center")
+        if self.stages.undrawable is not None or self._no_path:
+            sheet.dim(DIMMED)
+
+    def _draw_messages(self, sheet: Canvas) -> None:
+        """All that the player is told."""
+        undrawable = self.stages.undrawable
+        sheet.messages(self.layout, [*([(undrawable, True)] if undrawable is not None else []), *self.game.notices])
+
+    def _layout(self, sheet: Canvas, stage: Stage | None = None, shot: Shot | None = None) -> Layout:
+        """The room between the top and the numbers, and what of it a stage and a shot need for themselves."""
+        frame, unit, overlay, t = sheet.frame, sheet.unit, self.shown.overlay, self.shown.time
+        room = pygame.Rect(frame.left, frame.top, frame.width, sheet.card_row() - sheet.gap - frame.top)
+        if overlay is not None and stage is not None and shot is not None and not self.shown.follows:
+            overlay.kept = stage.clear_of(shot, t)
+        kept = [] if overlay is None else [overlay.place(self.screen.whole)]
+        if stage is None or shot is None:
+            return Layout(room, sheet.gap, kept)
+        if self.shown.follows:
+            picture = self.viewpoint.near(shot)
+            clear = [*picture.kept_clear(picture.view(t), t), *picture.sheet.labels.taken]
+            return Layout(room, sheet.gap, [*kept, *clear])
+        handles = [pygame.Rect(round(x - 9 * unit), round(y - 9 * unit), round(18 * unit), round(18 * unit))
+                   for grip, (x, y), *_ in self.targets.spots if not grip.in_list]  # fmt: skip
+        path = [] if self.shown.hides_path else stage.along(shot)
+        return Layout(room, sheet.gap, [*kept, *handles, *stage.kept_clear(shot, t)], path)
+
+    def _draw_hand(self, sheet: Canvas, shot: Shot | None) -> None:
+        """The rubber band, the handles, and the ball to set spin on."""
+        game, targets, pull = self.game, self.targets, self.game.grasp.pull
+        if pull is not None and pull.shoots and shot is not None and not self.shown.follows:
+            hand.draw_pull(sheet, self.layout, pull.start, pull.drawn, shot.aimed)
+        if self.shown.overlay is not None:
+            return
+        spots, held = targets.spots, targets.held
+        if spots:
+            mouse = targets.mouse if targets.on_picture and game.grasp.grip is None else None
+            said = held.said(game.session) if held is not None else ""
+            hand.draw_handles(sheet, self.layout, spots, mouse, held, said)
+        spins = game.session.controls.spins
+        off = not spins or ("pad" in self.shown.on) == (len(spins) > 1)
+        if shot is None or game.watching.playback is not None or pull is not None or off:
+            return
+        pads = [Pad(game.session, shot.upright, sheet, share) for share in (1.0, 0.7, 0.45)]
+        at = sheet.frame.left, self.cards.head.bottom + 2 * sheet.gap
+        rect = self.layout.put("pad", [Form(pad.rect.size, pad.draw) for pad in pads], at, "topleft")
+        targets.pad = next((pad for pad in pads if rect is not None and pad.rect == rect), None)
+
+    def _draw_shot(self, sheet: Canvas, stage: Stage, shot: Shot) -> Sequence[Entry]:
+        """The shot with what is drawn around it, as it is aimed, or at the time to which it has been watched; returns
+        the forces on the ball if their arrows are drawn."""
+        shown, t = self.shown, self.shown.time
+        if shown.follows:
+            sheet.surface.blit(self.viewpoint.near(shot).frame(t), (0, 0))
+            return ()
+        sheet.surface.blit(stage.backdrop, (0, 0))
+        if "ghosts" in shown.on:
+            stage.draw_ghosts(sheet, self.game.ghosts)
+        fan = self.fan.image(shot, stage.camera) if "fan" in shown.on and not shown.hides_path else None
+        if fan is not None:
+            sheet.surface.blit(*fan)
+        stage.draw_path(sheet, shot, shown.until(shot))
+        stage.draw_balls(sheet, shot, t, shown.until(shot))
+        if "arrows" not in shown.on:
+            return ()
+        vectors: Vectors = self._once("vectors", shot, lambda: Vectors(shot.run, shot.ball))
+        vectors.draw(sheet, stage.ball_at(shot, t), 9 * sheet.unit, t)
+        return vectors.entries(t)

@@ -1,0 +1,100 @@
+"""What the player has chosen to see: switches, how much of the path while aiming, the tape, and an overlay."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from sandbox.window.game import Game
+from sandbox.window.measure import Tape
+from sandbox.window.overlay import Overlay
+from sandbox.window.shots import Shot
+
+#: How much of the path is shown while aiming.
+AHEAD = ("all", "to the first contact", "the first metre", "nothing")
+#: The fan can be made this many times wider or narrower.
+WIDEST = 16.0
+
+
+class Shown:
+    """The player's choices of what is seen of a game."""
+
+    def __init__(self, game: Game) -> None:
+        self.game = game
+        self.on = {"ghosts"}  # commands that are switched on
+        self.ahead = AHEAD[0]
+        self.fan_width = 1.0  # times the usual spread
+        self.tape: Tape | None = None
+        self.overlay: Overlay | None = None
+
+    @property
+    def seen(self) -> tuple[Any, ...]:
+        """All that can be seen of it."""
+        overlay = self.overlay
+        return frozenset(self.on), self.ahead, self.fan_width, self.tape, overlay, overlay and overlay.made
+
+    def open(self, overlay: Overlay | None) -> None:
+        """Show something over the picture, in place of what is there."""
+        self.overlay = overlay
+
+    def click_overlay(self, at: tuple[int, int]) -> None:
+        """Do what a click (px) does to the overlay; one that does nothing closes it."""
+        overlay, self.overlay = self.overlay, None
+        if overlay is not None and overlay.pressed(at):
+            self.overlay = overlay
+
+    def key_in_overlay(self, key: int) -> bool:
+        """Do what a key does in the overlay; returns whether it does anything there."""
+        overlay = self.overlay
+        stays = overlay.key(key) if overlay is not None else None
+        if stays is False and self.overlay is overlay:
+            self.overlay = None
+        return stays is not None
+
+    def widen_fan(self, factor: float) -> None:
+        """Show the fan with a spread so many times as wide."""
+        self.fan_width = min(max(self.fan_width * factor, 1 / WIDEST), WIDEST)
+        self.on.add("fan")
+
+    def show_more_ahead(self) -> None:
+        """Show the next amount of the path while aiming."""
+        self.ahead = AHEAD[(AHEAD.index(self.ahead) + 1) % len(AHEAD)]
+
+    def put_tape_away(self) -> None:
+        """Show no tape."""
+        self.on.discard("tape")
+        self.tape = None
+
+    @property
+    def has_panel(self) -> bool:
+        """True if the panel is open."""
+        return "panel" in self.on
+
+    @property
+    def follows(self) -> bool:
+        """True if the view follows the ball."""
+        return self.game.watching.playback is not None and "view" in self.on
+
+    @property
+    def hides_path(self) -> bool:
+        """True if the player has to predict what happens."""
+        return self.game.watching.playback is None and self.ahead != AHEAD[0]
+
+    @property
+    def time(self) -> float:
+        """The time of the shot at which the balls are drawn, in s."""
+        playback = self.game.watching.playback
+        return playback.t if playback is not None else 0.0
+
+    def until(self, shot: Shot) -> float | None:
+        """The time until which the path is shown, in s; None for all of it."""
+        if self.game.watching.playback is not None:
+            return self.time
+        if self.ahead == "to the first contact":
+            return next((e.t for e in shot.run.events if e.kind == "impact" and e.ball == shot.ball and e.t > 0), None)
+        if self.ahead == "the first metre":
+            track = shot.track(shot.ball)
+            way = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(track[:, 1:], axis=0).T))])
+            return float(np.interp(1.0, way, track[:, 0]))
+        return 0.0 if self.ahead == "nothing" else None

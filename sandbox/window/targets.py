@@ -1,0 +1,71 @@
+"""What the mouse can take hold of in the picture: handles, cards that can be clicked, the ball to set spin on."""
+
+from __future__ import annotations
+
+import pygame
+
+from sandbox.window import hand
+from sandbox.window.background import KeyedCache
+from sandbox.window.game import Game
+from sandbox.window.handles import Grip, grips
+from sandbox.window.pad import Pad
+from sandbox.window.screen import Screen
+from sandbox.window.stages import Stages
+
+
+class Targets:
+    """Knows where the mouse is, and what of the picture is there; what is drawn adds its cards and the pad."""
+
+    def __init__(self, game: Game, screen: Screen, stages: Stages) -> None:
+        self.game, self.screen, self.stages = game, screen, stages
+        self.mouse = (-1, -1)  # px
+        self.picked_keys: tuple[str, str] | None = None  # the keys of the handle that was picked by key
+        self.cards: dict[str, pygame.Rect] = {}  # those that can be clicked: the map's cells and the charts
+        self.pad: Pad | None = None  # where spin is set by hand: for a cue unless it is switched off, else switched on
+        self._once = KeyedCache()
+
+    @property
+    def on_picture(self) -> bool:
+        """True if the mouse is on the picture."""
+        return bool(self.screen.area.collidepoint(self.mouse))
+
+    def clear(self) -> None:
+        """Forget what was drawn."""
+        self.cards.clear()
+        self.pad = None
+
+    @property
+    def spots(self) -> list[hand.Spot]:
+        """The handles that can be dragged now, with their places in px."""
+        game, stage = self.game, self.stages.fitting
+        if game.watching.playback is not None or game.grasp.pull is not None or stage is None:
+            return []
+        found: list[Grip] = self._once("grips", game.session.scene, lambda: grips(game.session))
+        return hand.spots(found, stage, self.screen.sheet)
+
+    def spot_at(self, at: tuple[int, int]) -> hand.Spot | None:
+        """The handle at a place in px."""
+        return hand.nearest(self.spots, at)
+
+    def card_at(self, at: tuple[int, int]) -> str | None:
+        """The name of the card at a place in px."""
+        return next((name for name, rect in self.cards.items() if rect.collidepoint(at)), None)
+
+    def pick(self, by: int) -> bool:
+        """Take hold of the handle ``by`` places on; returns whether there is any."""
+        keys = [spot.grip.keys for spot in self.spots]
+        if keys:
+            now = keys.index(self.picked_keys) if self.picked_keys in keys else -1 if by > 0 else 0
+            self.picked_keys = keys[(now + by) % len(keys)]
+        return bool(keys)
+
+    @property
+    def picked(self) -> hand.Spot | None:
+        """The handle that was picked by key."""
+        return next((spot for spot in self.spots if spot.grip.keys == self.picked_keys), None)
+
+    @property
+    def held(self) -> Grip | None:
+        """The handle that is dragged, that the mouse is on, or that was picked by key."""
+        spot = (self.spot_at(self.mouse) if self.on_picture else None) or self.picked
+        return self.game.grasp.grip or (spot.grip if spot is not None else None)
