@@ -1,6 +1,6 @@
-"""What a scene is made of, in one import: ``from sandbox.kit import Ball, Setup, quantity``.
+"""Everything a scene is made of, in one import: ``from sandbox.kit import Ball, Setup, quantity``.
 
-What its picture is made of comes from here, too: ``from sandbox.kit import SideView, Look``. Those names are listed in
+The parts of its picture come from here, too: ``from sandbox.kit import SideView, Look``. Those names are listed in
 ``sandbox/picture/views.py`` and imported where they are used, since they need pygame, which ``scene.py`` does without.
 
 Families of sports have modules of their own: ``sandbox.sport.net_game``, and ``sandbox.sport.sliding`` for stones, pins
@@ -85,7 +85,7 @@ if TYPE_CHECKING:
 else:
 
     def __getattr__(name: str) -> Any:
-        """Return what a picture is made of."""
+        """Return a part of a picture, by name."""
         if name.startswith("__"):
             raise AttributeError(name)
         raise_if_old(__name__, name)

@@ -60,6 +60,7 @@ NAMES: dict[str, dict[str, str]] = {
     "sport.amounts": _AMOUNTS,
     "sport.net_game": {"word": "outcome", "taken": "received_at"},
     "sport.sliding": {
+        "Body": "SlidingDisc",
         "aside": "lateral_offset",
         "meetings": "all_collisions",
         "met": "collisions_of",
@@ -85,7 +86,34 @@ FIELDS: dict[str, dict[str, str]] = {
 }
 
 #: Options of a scene's picture, by old name.
-OPTIONS = {"told": "story_end", "company": "must_be_visible"}
+OPTIONS = {
+    "told": "story_end",
+    "company": "must_be_visible",
+    "FROM": "MEASURED_FROM",
+    "LENGTHS": "LENGTH_ROWS",
+    "STRETCHES": "MAX_STRETCH",
+    "LEAST_PATH": "MIN_PATH_SHARE",
+    "LEVEL": "EYE_HEIGHT",
+    "ASIDE": "EYE_COLUMN",
+    "EARLIER": "OTHER_TRACES",
+    "FAINT": "FAINT_TRACE",
+    "OTHERS": "OTHER_WIDTH",
+    "LEAST_IMPACT": "MIN_IMPACT",
+    "SOFT": "MIN_IMPACT_SHARE",
+    "LEAST_SPAN": "MIN_STROBE_SHARE",
+    "SPINS": "SPIN_NAMES",
+    "STRING": "STRING_COLOUR",
+    "ONE_GROUND": "SHARED_GROUND",
+    "least": "min_radius",
+    "near_view": "frame_width",
+    "NEAREST": "FRAME_WIDTH",
+    "closeups_of": "closeup_boxes",
+    "ROOM": "ROOM_COLOUR",
+    "WIDER": "WIDTH_SCALE",
+    "lying": "initial_turn",
+    "span": "strobe_end",
+    "target": "preferred_view",
+}
 
 
 class _MovedModules:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from sandbox.scene import Check, Scene
     from sandbox.scene.scene_run import SceneRun
 
-#: What is told of an event in JSON.
+#: The fields of an event in JSON.
 EVENT = ("t", "kind", "ball", "with", "speed", "x", "y")
 
 #: Events shown on a card; a ball that rolls through a rack has hundreds.

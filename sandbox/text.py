@@ -12,13 +12,13 @@ from typing import Any
 #: and those that change the writing direction or break lines.
 _CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ufeff]|[\ud800-\udfff]")
 
-#: What ends a line, or is not one space wide.
+#: Characters that end a line, or are not one space wide.
 _BREAK = re.compile("[\n\r\t\v\f\x85]")
 
 #: Text that TOML reads as no value of another kind, so that it needs no quotes.
 _WORD = re.compile("(?!(true|false|inf|nan)$)[a-zA-Z][a-zA-Z-]*")
 
-#: How a formula begins in a spreadsheet.
+#: First characters of a formula in a spreadsheet.
 _FORMULA = ("=", "+", "-", "@")
 
 

@@ -14,7 +14,7 @@ class Picture(SideView[Parameters]):
 
     @cached_property
     def place(self) -> Place:
-        """What lies behind, the ground, and what stands on it; x along the plane of play in m, the farthest first."""
+        """The hall, the ground, and the things on it, the farthest first; x along the plane of play, in m."""
         fan, tall = self.parameters.fan, max(0.8, self.parameters.launch.height)  # m; the pose holds the ball there
         grille = [
             (fan.place + x, z) for x, z in ((-fan.width, 0.0), (fan.width, 0.0), (fan.width, 1.0), (-fan.width, 1.0))

@@ -17,7 +17,7 @@ class Picture(AboveView[Parameters]):
 
     @cached_property
     def plan(self) -> plan.Plan:
-        """What stands still, the lowest first."""
+        """The parts of the place, the lowest first."""
         lane, (cup,) = self.parameters.lane, self.run.setup.traps
         half, tee = (0.5 * lane.length, 0.5 * lane.width), self.run.state("ball", 0.0)[0]
         return (

@@ -49,7 +49,7 @@ def aim(
       sandbox aim golf --vary launch.angle=2:60 --vary launch.speed=40:90 --target carry="219 yd" --target apex=30
     """
     from sandbox.lab.aim import parse_target, search
-    from sandbox.lab.aim.question import GREATEST, Target
+    from sandbox.lab.aim.question import MAXIMIZE, Target
     from sandbox.lab.axes import parse_span
     from sandbox.progress import bar
 
@@ -57,7 +57,7 @@ def aim(
     spans = [parse_span(chosen, "--vary", text) for text in vary]
     targets = [parse_target(text, chosen) for text in target]
     if maximize is not None:
-        targets.append(Target(maximize, GREATEST))
+        targets.append(Target(maximize, MAXIMIZE))
     if not targets:
         raise RequestError("nothing to aim at: give --target NAME=VALUE or --maximize NAME")
     if show is not None:

@@ -284,7 +284,7 @@ def _less(surface: Surface, part: str) -> Surface:
     return replace(surface, law=surface.law and _law_without(surface.law, part))
 
 
-#: How each part of what surfaces do is left out, or simplified.
+#: Ways to leave out or simplify each part of the response of surfaces.
 _OF_SURFACES: dict[tuple[str, str], Callable[[Surface], Surface]] = {
     ("bounce law", "as for a slow bounce"): lambda s: replace(s, law=None),
     ("deformation of the ground", "left out"): lambda s: _less(s, "tilt"),

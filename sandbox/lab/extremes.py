@@ -89,13 +89,13 @@ def _ended(setup: Setup, time: float) -> Setup:
     return replace(setup, duration=min(setup.duration, time))
 
 
-# ------------------------------------------------------------------------------------------------------- bare setups
+# ------------------------------------------------------------------------------------------ setups without a scene
 
 _FLOOR = Segment((-50.0, 0.0), (50.0, 0.0))
 _BOX = [(-5.0, 0.0), (5.0, 0.0), (5.0, 10.0), (-5.0, 10.0), (-5.0, 0.0)]
 
 
-def bare() -> Iterator[Extreme]:
+def setups_without_scene() -> Iterator[Extreme]:
     """Extremes that no scene's parameters can express."""
     yield Extreme("wall of 0.1 mm at 340 m/s", lambda: _against_walls(0.00005, 0.02))
     yield Extreme("wall of no thickness, ball of 1 mm", lambda: _against_walls(0.0, 0.001))

@@ -47,7 +47,7 @@ Row = Mapping[str, str]
 
 
 @dataclass(frozen=True)
-class Found:
+class ChartData:
     """The columns that a chart needs: numbers, NaN where missing, or words."""
 
     axes: list[np.ndarray]  # position of each point along each axis; words are at 0, 1, 2...
@@ -103,7 +103,7 @@ def draw_sweep(plan: Plan, rows: Iterable[Row], path: Path, of: str | None = Non
 # ---------------------------------------------------------------------------------------------------------------------
 
 
-def read(plan: Plan, rows: Iterable[Row], of: str | None) -> Found:
+def read(plan: Plan, rows: Iterable[Row], of: str | None) -> ChartData:
     """The swept columns and the one to show. Raises RequestError if every point failed."""
     scene = plan.scene
     shown = of or ("verdict" if "verdict" in plan.asked else next(iter(plan.asked), "ended"))
@@ -120,12 +120,12 @@ def read(plan: Plan, rows: Iterable[Row], of: str | None) -> Found:
     swept = [_column(axis, place) for axis, place in zip(plan.axes, places, strict=True)]
     numbers = _numbers(["" if text == FAILED else text for text in texts])
     if numbers is not None:
-        return Found(swept, result_label(scene, shown), numbers, [], frozenset())
+        return ChartData(swept, result_label(scene, shown), numbers, [], frozenset())
     in_order = shown not in scene.facts or scene.facts[shown].in_order
     words = [text if text == FAILED else _word(text, in_order) for text in texts]
     scored, all_of = Counter(word for word, wins in zip(words, won, strict=True) if wins), Counter(words)
     good = frozenset(word for word in all_of if 2 * scored[word] > all_of[word])
-    return Found(swept, result_label(scene, shown), None, words, good)
+    return ChartData(swept, result_label(scene, shown), None, words, good)
 
 
 def _word(text: str, in_order: bool) -> str:
@@ -186,7 +186,7 @@ def own_place(plan: Plan) -> list[float] | None:
 # ---------------------------------------------------------------------------------------------------------------------
 
 
-def _curves(axes: Any, plan: Plan, found: Found) -> list[int] | None:
+def _curves(axes: Any, plan: Plan, found: ChartData) -> list[int] | None:
     """A number over one axis, with a curve for each word of the other, if there is one. Returns the place of the axis
     that runs along, or None if this is not such a chart."""
     words = [axis for axis in plan.axes if not has_numbers(axis)]
@@ -209,7 +209,7 @@ def _curves(axes: Any, plan: Plan, found: Found) -> list[int] | None:
     return [along]
 
 
-def _map(axes: Any, plan: Plan, found: Found, colours: Mapping[str, Any]) -> None:
+def _map(axes: Any, plan: Plan, found: ChartData, colours: Mapping[str, Any]) -> None:
     """Cells over two axes, or in a strip over one, coloured by a word, or by a number with contour lines."""
     from matplotlib.colors import ListedColormap
 
@@ -241,7 +241,7 @@ def _map(axes: Any, plan: Plan, found: Found, colours: Mapping[str, Any]) -> Non
         axes.clabel(lines, fontsize=8.5, fmt=significant)
 
 
-def _colours(found: Found, heights: np.ma.MaskedArray[Any, Any]) -> dict[str, Any]:
+def _colours(found: ChartData, heights: np.ma.MaskedArray[Any, Any]) -> dict[str, Any]:
     """The colours of numbers; one for each whole number if these are few."""
     if not found.counts:
         return {"cmap": _HEIGHTS}
@@ -265,7 +265,7 @@ def _outline(axes: Any, corners: np.ndarray, cells: np.ndarray, ink: str) -> Non
         axes.add_collection(LineCollection([*upright, *level], colors=ink, linewidths=0.5, alpha=0.5))
 
 
-def _cloud(axes: Any, plan: Plan, found: Found, colours: Mapping[str, Any]) -> None:
+def _cloud(axes: Any, plan: Plan, found: ChartData, colours: Mapping[str, Any]) -> None:
     """A dot for each random shot."""
     size = float(np.clip(20_000 / max(len(found.axes[0]), 1), 2.0, 40.0))
     if found.numbers is not None:
@@ -277,7 +277,7 @@ def _cloud(axes: Any, plan: Plan, found: Found, colours: Mapping[str, Any]) -> N
     _legend(axes, found, chosen, colours)
 
 
-def _mark_own(axes: Any, own: Sequence[float], found: Found, places: np.ndarray, ink: str) -> None:
+def _mark_own(axes: Any, own: Sequence[float], found: ChartData, places: np.ndarray, ink: str) -> None:
     """Mark the scene file's own shot with a ring or a line."""
     text: dict[str, Any] = {"textcoords": "offset points", "fontsize": 9.5, "bbox": PLATE}
     if len(own) == 1:
@@ -293,7 +293,7 @@ def _mark_own(axes: Any, own: Sequence[float], found: Found, places: np.ndarray,
     axes.annotate("scene file", place, xytext=offset, **text)
 
 
-def _is_high(found: Found, places: np.ndarray, own: float) -> bool:
+def _is_high(found: ChartData, places: np.ndarray, own: float) -> bool:
     """True if the curve is in the upper half of its range at the scene file's own shot."""
     if found.numbers is None or not np.isfinite(found.numbers).any():
         return False
@@ -301,7 +301,7 @@ def _is_high(found: Found, places: np.ndarray, own: float) -> bool:
     return bool(height > 0.5 * (np.nanmin(found.numbers) + np.nanmax(found.numbers)))
 
 
-def coded(found: Found, colours: Mapping[str, Any]) -> tuple[dict[str, str], np.ndarray]:
+def coded(found: ChartData, colours: Mapping[str, Any]) -> tuple[dict[str, str], np.ndarray]:
     """A colour for each word, success vivid and the most common first, and the index of each point's colour."""
     counts = Counter(found.words)
     failures = counts.pop(FAILED, 0)
@@ -319,7 +319,7 @@ def coded(found: Found, colours: Mapping[str, Any]) -> tuple[dict[str, str], np.
     return chosen, np.array([places.get(word, places.get(_OTHERS, 0)) for word in found.words])
 
 
-def _legend(axes: Any, found: Found, chosen: Mapping[str, str], colours: Mapping[str, Any]) -> None:
+def _legend(axes: Any, found: ChartData, chosen: Mapping[str, str], colours: Mapping[str, Any]) -> None:
     """Legend of the colours, with the share of each."""
     from matplotlib.patches import Patch
 
@@ -330,7 +330,7 @@ def _legend(axes: Any, found: Found, chosen: Mapping[str, str], colours: Mapping
     legend(axes, handles=[Patch(facecolor=chosen[word], label=f"{word}  {texts[word]}", **edge) for word in chosen])
 
 
-def _key(axes: Any, drawn: Any, found: Found, colours: Mapping[str, Any]) -> None:
+def _key(axes: Any, drawn: Any, found: ChartData, colours: Mapping[str, Any]) -> None:
     """The colour scale."""
     bar = axes.figure.colorbar(drawn, ax=axes, aspect=30, pad=0.02, label=found.label)
     bar.outline.set_visible(False)

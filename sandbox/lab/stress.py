@@ -29,7 +29,7 @@ from sandbox.engine.model.shapes import Shape
 from sandbox.engine.paths.phase import Phase
 from sandbox.engine.paths.run import Run
 from sandbox.errors import RequestError, SandboxError
-from sandbox.lab.extremes import Extreme, bare, of_scene
+from sandbox.lab.extremes import Extreme, of_scene, setups_without_scene
 from sandbox.lab.runs import Progress, no_progress
 from sandbox.lab.tables import length, paragraph, percent, table
 from sandbox.physics.integrators import INTEGRATORS
@@ -93,7 +93,7 @@ def stress(
     scenes: Sequence[Scene], level: str = "balanced", with_bare: bool = True, progress: Progress = no_progress
 ) -> list[Outcome]:
     """Run every extreme of the scenes, and those without a scene, with every method."""
-    rows = [("", extreme, ALL) for extreme in bare()] if with_bare else []
+    rows = [("", extreme, ALL) for extreme in setups_without_scene()] if with_bare else []
     for scene in scenes:
         methods = _IN_HEAPS if _is_heap(scene, LEVELS[level]) else ALL
         rows += [(scene.title, extreme, methods) for extreme in of_scene(scene)]

@@ -26,7 +26,7 @@ TOO_LONG = 10.0
 #: Results whose value is clear without its name.
 _WITHOUT_NAME = ("verdict", "ended")
 
-#: What is compared with the finest runs: changes of the scene's accuracy.
+#: Changes of the scene's accuracy that are compared with the finest runs.
 _WAYS: dict[str, dict[str, Any]] = {
     **{name: {"accuracy.level": name} for name in LEVELS},
     **{f"plain 1/{rate} s": {"accuracy.method": "plain", "accuracy.step": 1 / rate} for rate in (60, 240)},

@@ -12,7 +12,7 @@ from sandbox.page.replay import page_of
 from sandbox.picture.frames import save_png
 from sandbox.scene import listings, load, simulate
 
-#: Of the posters, in px.
+#: Size of the posters, in px.
 SIZE = (1280, 720)
 
 

@@ -27,11 +27,11 @@ if TYPE_CHECKING:
 
 Size = tuple[int, int]
 
-#: Of pictures in a notebook, in px, and frames per second of animations.
+#: Size of pictures in a notebook, in px, and frames per second of animations.
 POSTER, MOVING, FPS = (960, 540), (640, 360), 25
 #: Height of the page of a run in a notebook, in px.
 PLAYER = 760
-#: How animations are written, by the end of the file's name.
+#: The writers of animations, by the end of the file's name.
 WRITERS: Mapping[str, Callable[..., int]] = {".gif": frames.save_gif, ".webp": frames.save_webp}
 
 

@@ -154,8 +154,8 @@ def _layout(view: View[Any]) -> dict[str, Any]:
         "scale": camera.scale,
         "stretch": camera.stretch,
         "unit": view.unit,
-        "least": view.least,
-        "lift": too_large if isinstance(view, SideView) and not isinf(view.STRETCHES) else None,
+        "least": view.min_radius,
+        "lift": too_large if isinstance(view, SideView) and not isinf(view.MAX_STRETCH) else None,
         "room": view.heading.room,
         "poster": picture(poster),
         "place": picture(Image.fromarray(place)),
@@ -181,7 +181,7 @@ def _static(view: View[Any], run: SceneRun) -> dict[str, Any]:
                 "colour": css(view.colour_of(name)),
                 "thickness": view.thickness(name),
                 "look": numbers[id(view.looks[name])],
-                "lying": view.lying(name).tolist(),
+                "lying": view.initial_turn(name).tolist(),
                 "rolls": view.rolls(name),
                 "turned": _turned(view, name, run.duration),
                 "caught": run.caught_at(name),
@@ -208,13 +208,13 @@ def _static(view: View[Any], run: SceneRun) -> dict[str, Any]:
             for ghost in view.ghosts
         ],
         "strings": [[names.index(name), *at] for name, at in view.strings],
-        "string": css(view.STRING),
+        "string": css(view.STRING_COLOUR),
         "ground": _ground(view),
         "forces": _forces(view, run),
         "arrows": dict(zip(("fastest", "strongest"), view.vectors.longest, strict=True))
         | {"velocity": VELOCITY_LENGTH, "force": FORCE_LENGTH, "shortest": SHORTEST, "colour": css(CARD["text"])},
         "shadows": isinstance(view, AboveView),
-        "spins": view.SPINS,
+        "spins": view.SPIN_NAMES,
         "ladders": {unit: _ladder(unit) for unit in UNITS},
         "heaped": HEAPED,
         "unsaid": NOT_WORTH_NOTING,
@@ -269,7 +269,7 @@ def _look(look: balls.Look, view: View[Any]) -> dict[str, Any]:
     if isinstance(look, balls.Silhouette):
         shapes = [[np.asarray(corners), css(colour)] for corners, colour in look.shapes]
         return {"shapes": shapes, "rimmed": look.rimmed}
-    radius = max(view.least, view.radius * view.camera.scale)
+    radius = max(view.min_radius, view.radius * view.camera.scale)
     halves = look.skin(sum(radius >= mark.least for mark in look.marks))  # by half, column, row
     skin = np.concatenate(list(halves), axis=0).transpose(1, 0, 2)
     return {"skin": picture(Image.fromarray(np.ascontiguousarray(skin)), exact=True), "face": balls.FACE,

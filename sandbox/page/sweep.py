@@ -12,7 +12,7 @@ import numpy as np
 from sandbox.engine.model.surface import Circle, Segment
 from sandbox.errors import RequestError
 from sandbox.lab.axes import Axis, Values, label, spaced, unit_of
-from sandbox.lab.maps import Found, Row, coded, has_numbers, own_place, read
+from sandbox.lab.maps import ChartData, Row, coded, has_numbers, own_place, read
 from sandbox.lab.plan import Plan
 from sandbox.lab.row_file import cell
 from sandbox.lab.runs import runs
@@ -115,7 +115,7 @@ def _values(axis: Axis) -> str:
     return ",".join(map(argument, axis.values))
 
 
-def _coloured(found: Found) -> tuple[list[str], list[int], str]:
+def _coloured(found: ChartData) -> tuple[list[str], list[int], str]:
     """The colours, the number of each point's, and a legend."""
     if found.words:
         colours = {key: list(map(css, value)) if isinstance(value[0], tuple) else css(value)

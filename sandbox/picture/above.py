@@ -1,4 +1,4 @@
-"""The view from above: what a scene's picture is made of when its place is seen from over the middle of it."""
+"""The view from above: a picture of a place that is seen from over its middle."""
 
 from __future__ import annotations
 
@@ -31,11 +31,11 @@ MIDDLE = 0.72
 
 
 class AboveView(View[P]):
-    """One run seen from above; a scene says what its ``plan`` is."""
+    """One run seen from above; a scene declares its ``plan``."""
 
-    SPINS = ("right", "left")
-    #: Frames go with the ball and show so much of the world's length in m, where the poster shows more.
-    NEAREST: ClassVar[float | None] = None
+    SPIN_NAMES = ("right", "left")
+    #: The width of the world in frames, in m, where the poster shows more: they follow the ball. None shows all of it.
+    FRAME_WIDTH: ClassVar[float | None] = None
     #: The colour of the darkness at the picture's edges.
     DUSK: ClassVar[Colour | None] = None
 
@@ -70,11 +70,11 @@ class AboveView(View[P]):
         home, width, area = self.camera, self.size[0], self.area
         x, y = (float(round(middle)) for middle in area.middle)
         aside, up = MIDDLE / 2 * width, MIDDLE / 2 * (area.bottom - area.top)
-        near = Camera(home.at, (x, y), max(home.scale, width / (self.NEAREST or inf)))
+        near = Camera(home.at, (x, y), max(home.scale, width / (self.FRAME_WIDTH or inf)))
         return Chase(self.run, self.ball, near, Area(x - aside, y - up, x + aside, y + up))
 
     def view(self, t: float) -> Camera:
-        return self.camera if self.NEAREST is None else self.chase.camera(t)
+        return self.camera if self.FRAME_WIDTH is None else self.chase.camera(t)
 
     def backdrop(self, painter: Painter, camera: Camera) -> None:
         """The place, darker to the edges."""

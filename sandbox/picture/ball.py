@@ -28,9 +28,9 @@ MARK = 0.62
 FINER, FACE = 3, 128
 #: Balls are placed to this share of a px.
 PHASE = 1 / 4
-#: Where the light comes from: over the left shoulder.
+#: Direction of the light: over the left shoulder.
 LIGHT = np.array([-0.42, 0.50, 0.76])
-#: How much of its colour a ball shows where no light falls, and where its surface turns away.
+#: Share of its colour that a ball shows where no light falls, and where its surface turns away.
 DARK, EDGE = 0.55, 0.7
 #: Opacity of the thin dark rim around balls and bodies.
 RIM = 0.65
@@ -176,7 +176,7 @@ def turned(axis_angle: Sequence[float]) -> np.ndarray:
     return np.eye(3) + sin(angle) * across + (1 - cos(angle)) * across @ across
 
 
-class Turning:
+class Orientation:
     """The orientation of a ball at any time, from its spin (rad/s, about x, y and z) as a function of time.
 
     ``times`` (s) are where the spin or its rate may jump; between two of them it changes evenly, and is followed in

@@ -22,7 +22,7 @@ from sandbox.picture.path import instants
 #: The run is cut into so many pieces.
 PIECES = 160
 
-#: What a conservative force may still give is named so, with the force's name.
+#: Name of the energy that a conservative force stores, with the force's name.
 STORED = "stored by "
 
 #: States of a run at which a force is examined.

@@ -22,7 +22,7 @@ LEAST_SHARE, MOST_CAUSES = 0.004, 6
 LEAST_ENERGY = 1e-3
 #: For this share of a run the chart goes on after an impact that ends it: what that changed would have no width.
 AFTER_LAST = 0.04
-#: How dark what is lost is drawn, and how light words are in a band's colour.
+#: Darkening of lost energy, and lightening of words in a band's colour.
 LOST, LIGHT = 0.42, 0.4
 
 

@@ -37,7 +37,7 @@ POSTER_LEVEL = 6
 WEBP = {"quality": 82, "method": 2, "kmin": 0, "kmax": 1}
 #: ffmpeg's options: quality (lower is better, 18 looks as drawn), colours that all players know, and even sides.
 VIDEO = ["-crf", "18", "-pix_fmt", "yuv420p", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-movflags", "+faststart"]
-#: Of so many frames the colours of a GIF are chosen.
+#: The colours of a GIF are chosen from so many frames.
 PALETTE_FRAMES = 16
 #: The index of what stays as it was, after all colours.
 SEE_THROUGH = 255
@@ -48,7 +48,7 @@ FASTEST_GIF = 50
 #: The last picture of an animation stays for so long, in s, before it begins again.
 PAUSE = 2.0
 
-#: What every frame says of itself, so that those of an earlier run are known from those that a user put there.
+#: A mark in every frame, by which those of an earlier run are told from files that a user put there.
 OURS = b"Software\0sports sandbox, one of the frames of a run"
 FRAMES = "frame_[0-9][0-9][0-9][0-9][0-9].png"
 

@@ -30,7 +30,7 @@ TRACES = palette("trace")["colours"]
 PIECES = 300
 #: Panels next to each other; on a picture narrower than so many px per row, fewer.
 COLUMNS, NARROW = 4, 1.3
-#: How much of its colour another run's curve has, and how much lighter than a trace a curve on dark ground is.
+#: Share of its colour that another run's curve has; lightening of a curve on dark ground, compared with its trace.
 PALE, LIGHTER = 0.75, 0.25
 
 

@@ -18,7 +18,7 @@ from sandbox.picture.camera import Box, Camera
 from sandbox.picture.marks import mark_impacts
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour, palette
-from sandbox.picture.path import Mark
+from sandbox.picture.path import ImpactMark
 from sandbox.picture.places.plan import Ground, drawn
 from sandbox.picture.sheet import Sheet
 from sandbox.picture.view import P
@@ -29,21 +29,21 @@ CARD = palette("card")
 #: The strip takes this share of the room between headline and card, at most; gaps and the room around letters, in px
 #: on 720 rows.
 STRIP, GAP, AROUND = 0.42, 8.0, 7.0
-#: What is not of the place, in m, as far as a lens may look.
+#: The surroundings of the place, in m, as far as a lens may show them.
 EVERYWHERE = Box(-1e3, -1e3, 1e3, 1e3)
 #: A ball that goes no further than this, in m, has no path.
 LEAST_WAY = 1e-6
 
 
 class LongView(AboveView[P]):
-    """One run in a long place; a scene says what is ``whole`` and what is ``near``, both in m."""
+    """One run in a long place; a scene declares the ``whole`` and the part ``near``, both in m."""
 
     #: The colour around the strip.
-    ROOM: ClassVar[Colour] = (22, 30, 38)
-    #: Widths are drawn so many times as large as lengths in the strip.
-    WIDER: ClassVar[float] = 1.0
+    ROOM_COLOUR: ClassVar[Colour] = (22, 30, 38)
+    #: Scale of widths over that of lengths in the strip.
+    WIDTH_SCALE: ClassVar[float] = 1.0
     STRETCHED = "widths"
-    OTHERS = 0.25
+    OTHER_WIDTH = 0.25
 
     @property
     def whole(self) -> Box:
@@ -74,17 +74,17 @@ class LongView(AboveView[P]):
         """Shows all of the strip, which keeps its room where the window's camera shows a part of it from near by."""
         left, right = self.sheet.frame.left, self.sheet.frame.right
         box, top, most = self.whole, self.area.top, STRIP * (self.area.bottom - self.area.top)
-        scale = min((right - left) / (box.right - box.left), most / (box.top - box.bottom) / self.WIDER)
-        tall = scale * self.WIDER * (box.top - box.bottom)
+        scale = min((right - left) / (box.right - box.left), most / (box.top - box.bottom) / self.WIDTH_SCALE)
+        tall = scale * self.WIDTH_SCALE * (box.top - box.bottom)
         middle = (box.left + box.right) / 2, (box.bottom + box.top) / 2
-        return Camera(middle, ((left + right) / 2, top + tall / 2), scale, self.WIDER)
+        return Camera(middle, ((left + right) / 2, top + tall / 2), scale, self.WIDTH_SCALE)
 
     def backdrop(self, painter: Painter, camera: Camera) -> None:
         """The strip in a dark room."""
-        painter.surface.fill(self.ROOM)
+        painter.surface.fill(self.ROOM_COLOUR)
         (left, top), (right, bottom) = (camera.pixel(*corner) for corner in (self.whole[::3], self.whole[2:0:-1]))
         painter.surface.set_clip(pygame.Rect(round(left), round(top), round(right - left), round(bottom - top)))
-        painter.surface.blit(drawn((Ground(EVERYWHERE, self.ROOM), *self.plan), camera, self.size), (0, 0))
+        painter.surface.blit(drawn((Ground(EVERYWHERE, self.ROOM_COLOUR), *self.plan), camera, self.size), (0, 0))
         painter.surface.set_clip(None)
 
     def landmarks(self, sheet: Sheet, camera: Camera) -> None:
@@ -130,7 +130,7 @@ class LongView(AboveView[P]):
         painter.polygon(beam, CARD["quiet"], 0.12)
         surface = painter.surface.subsurface(lens)
         local = Camera(near.at, (near.anchor[0] - lens.left, near.anchor[1] - lens.top), near.scale)
-        surface.blit(drawn((Ground(EVERYWHERE, self.ROOM), *self.plan), local, lens.size), (0, 0))
+        surface.blit(drawn((Ground(EVERYWHERE, self.ROOM_COLOUR), *self.plan), local, lens.size), (0, 0))
         inside = Painter(surface)
         self.behind(inside, local, t)
         for ball in self.run.setup.balls:
@@ -168,7 +168,7 @@ class LongView(AboveView[P]):
         at = self.run.state(self.ball, t)
         return f"{hypot(*at[2:4]):.2f} m/s", f"{metres(hypot(at[0] - x, at[1] - y))} from {what}"
 
-    def impacts(self, camera: Camera) -> list[Mark]:
+    def impacts(self, camera: Camera) -> list[ImpactMark]:
         """In the near part."""
         return [] if camera == self.camera else super().impacts(camera)
 

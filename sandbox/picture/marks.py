@@ -14,7 +14,7 @@ from sandbox.picture.camera import Camera
 from sandbox.picture.lettering import around
 from sandbox.picture.painter import Point
 from sandbox.picture.palette import Colour, mix, palette
-from sandbox.picture.path import FINEST, Mark, apart
+from sandbox.picture.path import FINEST, ImpactMark, apart
 from sandbox.picture.sheet import Sheet
 from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.amounts import amount
@@ -28,7 +28,7 @@ CARD, TRACE = palette("card"), palette("trace")
 FARTHER = (25, 36, 50)
 #: And one that is alone may be so far away.
 ALONE = 66
-#: How much lighter than its trace a ghost's text on the card is.
+#: Lightening of a ghost's text on the card, compared with its trace.
 LIGHTER = 0.45
 #: The label of a ghost may stand at about so many points of its path.
 ANCHORS = 12
@@ -58,7 +58,7 @@ def is_under(at: Point, ball: tuple[Point, float], edge: float) -> bool:
 
 
 def mark_impacts(
-    sheet: Sheet, camera: Camera, marks: Iterable[Mark], last: tuple[Point, float] = ((0.0, 0.0), 0.0)
+    sheet: Sheet, camera: Camera, marks: Iterable[ImpactMark], last: tuple[Point, float] = ((0.0, 0.0), 0.0)
 ) -> None:
     """Impacts as marks with the speed at which the ball came; the ball in its ``last`` place lies over them."""
     places = [(camera.pixel(*mark.at), mark) for mark in marks]

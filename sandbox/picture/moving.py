@@ -9,13 +9,13 @@ import numpy as np
 import pygame
 
 from sandbox.engine.model.ball import Body
-from sandbox.picture.ball import Flat, Look, Silhouette, Turning, mark_radius, turned
+from sandbox.picture.ball import Flat, Look, Orientation, Silhouette, mark_radius, turned
 from sandbox.picture.camera import Camera
 from sandbox.picture.marks import Ghost, draw_trace, is_under
 from sandbox.picture.options import P, SceneOptions
 from sandbox.picture.painter import Painter, Point
 from sandbox.picture.palette import palette
-from sandbox.picture.path import FINEST, Mark, Path, apart, slow_motion
+from sandbox.picture.path import FINEST, DrawnPath, ImpactMark, apart, slow_motion
 from sandbox.picture.sheet import Sheet
 from sandbox.picture.vectors import Vectors
 from sandbox.sport.amounts import round_number_above
@@ -26,7 +26,7 @@ RIM = palette("trace")["rim"]
 LARGER = 1.3
 #: A ball that is larger by less than this factor is not said to be.
 NOT_WORTH_NOTING = 1.05
-#: Of impacts that are nearer to each other than this, in px on 720 rows, the hardest is marked.
+#: Only the hardest is marked of impacts that are nearer to each other than this, in px on 720 rows.
 APART = 20
 #: At most so many balls are drawn along a path, or along that part of it that matters.
 BALLS = 14
@@ -65,12 +65,12 @@ class BallDrawing(SceneOptions[P]):
         return [name for name in self.balls if t < self.caught[name] or name == self.ball]
 
     @cached_property
-    def paths(self) -> dict[str, Path]:
+    def paths(self) -> dict[str, DrawnPath]:
         """The path of each ball that is drawn."""
-        return {name: Path(self.run, name, self.story_end) for name in self.balls}
+        return {name: DrawnPath(self.run, name, self.story_end) for name in self.balls}
 
     @property
-    def path(self) -> Path:
+    def path(self) -> DrawnPath:
         """The path of the ball that is played."""
         return self.paths[self.ball]
 
@@ -98,25 +98,27 @@ class BallDrawing(SceneOptions[P]):
 
     def thickness(self, name: str) -> float:
         """The thickness of a ball's path, as a share of that of one alone."""
-        return 1.0 if name == self.ball and not isinstance(self.looks[name], Flat) else self.OTHERS
+        return 1.0 if name == self.ball and not isinstance(self.looks[name], Flat) else self.OTHER_WIDTH
 
     def turn(self, name: str, t: float) -> np.ndarray:
         """The matrix by which a ball is turned at time t in s: where it rolls, about level axes, too."""
         t = min(t, self.caught[name])
         if not self.rolls(name):
-            return turned((0.0, 0.0, self.run.angle(name, t))) @ self.lying(name)
-        return self._turnings[name].at(t)
+            return turned((0.0, 0.0, self.run.angle(name, t))) @ self.initial_turn(name)
+        return self._orientations[name].at(t)
 
     @cached_property
-    def _turnings(self) -> dict[str, Turning]:
+    def _orientations(self) -> dict[str, Orientation]:
         """The orientations of the balls that roll on a plane."""
         run = self.run
 
-        def turning(name: str) -> Turning:
+        def orientation(name: str) -> Orientation:
             times = [*(arc.t0 for arc in run.arcs[name]), run.arcs[name][-1].t1]
-            return Turning(lambda t: (*run.rolling_spin(name, t), run.state(name, t)[4]), times, self.lying(name))
+            return Orientation(
+                lambda t: (*run.rolling_spin(name, t), run.state(name, t)[4]), times, self.initial_turn(name)
+            )
 
-        return {name: turning(name) for name in self.balls}
+        return {name: orientation(name) for name in self.balls}
 
     def draw_ball(self, painter: Painter, camera: Camera, name: str, t: float, at: Point, radius: float) -> None:
         """A ball at time t in s; a lone one that is drawn larger than it is has a ring around it that says so."""
@@ -125,7 +127,7 @@ class BallDrawing(SceneOptions[P]):
 
     def _least(self, in_frame: bool) -> float:
         """The least radius of a ball in px: of one alone, larger in frames."""
-        return self.least * (LARGER if in_frame and len(self.balls) == 1 else 1.0)
+        return self.min_radius * (LARGER if in_frame and len(self.balls) == 1 else 1.0)
 
     # Where
 
@@ -189,7 +191,7 @@ class BallDrawing(SceneOptions[P]):
         if len(self.balls) > 1:
             return []
         painter = sheet.painter
-        every = round_number_above(max(self.span, 0.01) / BALLS)
+        every = round_number_above(max(self.strobe_end, 0.01) / BALLS)
         moments = [i * every for i in range(max(1, ceil(self.story_end / every - 1e-9)))]
         radius, look = max(self.radius * camera.scale, mark_radius(self.rows)), self.looks[self.ball]
         states = np.array([self.run.state(self.ball, t)[:2] for t in [*moments, self.story_end]])
@@ -210,12 +212,13 @@ class BallDrawing(SceneOptions[P]):
             *([f"a bead where {self.things} would overlap"] if crowded else []),
         ]
 
-    def impacts(self, camera: Camera) -> list[Mark]:
+    def impacts(self, camera: Camera) -> list[ImpactMark]:
         """The impacts that are marked."""
-        marked: list[Mark] = []
+        marked: list[ImpactMark] = []
         for mark in sorted(self.path.marks(), key=lambda mark: -mark.hardness):
             near = (dist(mark.at, other.at) * camera.scale < APART * self.unit for other in marked)
-            if mark.hardness >= max(self.LEAST_IMPACT, self.SOFT * [*marked, mark][0].hardness) and not any(near):
+            least = max(self.MIN_IMPACT, self.MIN_IMPACT_SHARE * [*marked, mark][0].hardness)
+            if mark.hardness >= least and not any(near):
                 marked.append(mark)
         return sorted(marked, key=lambda mark: mark.t)
 
@@ -223,7 +226,7 @@ class BallDrawing(SceneOptions[P]):
         """Draw the strings of balls that hang."""
         for name, (x, y) in self.strings:
             ends = [camera.pixel(x, y), camera.pixel(*self.run.state(name, t)[:2])]
-            painter.line(ends, STRING * self.unit, self.STRING)
+            painter.line(ends, STRING * self.unit, self.STRING_COLOUR)
 
     def _trails(self, sheet: Sheet, camera: Camera, t: float) -> None:
         """Draw where the balls have been: a thin line, and a thick one of late; and where those of other runs are. All
@@ -245,7 +248,7 @@ class BallDrawing(SceneOptions[P]):
         first, last = np.searchsorted(path.samples[:, 0], (t - self.TRAIL, t))
         late = self.spots(camera, np.vstack([path.points[first:last], self.run.state(name, t)[:2]]), 0.0)
         if np.ptp(late, axis=0).max() > 2:
-            width = 1.1 * max(self.radii[name] * camera.scale, self.least)
+            width = 1.1 * max(self.radii[name] * camera.scale, self.min_radius)
             painter.fading(late[apart(late, 3.0)], width, self.colour_of(name), 0.9)
 
     @cached_property

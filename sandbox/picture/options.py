@@ -1,5 +1,5 @@
-"""Scene options: what the picture of a scene may say of itself. Everything has a default; the rest of a picture is the
-same for all scenes.
+"""Scene options: what a scene may change in its picture. Each has a default; the rest of a picture is the same for all
+scenes.
 
 A scene's ``Picture`` is a :class:`~sandbox.picture.side.SideView` or a view from above, and overrides some of these
 constants and methods; the views have a few more of their own, in their sections "scene options". Lengths are in m,
@@ -71,37 +71,38 @@ class SceneOptions(Generic[P]):
 
     # Colours and words
 
-    #: How the ball looks, and what it is called: "" for a ball, or a body where it is a ``Body``.
+    #: The look of the ball, and its name in notes: "" for a ball, or a body where it is a ``Body``.
     LOOK: ClassVar[Look] = Look(PLAIN["ball"], seams(PLAIN["marks"]))
     THING: ClassVar[str] = ""
-    #: What must be said of the result wherever it is shown, such as that nothing measured stands behind it.
+    #: A caveat that is written wherever the result is shown, such as "not validated".
     CAVEAT: ClassVar[str] = ""
-    #: Colours of the path, of the thin line of it that stays behind in frames (None: the same), and of other runs.
+    #: Colours of the path, of the thin line of it that stays behind in frames (None: the same), and of the paths of
+    #: other balls and other runs.
     TRACE: ClassVar[Colour] = TRACES[0]
-    FAINT: ClassVar[Colour | None] = None
-    EARLIER: ClassVar[Sequence[Colour]] = TRACES[1:]
-    #: What a spin below and one above zero is called.
-    SPINS: ClassVar[tuple[str, str]] = ("topspin", "backspin")
-    #: What is stretched where a camera stretches one.
+    FAINT_TRACE: ClassVar[Colour | None] = None
+    OTHER_TRACES: ClassVar[Sequence[Colour]] = TRACES[1:]
+    #: Names of a spin below and of one above zero.
+    SPIN_NAMES: ClassVar[tuple[str, str]] = ("topspin", "backspin")
+    #: The direction that a camera may stretch, as notes call it: "heights" or "widths".
     STRETCHED: ClassVar[str] = "heights"
     #: The colour of strings.
-    STRING: ClassVar[Colour] = CARD["quiet"]
+    STRING_COLOUR: ClassVar[Colour] = CARD["quiet"]
     #: True if text stands on dark ground, where the scene does not decide by the shot.
     ON_DARK: ClassVar[bool] = True
 
     # How much is drawn
 
-    #: s of path that the trail behind the ball shows.
+    #: The trail behind the ball in frames shows the path of so many s.
     TRAIL: ClassVar[float] = 0.5
-    #: The balls along the path are spread over at least this share of it.
-    LEAST_SPAN: ClassVar[float] = 0.25
-    #: Impacts are marked that are at least so hard, in m/s, and as a share of the hardest.
-    LEAST_IMPACT: ClassVar[float] = 0.3
-    SOFT: ClassVar[float] = 0.03
-    #: The paths of balls besides the one that is played, and those of bodies, which may be thin, are so much as thick.
-    OTHERS: ClassVar[float] = 0.6
-    #: True if all runs stand on the same ground, so that one cannot be moved up or down to lie over another.
-    ONE_GROUND: ClassVar[bool] = False
+    #: The balls along the path are spread over at least this share of its time.
+    MIN_STROBE_SHARE: ClassVar[float] = 0.25
+    #: The slowest impacts that are marked: in m/s, and as a share of the hardest.
+    MIN_IMPACT: ClassVar[float] = 0.3
+    MIN_IMPACT_SHARE: ClassVar[float] = 0.03
+    #: Width of the paths of other balls, and of bodies, which may be thin, as a share of that of the ball in play.
+    OTHER_WIDTH: ClassVar[float] = 0.6
+    #: True if all runs share the ground, so that one cannot be moved up or down to lie over another.
+    SHARED_GROUND: ClassVar[bool] = False
 
     # What is shown
 
@@ -121,8 +122,8 @@ class SceneOptions(Generic[P]):
         return [ball.name for ball in self.run.setup.balls]
 
     @property
-    def least(self) -> float:
-        """The least radius of a ball in px: several may lie close together, and are not drawn so large as one alone."""
+    def min_radius(self) -> float:
+        """The smallest radius in px at which a ball is drawn: larger for one alone, since several may be close."""
         return least_radius(self.rows) if len(self.balls) == 1 else SMALLEST / 2
 
     @cached_property
@@ -131,10 +132,10 @@ class SceneOptions(Generic[P]):
         return self.run.duration
 
     @cached_property
-    def span(self) -> float:
-        """The time in s over which the balls along the path are spread: until the first touch, unless that is soon."""
+    def strobe_end(self) -> float:
+        """The time in s until which balls are drawn along the path: the first touch, unless that is soon."""
         touches = (event.t for event in self.run.events if self.ball in (event.ball, event.partner))
-        return max(min(next(touches, self.story_end), self.story_end), self.LEAST_SPAN * self.story_end)
+        return max(min(next(touches, self.story_end), self.story_end), self.MIN_STROBE_SHARE * self.story_end)
 
     @property
     def moment(self) -> float:
@@ -158,14 +159,14 @@ class SceneOptions(Generic[P]):
     def colour_of(self, name: str) -> Colour:
         """The colour of the path of a ball, or of anything else that moves."""
         others = [ball.name for ball in self.run.setup.balls if ball.name != self.ball]
-        return self.TRACE if name == self.ball else self.EARLIER[others.index(name) % len(self.EARLIER)]
+        return self.TRACE if name == self.ball else self.OTHER_TRACES[others.index(name) % len(self.OTHER_TRACES)]
 
     def faint_of(self, name: str) -> Colour:
         """The colour of the thin line that stays where a ball has been, in frames."""
-        return self.FAINT if self.FAINT and name == self.ball else self.colour_of(name)
+        return self.FAINT_TRACE if self.FAINT_TRACE and name == self.ball else self.colour_of(name)
 
-    def lying(self, name: str) -> np.ndarray:
-        """The matrix by which a ball is turned at the start."""
+    def initial_turn(self, name: str) -> np.ndarray:
+        """The rotation matrix of a ball's look at the start."""
         return np.eye(3)
 
     # What is written
@@ -197,11 +198,11 @@ class SceneOptions(Generic[P]):
 
     def spin_text(self, spin: float) -> str:
         """A spin in rad/s for people."""
-        rpm, (below, above) = spin * 30 / pi, self.SPINS
+        rpm, (below, above) = spin * 30 / pi, self.SPIN_NAMES
         return f"{abs(rpm):.0f} rpm {above if rpm > 0.0 else below}" if abs(rpm) >= 0.5 else "none"
 
     def remarks(self, camera: Camera) -> list[str]:
-        """Notes on what of the place is not drawn as it is, or not seen."""
+        """Notes on parts of the place that are not drawn to scale, or are out of sight."""
         return []
 
     # What is drawn, from the lowest layer up
@@ -223,7 +224,7 @@ class SceneOptions(Generic[P]):
 
     @property
     def aims(self) -> Sequence[Box]:
-        """What is aimed at, in m, such as a goal: the window covers none of it."""
+        """The targets of the shot, in m, such as a goal: nothing in the window covers them."""
         return ()
 
     def inset(self, sheet: Sheet, camera: Camera, t: float | None) -> pygame.Rect | None:

@@ -20,7 +20,7 @@ from sandbox.picture.palette import Colour
 Point = tuple[float, float]
 Points = Sequence[Point] | np.ndarray  # an array has shape (n, 2)
 
-#: How many times larger a shape is drawn before it is scaled down. 4 gives 16 levels along an edge; 2 shows steps.
+#: A shape is drawn so many times larger before it is scaled down. 4 gives 16 levels along an edge; 2 shows steps.
 OVERSAMPLING = 4
 #: Half the width of an arrow's head over its length.
 ARROW = 0.62

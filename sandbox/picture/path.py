@@ -29,7 +29,7 @@ CLOSEST, LONGEST, BEND = 3.0, 60.0, 0.12
 #: A run is in slow motion if what matters of it, until the first impact but at least this share of the whole, is over
 #: sooner than this in s; it then lasts at least so long, but is no more than so many times slower.
 STORIES, BRIEF, SEEN, SLOWEST = 0.4, 0.55, 1.0, 16
-#: What jumps at an impact is taken so many s before it; at most at so many impacts.
+#: Values that jump at an impact are sampled so many s before it, too; at most at so many impacts.
 BEFORE, JUMPS = 1e-9, 200
 
 
@@ -52,7 +52,7 @@ def instants(run: Run, pieces: int, names: Collection[str] = ()) -> np.ndarray:
 
 
 def slow_motion(run: Run, ball: str) -> int:
-    """How many times slower a run is shown at first: 1, or a power of two for one that is over too soon to be seen,
+    """The factor by which a run is slowed down at first: 1, or a power of two for one that is over too soon to be seen,
     such as a pitch, a spike, or a serve up to its bounce."""
     strikes = (event.t for event in run.events if event.kind == "impact" and ball in (event.ball, event.partner))
     first = next((t for t in strikes if t > BEFORE), run.duration)
@@ -63,7 +63,7 @@ def slow_motion(run: Run, ball: str) -> int:
 
 
 @dataclass(frozen=True)
-class Mark:
+class ImpactMark:
     """One impact of a ball: where it was touched, in m, and which way from its middle.
 
     ``speed`` is how fast the two came together, whatever the direction, ``hardness`` the part of it that was towards
@@ -78,7 +78,7 @@ class Mark:
     hardness: float
 
 
-class Path:
+class DrawnPath:
     """The path of one ball of a run from its start to the time ``until`` in s."""
 
     def __init__(self, run: Run, name: str = "ball", until: float | None = None):
@@ -91,14 +91,14 @@ class Path:
         self.samples = np.array([*found, (self.until, *run.state(name, self.until)[:2])])
         self.points = self.samples[:, 1:]
 
-    def marks(self) -> Iterator[Mark]:
+    def marks(self) -> Iterator[ImpactMark]:
         """The impacts along the path."""
         for event in self.run.events:
             if event.kind == "impact" and self.name in (event.ball, event.partner) and event.t <= self.until + 1e-9:
                 other = event.partner if event.ball == self.name else event.ball
                 yield self._mark(event, other)
 
-    def _mark(self, event: Event, other: str) -> Mark:
+    def _mark(self, event: Event, other: str) -> ImpactMark:
         surfaces = [s.shape for s in self.run.setup.surfaces if s.name == other]
         others = [(fixed_outline(shape).shape, Pose(0.0, 0.0, 0.0)) for shape in surfaces] or [
             self._outline(other, event.t)
@@ -106,7 +106,7 @@ class Path:
         own, here = self._outline(self.name, event.t)
         found, it, there = min(((nearest(own, here, *it), *it) for it in others), key=lambda near: near[0].gap)
         at = meeting_points(own, here, it, there, (found.nx, found.ny), 0.0)[0]
-        return Mark(event.t, other, at, (-found.nx, -found.ny), self.run.closing_speed(event), event.speed)
+        return ImpactMark(event.t, other, at, (-found.nx, -found.ny), self.run.closing_speed(event), event.speed)
 
     def _outline(self, name: str, t: float) -> tuple[Shape, Pose]:
         """The outline of a ball or body, and where it is at time t in s."""

@@ -15,15 +15,15 @@ from sandbox.picture.palette import palette
 from sandbox.picture.view import View
 
 COLOURS, TRACES = palette("plain"), palette("trace")["colours"]
-#: Of several balls, each in the colour of its path.
+#: The looks of several balls, each in the colour of its path.
 SEVERAL = [Look(colour, seams(COLOURS["marks"])) for colour in TRACES]
 
 
 class Picture(AboveView[Group]):
     """One run, seen by a camera that stands still."""
 
-    LEAST_IMPACT = np.inf  # in a heap, marks would hide the balls
-    SPINS = View.SPINS
+    MIN_IMPACT = np.inf  # in a heap, marks would hide the balls
+    SPIN_NAMES = View.SPIN_NAMES
     ON_DARK = False
 
     def look_of(self, name: str) -> Look:

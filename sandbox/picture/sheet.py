@@ -32,7 +32,7 @@ SQUAREST = 4 / 3
 ROWS_FOR_YARDS, ROWS_FOR_LENGTHS = 480, 240
 
 
-#: How many times as large letters and lines are drawn: more for a small screen with many px.
+#: Factor by which letters and lines are enlarged: more for a small screen with many px.
 DENSITY: ContextVar[float] = ContextVar("density", default=1.0)
 
 

@@ -19,7 +19,7 @@ from sandbox.picture.lettering import Labels, Spot
 from sandbox.picture.marks import draw_mark, draw_trace, label_mark, mark_impacts
 from sandbox.picture.painter import Painter, Point, around_corners
 from sandbox.picture.palette import Colour
-from sandbox.picture.path import FINEST, Mark, apart
+from sandbox.picture.path import FINEST, ImpactMark, apart
 from sandbox.picture.places import Ground, Person, Scenery, Thing
 from sandbox.picture.sheet import CARD, Entry, Sheet, SideRows
 from sandbox.picture.view import P, View
@@ -61,39 +61,39 @@ class Place:
 class SideView(View[P]):
     """A run seen from the side: x along the ground, y up."""
 
-    ONE_GROUND = True
+    SHARED_GROUND = True
 
-    # What a scene may say
+    # Scene options
 
-    #: What the ruler counts below, besides metres above.
+    #: The unit of the ruler's lower row; the upper has metres.
     SECOND_UNIT: ClassVar[str] = "yd"
-    #: Rows of distances between ground and ruler.
-    LENGTHS: ClassVar[int] = 2
-    #: Free px on 720 rows between header and path.
+    #: Rows between ground and ruler for the distances that ``lengths`` returns.
+    LENGTH_ROWS: ClassVar[int] = 2
+    #: Free room between header and path, in px on 720 rows.
     HEADROOM: ClassVar[float] = 24
-    #: A low flight may be drawn so many times as high as it is; inf draws any as high as there is room.
-    STRETCHES: ClassVar[float] = 1.0
-    #: The place is left out of the poster when the path would take up less than this share of it.
-    LEAST_PATH: ClassVar[float] = 0.15
-    #: What a frame's headline counts, besides m.
-    FROM: ClassVar[str] = "from the start"
-    #: The eye is so many px (on 720 rows) above the ground, and looks at this share of the picture's width.
-    LEVEL: ClassVar[float] = 150
-    ASIDE: ClassVar[float] = 0.25
+    #: A low flight is drawn at most so many times as high as it is; inf draws any as high as there is room.
+    MAX_STRETCH: ClassVar[float] = 1.0
+    #: The poster leaves out the ``preferred_view`` if the path would take up less than this share of its width.
+    MIN_PATH_SHARE: ClassVar[float] = 0.15
+    #: The origin of the distance in a frame's headline: 12.3 m "from the hand".
+    MEASURED_FROM: ClassVar[str] = "from the start"
+    #: The eye of the perspective: its height over the ground in px on 720 rows, its column as a share of the width.
+    EYE_HEIGHT: ClassVar[float] = 150
+    EYE_COLUMN: ClassVar[float] = 0.25
 
     @property
     def must_be_visible(self) -> Box | None:
-        """The part of the world that must be seen besides the path, in m, such as who strikes the ball."""
+        """The part of the world that is visible in any case besides the path, in m, such as the player."""
         return None
 
     @property
-    def target(self) -> Box | None:
-        """The part of the world that is seen, in m, unless the path would be too small then."""
+    def preferred_view(self) -> Box | None:
+        """The part of the world, in m, that is visible unless the path would then be too small."""
         return None
 
     @property
-    def near_view(self) -> float:
-        """Frames show this much of the world's length in m, where the poster shows more."""
+    def frame_width(self) -> float:
+        """The width of the world in frames, in m, where the poster shows more."""
         return 36.0
 
     def ground(self, x: np.ndarray) -> np.ndarray:
@@ -121,14 +121,14 @@ class SideView(View[P]):
         return next((colour for colour, _ in ground.edges), ground.surface.colours[0])
 
     def on_map(self, painter: Painter, camera: Camera) -> None:
-        """Draw what is aimed at on the map of frames."""
+        """Draw the target on the map of frames."""
 
     def lengths(self) -> Sequence[Length]:
         """Distances to be drawn along the ground; the first is drawn lowest."""
         return ()
 
-    def closeups_of(self) -> Sequence[Box]:
-        """The parts of the world, in m, that decide the run: enlarged on the poster where there is free sky."""
+    def closeup_boxes(self) -> Sequence[Box]:
+        """The parts of the world, in m, where the run is decided: enlarged on the poster where there is free sky."""
         return ()
 
     @property
@@ -137,12 +137,12 @@ class SideView(View[P]):
         tops = [self.points[:, 1].max() + self.radius, self.subject.top]
         return self.camera.pixel(0.0, float(max(tops)))[1] - 20 * self.unit
 
-    # The same for all
+    # Shared by all scenes
 
     @cached_property
     def rows_at(self) -> SideRows:
         """The rows of ground, lengths and ruler, in px from the top."""
-        return self.sheet.side_rows(len(self.ghosts), self.LENGTHS)
+        return self.sheet.side_rows(len(self.ghosts), self.LENGTH_ROWS)
 
     def base(self, rows: SideRows, scale: float) -> int:
         """The row of the ground, in px, of a picture with ``scale`` px/m."""
@@ -160,8 +160,8 @@ class SideView(View[P]):
         """The part of the world that the poster shows, in m."""
         (left, bottom), (right, top) = self.points.min(axis=0), self.points.max(axis=0)
         seen = _joined(Box(left, bottom, right, top + self.radius), self.must_be_visible)
-        wide = _joined(seen, self.target)
-        if max(seen.right - seen.left, seen.top) >= self.LEAST_PATH * (wide.right - wide.left):
+        wide = _joined(seen, self.preferred_view)
+        if max(seen.right - seen.left, seen.top) >= self.MIN_PATH_SHARE * (wide.right - wide.left):
             seen = wide
         short = max(0.0, LEAST_WIDTH * self.radius - (seen.right - seen.left)) / 2
         seen = seen._replace(left=seen.left - short, right=seen.right + short)
@@ -178,9 +178,9 @@ class SideView(View[P]):
         rise, room = (self.subject.top - self.subject.bottom) * camera.scale, area.bottom - area.top
         low = LEAST_RISE * self.unit < rise < LOW_FLIGHT * room
         stretch = 1.0
-        if low and self.least > LARGE_BALL * self.radius * camera.scale:
-            stretch = min(self.STRETCHES, max(1.0, floor(room / rise)))
-        if isinf(self.STRETCHES):  # in steps of half a power of ten
+        if low and self.min_radius > LARGE_BALL * self.radius * camera.scale:
+            stretch = min(self.MAX_STRETCH, max(1.0, floor(room / rise)))
+        if isinf(self.MAX_STRETCH):  # in steps of half a power of ten
             most = max(1.0, room / rise)
             step = 0.5 * 10.0 ** floor(log10(most))
             stretch = step * floor(most / step)
@@ -188,8 +188,8 @@ class SideView(View[P]):
 
     def eye(self, camera: Camera) -> Eye:
         """Sees the place in central perspective, the plane of play as the camera shows it."""
-        level = camera.anchor[1] - self.LEVEL * self.unit
-        return Eye(camera, self.ASIDE * self.size[0], level, self.size[0] / camera.scale, self.unit)
+        level = camera.anchor[1] - self.EYE_HEIGHT * self.unit
+        return Eye(camera, self.EYE_COLUMN * self.size[0], level, self.size[0] / camera.scale, self.unit)
 
     def seen_from(self, camera: Camera) -> Eye:
         """Sees what the camera shows; a close-up from where the whole is seen."""
@@ -219,7 +219,7 @@ class SideView(View[P]):
     @cached_property
     def home(self) -> Camera:
         """The first camera of the frames: the poster's, or nearer."""
-        width, scale = self.size[0], self.size[0] / self.near_view
+        width, scale = self.size[0], self.size[0] / self.frame_width
         if self.camera.scale >= scale:
             return self.camera
         (x, *_), base = self.path.points[0], self.base(self.sheet.side_rows(len(self.ghosts), 0), scale)
@@ -284,7 +284,7 @@ class SideView(View[P]):
         return Chase(self.run, self.ball, self.home, room, self.ground)
 
     def view(self, t: float) -> Camera:
-        return self.camera if isinf(self.STRETCHES) else self.chase.camera(t)
+        return self.camera if isinf(self.MAX_STRETCH) else self.chase.camera(t)
 
     def moved(self, camera: Camera) -> float:
         """The way that the eye has gone to the right from where it was at first, in px of that distance."""
@@ -295,7 +295,7 @@ class SideView(View[P]):
         return [("height", metres(max(0.0, y - self.radius - self._under(x))))]
 
     def progress(self, t: float) -> tuple[str, str]:
-        return metres(self.run.state(self.ball, t)[0] - self.path.points[0, 0]), self.FROM
+        return metres(self.run.state(self.ball, t)[0] - self.path.points[0, 0]), self.MEASURED_FROM
 
     def _under(self, x: float) -> float:
         return float(self.ground(np.array([x]))[0])
@@ -303,7 +303,7 @@ class SideView(View[P]):
     def spots(self, camera: Camera, points: np.ndarray, radius: float) -> np.ndarray:
         """On the path, raised so that balls which are drawn too large along it lie on the ground and not in it."""
         spots, ground = camera.pixels(points), self.ground(points[:, 0])
-        if isinf(self.STRETCHES):  # heights are to be read
+        if isinf(self.MAX_STRETCH):  # heights are to be read
             return spots
         rows = camera.pixels(np.column_stack([points[:, 0], ground]))[:, 1]
         raised = spots[:, 1] - max(0.0, mark_radius(self.rows) - self.radius * camera.scale)
@@ -365,14 +365,14 @@ class SideView(View[P]):
             return []
         frame, top = self.sheet.frame, round(self.sheet.top_row + 12 * self.unit)
         free = pygame.Rect(frame.left, top, frame.width, round(self.sky) - top)
-        return arranged(self.closeups_of(), free, self.camera, self.unit)
+        return arranged(self.closeup_boxes(), free, self.camera, self.unit)
 
     def belongs(self, camera: Camera, place: tuple[float, float]) -> bool:
         """True if a place in m is labelled in what this camera shows: in a close-up if there is one of it."""
         near = next((near for near in self.closeups if near.shows(place)), None)
         return camera == near.camera if near else not any(camera == other.camera for other in self.closeups)
 
-    def impacts(self, camera: Camera) -> list[Mark]:
+    def impacts(self, camera: Camera) -> list[ImpactMark]:
         return [mark for mark in super().impacts(camera) if self.belongs(camera, mark.at)]
 
     def enlarge(self, sheet: Sheet) -> None:
@@ -454,7 +454,7 @@ class SideView(View[P]):
 class NetView(SideView[P]):
     """The view of a ball that is played over a net: a game whose facts are ``sandbox.sport.net_game.FACTS``."""
 
-    def closeups_of(self) -> list[Box]:
+    def closeup_boxes(self) -> list[Box]:
         """The net as the ball passes it, and the bounce."""
         place, radius = self.parameters, self.radius
         middle, high = 0.5 * place.court.length, place.net.height  # type: ignore[attr-defined]

@@ -67,9 +67,9 @@ class View(BallDrawing[P]):
         parameters: Any = run.scene.parameters
         other = type(self)(run, parameters, self.size)
         ((x, y), what), ((there_x, there_y), _) = self.datum, other.datum
-        if self.ONE_GROUND and there_y != y:
+        if self.SHARED_GROUND and there_y != y:
             raise RequestError(f"{label}: {what} is at {there_y:g} m, and here at {y:g} m: these cannot be compared")
-        return Ghost(label, other, self.EARLIER[i % len(self.EARLIER)], (x - there_x, y - there_y))
+        return Ghost(label, other, self.OTHER_TRACES[i % len(self.OTHER_TRACES)], (x - there_x, y - there_y))
 
     # What a view from the side and one from above say
 

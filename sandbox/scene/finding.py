@@ -26,13 +26,13 @@ from sandbox.toml import read_toml, shown
 
 ENTRY_POINTS = "sandbox.scenes"
 
-#: Most scene files that begin one from the other.
+#: Most scene files that are based on one another.
 MOST_FILES = 30
 
 
 @dataclass(frozen=True)
-class Found:
-    """What a name or a path refers to: a scene, and a file for it after the presets that this begins from."""
+class SceneSource:
+    """The scene that a name or a path refers to, and its scene file, after the presets on which that is based."""
 
     name: str
     folder: Path
@@ -62,7 +62,7 @@ def installed_folder(name: str) -> Path | None:
 
 
 def reference(folder: Path, place: Path) -> str:
-    """How a scene file in ``place`` names the scene in ``folder``: by its name if it is installed, else by a path."""
+    """The text by which a scene file in ``place`` names the scene in ``folder``: its name if installed, else a path."""
     if installed_folder(folder.name) == folder:
         return folder.name
     path = Path(os.path.relpath(folder, place.resolve())).as_posix()
@@ -111,7 +111,7 @@ def _listed(name: str, folder: Path) -> Iterator[Listing]:
         yield Listing(f"{name}/{preset.stem}", first_comment(preset))
 
 
-def find(source: str | Path) -> Found:
+def find(source: str | Path) -> SceneSource:
     """The scene that is meant, and the scene file to read."""
     if not isinstance(source, str | Path):
         raise RequestError(f"{shortened(repr(source))} is not a scene: give its name as text, or the path of its file")
@@ -123,7 +123,7 @@ def find(source: str | Path) -> Found:
         raise RequestError(f"{shortened(repr(source))}: a name or path cannot contain a NUL character") from None
 
 
-def _named(source: str) -> Found:
+def _named(source: str) -> SceneSource:
     name, _, preset = source.partition("/")
     folder = installed_folder(name)
     if folder is not None and (not preset or _is_word(preset)):
@@ -145,8 +145,8 @@ def _is_path(text: str) -> bool:
     return text in (".", "..") or text.startswith(("./", "../")) or Path(text).is_absolute()
 
 
-def _at(path: Path, given: str = "") -> Found:
-    """What a path refers to, ``given`` in these words."""
+def _at(path: Path, given: str = "") -> SceneSource:
+    """The scene that a path refers to; messages call it ``given``."""
     path = path.parent if path.name == "scene.py" else path
     if (path / "scene.py").is_file():
         return _in_folder(path.resolve().name, path)
@@ -159,10 +159,10 @@ def _at(path: Path, given: str = "") -> Found:
     raise RequestError(f"{shortened(given or str(path))}: there is no such folder or file")
 
 
-def _in_folder(name: str, path: Path, preset: str = "") -> Found:
+def _in_folder(name: str, path: Path, preset: str = "") -> SceneSource:
     """The scene of that name in a folder, or a preset of it."""
     folder, file = path.resolve(), _preset(name, path, preset) if preset else default_file(path)
-    return Found(name, folder, [] if file is None else _files(file, name, folder), preset or None)
+    return SceneSource(name, folder, [] if file is None else _files(file, name, folder), preset or None)
 
 
 def _is_word(name: str) -> bool:
@@ -217,14 +217,14 @@ def _preset(name: str, folder: Path, preset: str, where: str = "") -> Path:
     raise RequestError(f"{where}{name} has no preset {preset}; {hint}")
 
 
-def _of_file(path: Path) -> Found:
+def _of_file(path: Path) -> SceneSource:
     """The scene that a scene file is for."""
     values = read_toml(path)
     if "scene" not in values:
         raise RequestError(f'{path}: needs a line that names its scene, such as scene = "golf"{_own_folder(path)}')
     name, folder, _ = _meant(path, values["scene"])
     is_preset = path.resolve().parent == folder / "presets"
-    return Found(name, folder, _files(path, name, folder), path.stem if is_preset else None)
+    return SceneSource(name, folder, _files(path, name, folder), path.stem if is_preset else None)
 
 
 def _files(file: Path, name: str, folder: Path, after: Sequence[Path] = ()) -> list[tuple[Path, dict[str, Any]]]:
@@ -278,7 +278,7 @@ def as_path(folder: Path) -> str:
 
 
 def _own_folder(path: Path) -> str:
-    """How to name a file in the folder of a user's own scene, as the end of a message; "" for any other file."""
+    """A hint on how to name a file in a user's own scene, as the end of a message; "" for any other file."""
     parent = path.parent
     folder = parent.parent if parent.name == "presets" else parent
     if not (folder / "scene.py").is_file():

@@ -19,7 +19,7 @@ from sandbox import display
 from sandbox import parameters as declared
 from sandbox.errors import RequestError, RunError, sys_exit_as_error
 from sandbox.files import from_here
-from sandbox.scene.finding import Found, default_file, docstring, find, first_comment
+from sandbox.scene.finding import SceneSource, default_file, docstring, find, first_comment
 from sandbox.scene.modules import module_in
 from sandbox.sport.controls import Controls
 from sandbox.sport.facts import ENDED, FALLBACK_FACTS, Fact, FinalWhen, fallback_verdict, problem_with
@@ -37,7 +37,7 @@ _PLAIN = {bool, float, type(None)}
 #: Most characters of a fact or a verdict, for which cards and pictures have room.
 LONGEST_TEXT = 400
 _REPORTABLE = f"a number, a text of at most {LONGEST_TEXT} characters, true or false, or a list of those"
-#: How the functions of a scene, and its picture, are called.
+#: The arguments with which the functions of a scene, and its picture, are called.
 CALLS = {
     "build": (("parameters",),),
     "verdict": (("run", "parameters"),),
@@ -279,7 +279,7 @@ def as_scene(scene: Scene | str | Path) -> Scene:
 
 
 def _parameters(
-    found: Found, overrides: Mapping[str, Any] | None = None, overrides_from: str = ""
+    found: SceneSource, overrides: Mapping[str, Any] | None = None, overrides_from: str = ""
 ) -> declared.SceneParameters:
     """The parameters in the scene's own file and in the files that were found, each over the ones before. Raises
     RequestError, which names the first file that is invalid."""
@@ -305,7 +305,7 @@ def _parameters(
 def parameters_of(source: str | Path) -> tuple[str, declared.SceneParameters]:
     """Name and default parameters of the scene that ``source`` names; only the key ``scene`` of a file matters."""
     found = find(source)
-    return found.name, _parameters(Found(found.name, found.folder))
+    return found.name, _parameters(SceneSource(found.name, found.folder))
 
 
 def _check_calls(file: Path, name: str, function: Any) -> None:

@@ -1,4 +1,4 @@
-"""Controls: which parameters a pull of the mouse sets, and which are worth a slider.
+"""Controls: the parameters that a pull of the mouse sets, and those that get a slider.
 
 A scene defines them next to its parameters::
 

@@ -54,8 +54,8 @@ class Sliding(SceneParameters):
     gravity: float = quantity(..., "m/s^2", 0.1, 30, "gravity")
 
 
-class Body(Solid):
-    """A body that slides."""
+class SlidingDisc(Solid):
+    """A disc that slides, such as a stone or a puck."""
 
     mass: float = quantity(..., "kg", 0.001, 100, "mass")
     radius: float = quantity(..., "m", 0.002, 0.5, "radius")

@@ -159,7 +159,7 @@ class Stage:
 
     def colour_of(self, number: int) -> Colour:
         """The colour of an earlier shot, which stays the same; those whose paths are kept differ."""
-        own, usual = self.picture.EARLIER, [each for each in TRACE["colours"] if each != self.picture.TRACE]
+        own, usual = self.picture.OTHER_TRACES, [each for each in TRACE["colours"] if each != self.picture.TRACE]
         colours = list(dict.fromkeys([*own, *usual]))
         round_, place = divmod(number - 1, len(colours))
         towards, share = SHADES[round_ % len(SHADES)]

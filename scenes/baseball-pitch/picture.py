@@ -17,9 +17,9 @@ DEEP, WIDE, TALL, ZONE = 0.43, 0.43, 1.88, palette("card")["accent"]  # m: home 
 
 
 class Picture(SideView[Parameters]):
-    LOOK, TRACE, EARLIER = FlyBall.LOOK, FlyBall.TRACE, FlyBall.EARLIER
+    LOOK, TRACE, OTHER_TRACES = FlyBall.LOOK, FlyBall.TRACE, FlyBall.OTHER_TRACES
     ON_DARK = False
-    LENGTHS, SECOND_UNIT, FROM, ASIDE = 1, "ft", "from the hand", 0.6
+    LENGTH_ROWS, SECOND_UNIT, MEASURED_FROM, EYE_COLUMN = 1, "ft", "from the hand", 0.6
 
     @property
     def aims(self) -> list[Box]:
@@ -27,7 +27,7 @@ class Picture(SideView[Parameters]):
         return [Box(plate.distance, plate.bottom, plate.distance + DEEP, plate.top)]
 
     @property
-    def target(self) -> Box:
+    def preferred_view(self) -> Box:
         return Box(-1.2, 0.0, self.parameters.plate.distance + MITT + 0.8, 2.6)
 
     @cached_property
@@ -46,7 +46,7 @@ class Picture(SideView[Parameters]):
         catcher = Person(front + MITT + 0.35, TALL, COLOURS["batter"], "crouching", facing=-1)
         return Place(Landscape(**COLOURS["landscape"]), ground, [batter, *zone, catcher, pitcher])
 
-    def closeups_of(self) -> list[Box]:
+    def closeup_boxes(self) -> list[Box]:
         """The zone, with batter and catcher."""
         front = self.parameters.plate.distance
         return [Box(front - 2.6, -0.1, front + MITT + 1.0, TALL + 0.2)]

@@ -19,8 +19,8 @@ INFIELD, TRACK, DEEP, POLE = 44.0, 4.6, 60.0, 9.0  # m: dirt, warning track, len
 
 class Picture(SideView[Parameters]):
     LOOK = Look(COLOURS["ball"]["colour"], seams(COLOURS["ball"]["seam"]))
-    TRACE, EARLIER, ON_DARK = COLOURS["trace"], COLOURS["earlier"], False
-    LENGTHS, SECOND_UNIT, FROM, LEVEL, ASIDE = 1, "ft", "from the plate", 90, 0.4
+    TRACE, OTHER_TRACES, ON_DARK = COLOURS["trace"], COLOURS["earlier"], False
+    LENGTH_ROWS, SECOND_UNIT, MEASURED_FROM, EYE_HEIGHT, EYE_COLUMN = 1, "ft", "from the plate", 90, 0.4
 
     @cached_property
     def story_end(self) -> float:
@@ -34,7 +34,7 @@ class Picture(SideView[Parameters]):
         return [Box(fence.distance - 0.5, 0.0, fence.distance + 0.5, fence.height)]
 
     @property
-    def target(self) -> Box:
+    def preferred_view(self) -> Box:
         fence = self.parameters.fence
         return Box(-4.0, 0.0, fence.distance + 2.0, fence.height)
 

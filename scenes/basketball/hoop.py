@@ -70,7 +70,7 @@ class HangingNet:
         self.entered, self.left = self._passage() if run.result["made"] else (np.inf, np.inf)
 
     def _passage(self) -> tuple[float, float]:
-        """When the ball enters the net for the last time, and when it leaves it below, in s."""
+        """The times in s at which the ball enters the net for the last time and leaves it below."""
         floor = on_floor(self.run)
         into = [t for t, _ in self.run.crossings("ball", (0.0, self.top), (0.0, 1.0)) if t <= floor]
         end = self.top - self.length - 0.5 * self.radius

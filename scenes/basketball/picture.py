@@ -33,7 +33,7 @@ from sandbox.kit import (
     scene_colours,
     seams,
 )
-from sandbox.picture.path import Mark
+from sandbox.picture.path import ImpactMark
 
 from . import hoop
 from .scene import Parameters, entry, on_floor
@@ -41,7 +41,7 @@ from .scene import Parameters, entry, on_floor
 CARD, COLOURS = palette("card"), scene_colours(__file__)
 BALL, FLOOR = COLOURS["ball"], COLOURS["floor"]
 
-#: How far behind the board the stand reaches, and before the release the thrower, in m.
+#: Reach in m of the stand behind the board, and of the thrower before the release.
 STAND, THROWER = 2.5, 0.7
 #: A net hangs so far below the ring, in m.
 NET = 0.45
@@ -55,10 +55,10 @@ class Picture(SideView[Parameters]):
     """One shot."""
 
     LOOK = Look(BALL["colour"], seams(BALL["seam"]))
-    TRACE, EARLIER = COLOURS["trace"], COLOURS["earlier"]
-    FAINT = mix(TRACE, COLOURS["hall"]["wall"][1], 0.45)
-    LENGTHS, SECOND_UNIT, FROM = 1, "ft", "from the hand"
-    LEVEL, ASIDE = 128, 0.25
+    TRACE, OTHER_TRACES = COLOURS["trace"], COLOURS["earlier"]
+    FAINT_TRACE = mix(TRACE, COLOURS["hall"]["wall"][1], 0.45)
+    LENGTH_ROWS, SECOND_UNIT, MEASURED_FROM = 1, "ft", "from the hand"
+    EYE_HEIGHT, EYE_COLUMN = 128, 0.25
 
     @cached_property
     def story_end(self) -> float:
@@ -70,7 +70,7 @@ class Picture(SideView[Parameters]):
         return self.ring, "the ring"
 
     @cached_property
-    def span(self) -> float:
+    def strobe_end(self) -> float:
         """Most of the way to the floor, whether the ring is touched or not: balls are as close in all shots."""
         return 0.8 * self.story_end
 
@@ -125,7 +125,7 @@ class Picture(SideView[Parameters]):
         return [Box(x - half, y - NET, back, y + 0.05), Box(x, bottom, back, top)]
 
     @property
-    def target(self) -> Box:
+    def preferred_view(self) -> Box:
         face, _, back, top = self.parameters.board
         return Box(face, 0.0, back + STAND, top)
 
@@ -182,7 +182,7 @@ class Picture(SideView[Parameters]):
         centre, level = camera.pixel(*self.camera.world(eye.centre, eye.level))
         return replace(eye, camera=camera, centre=centre, level=level)
 
-    def impacts(self, camera: Camera) -> list[Mark]:
+    def impacts(self, camera: Camera) -> list[ImpactMark]:
         """Those that this camera shows; the rest are in the lens."""
         marks, here = super().impacts(camera), camera == self.near
         return [mark for mark in marks if not self.beside or here == (self._away(np.array([mark.at]))[0] < 1.0)]

@@ -234,7 +234,7 @@ def court(parameters: Parameters) -> list[Surface]:
 
 
 def on_floor(run: Run) -> float:
-    """When the ball reaches the floor, or the run ends."""
+    """The time in s at which the ball reaches the floor, or the run ends."""
     return next((event.t for event in run.events if event.partner == "floor"), run.duration)
 
 
@@ -245,8 +245,8 @@ def falls_to(run: Run, parameters: Parameters, below: float = 0.0) -> Iterator[t
 
 @cached_per_run
 def out(run: Run, parameters: Parameters) -> float | None:
-    """When the ball left the ring below, between its inner edges, in s; None if it did not before it reached the
-    floor."""
+    """The time in s at which the ball left the ring below, between its inner edges; None if it did not before it
+    reached the floor."""
     falls = falls_to(run, parameters, parameters.ball.radius)
     return next((t for t, state in falls if inside(state, parameters) and t <= on_floor(run)), None)
 
@@ -310,7 +310,7 @@ class Decided(Passes):
 
 
 def decided(parameters: Parameters) -> Decided:
-    """When the shot is decided. In a wind, or with a way out below the board, no ball stays."""
+    """The condition at which the shot is decided. In a wind, or with a way out below the board, no ball stays."""
     ball, hoop, (back, level), wind = parameters.ball, parameters.hoop, parameters.hoop.rims[1], parameters.air.wind
     face, bottom, _, top = parameters.board
     barrier = parameters.gravity * (minimum(level + hoop.tube_radius, top) + ball.radius)

@@ -14,7 +14,7 @@ COLOURS = scene_colours(__file__)
 
 #: Half the angle of a number's white disc, a dot and a stripe, as seen from the ball's centre, deg.
 DISC, DOT, STRIPE = 27, 14, 38
-#: How bright the lamp's image on a ball is.
+#: Brightness of the lamp's image on a ball.
 GLOSS = 0.75
 #: A figure's height over the ball's radius.
 FIGURE = 0.52

@@ -52,8 +52,8 @@ THROAT = mix(COLOURS["cloth"], COLOURS["rim"], 0.5)
 class Picture(AboveView[Parameters]):
     """One shot on a table that stands still."""
 
-    EARLIER = COLOURS["earlier"]
-    SPINS = ("left", "right")  # counter-clockwise is what a tip to the right gives
+    OTHER_TRACES = COLOURS["earlier"]
+    SPIN_NAMES = ("left", "right")  # counter-clockwise is what a tip to the right gives
 
     @property
     def ball(self) -> str:
@@ -108,7 +108,7 @@ class Picture(AboveView[Parameters]):
     def look_of(self, name: str) -> Look:
         return balls.look(name)
 
-    def lying(self, name: str) -> np.ndarray:
+    def initial_turn(self, name: str) -> np.ndarray:
         return balls.lying(name)
 
     def colour_of(self, name: str) -> Colour:
@@ -124,7 +124,7 @@ class Picture(AboveView[Parameters]):
         """Rings where the balls lay, dots along the struck ball's path, the band of striped balls along theirs."""
         painter, unit = sheet.painter, self.unit
         for name in self._movers:
-            at, radius = camera.pixel(*self.run.state(name, 0.0)[:2]), max(self.radius * camera.scale, self.least)
+            at, radius = camera.pixel(*self.run.state(name, 0.0)[:2]), max(self.radius * camera.scale, self.min_radius)
             painter.ring(at, radius - 0.5 * unit, max(1.0, 1.1 * unit), COLOURS["start"], 0.75)
             if balls.striped(name):
                 painter.line(self.traced(camera, self.paths[name].points), 0.9 * unit, COLOURS["ivory"])

@@ -46,8 +46,8 @@ SIDE, RINGS = _side(0.0, 15.0), [_side(*band) for band in BANDS]
 
 
 class Picture(LongView[Parameters]):
-    TRACE, ROOM, EARLIER, WIDER = COLOURS["trace"], COLOURS["hall"], COLOURS["earlier"], 2.0
-    SOFT, CAVEAT = 0.65, "what the pins do is not validated"
+    TRACE, ROOM_COLOUR, OTHER_TRACES, WIDTH_SCALE = COLOURS["trace"], COLOURS["hall"], COLOURS["earlier"], 2.0
+    MIN_IMPACT_SHARE, CAVEAT = 0.65, "what the pins do is not validated"
     whole = Box(-0.7, -KICKBACK - 0.05, HEAD + PIT + 0.28, KICKBACK + 0.05)
     datum = (HEAD, 0.0), "the head pin"
 

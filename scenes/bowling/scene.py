@@ -23,7 +23,7 @@ from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact
 from sandbox.sport.flight import DEGREE
 from sandbox.sport.readings import Moment, before, fact_from
-from sandbox.sport.sliding import Body, Slide, Sliding, beside, beyond, collisions_of, end_of, removed_by
+from sandbox.sport.sliding import Slide, Sliding, SlidingDisc, beside, beyond, collisions_of, end_of, removed_by
 
 #: USBC: from the foul line to the head pin, between pins and between their rows; from the head pin to the pit; half the
 #: widths of lane and lane with gutters; in m.
@@ -57,7 +57,7 @@ class BowlingBall(Group):
     gyration: float = quantity(..., "m", 0.01, 0.08, "radius of gyration")
 
 
-class Pins(Body):
+class Pins(SlidingDisc):
     """The pins, all alike."""
 
     standing: str = text("the numbers of those that stand", may_be_empty=True)

@@ -21,8 +21,8 @@ MARKS = 4  # depths and halvings that are marked, at most or so
 
 class Picture(SideView[Parameters]):
     LOOK, THING = Look(COLOURS["ball"], gloss=0.45), "bullet"
-    TRACE, EARLIER, ON_DARK = COLOURS["trace"], COLOURS["earlier"], False
-    LENGTHS, SECOND_UNIT, FROM, LEVEL, HEADROOM = 0, "ft", "from the muzzle", 40, 60
+    TRACE, OTHER_TRACES, ON_DARK = COLOURS["trace"], COLOURS["earlier"], False
+    LENGTH_ROWS, SECOND_UNIT, MEASURED_FROM, EYE_HEIGHT, HEADROOM = 0, "ft", "from the muzzle", 40, 60
 
     @cached_property
     def subject(self) -> Box:

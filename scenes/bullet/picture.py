@@ -27,7 +27,7 @@ GRASS, DASH = 0.25, 0.012  # room below, as a share of the heights that are seen
 
 @dataclass(frozen=True)
 class Shooter:
-    """Who fires, on a stand, or a gun; a picture of one, for it would be too small to see."""
+    """The shooter on a stand, or a gun: a picture of one, for it would be too small to see."""
 
     muzzle: tuple[float, float]  # m
     calibre: float  # m
@@ -85,22 +85,29 @@ class Target:
 
 class Picture(SideView[Parameters]):
     LOOK, THING = Look(COLOURS["ball"], gloss=0.45), "bullet"
-    TRACE, EARLIER, ON_DARK = COLOURS["trace"], COLOURS["earlier"], False
-    LENGTHS, HEADROOM, FROM, LEVEL, LEAST_PATH, STRETCHES = 0, 92, "from the muzzle", 60, 0.0, inf
+    TRACE, OTHER_TRACES, ON_DARK = COLOURS["trace"], COLOURS["earlier"], False
+    LENGTH_ROWS, HEADROOM, MEASURED_FROM, EYE_HEIGHT, MIN_PATH_SHARE, MAX_STRETCH = (
+        0,
+        92,
+        "from the muzzle",
+        60,
+        0.0,
+        inf,
+    )
 
     @property
     def aims(self) -> list[Box]:
-        far, rise = self.parameters.range.distance, 0.06 * (self.target.top - self.target.bottom)
+        far, rise = self.parameters.range.distance, 0.06 * (self.preferred_view.top - self.preferred_view.bottom)
         return [Box(0.985 * far, -rise, 1.015 * far, rise)]
 
     @cached_property
-    def target(self) -> Box:
+    def preferred_view(self) -> Box:
         far, heights = self.parameters.range.distance, [*self.points[:, 1], 0.0, -0.02]
         low, high = float(min(heights)), float(max(heights))
         return Box(-0.03 * far, low - GRASS * (high - low), 1.02 * far, high)
 
     def ground(self, x: np.ndarray) -> np.ndarray:
-        return np.zeros_like(x) + self.target.bottom
+        return np.zeros_like(x) + self.preferred_view.bottom
 
     def position(self, t: float) -> list[Entry]:
         return [("over sight line", amount(self.run.state(self.ball, t)[1], "m"))]
@@ -111,7 +118,7 @@ class Picture(SideView[Parameters]):
         starts = far * np.arange(-0.05, 1.0, 2.0 * DASH)
         sight = [Post([(x, 0.0, 0.0), (x + DASH * far, 0.0, 0.0)], 0.0, GROUND["sight"]) for x in starts]
         x, y = self.path.points[0].tolist()
-        ends: list[Thing] = [Shooter((x, y), self.radius), Target((far, 0.0), self.target.bottom)]
+        ends: list[Thing] = [Shooter((x, y), self.radius), Target((far, 0.0), self.preferred_view.bottom)]
         return Place(Landscape(**COLOURS["landscape"]), turf(GROUND, 60.0), [*sight, *ends])
 
     def remarks(self, camera: Camera) -> list[str]:

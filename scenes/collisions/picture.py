@@ -52,8 +52,8 @@ class Board:
 
 
 class Picture(AboveView[Parameters]):
-    LEAST_IMPACT = np.inf  # marks would hide the arrows
-    STRING = COLOURS["string"]
+    MIN_IMPACT = np.inf  # marks would hide the arrows
+    STRING_COLOUR = COLOURS["string"]
     DUSK = COLOURS["dusk"]
 
     @property

@@ -23,7 +23,7 @@ LOOKS = {
 
 
 class Picture(LongView[Parameters]):
-    TRACE, EARLIER, CAVEAT = COLOURS["trace"], COLOURS["earlier"], "sweeping and blows not validated"
+    TRACE, OTHER_TRACES, CAVEAT = COLOURS["trace"], COLOURS["earlier"], "sweeping and blows not validated"
     datum = (0.0, 0.0), "the tee"
     lines = {"hog line": HOG, "tee line": 0.0}
 

@@ -23,7 +23,17 @@ from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact
 from sandbox.sport.readings import fact_from, passing
-from sandbox.sport.sliding import REST_TIME, Body, Sliding, beside, beyond, end_of, in_play, lateral_offset, removed_by
+from sandbox.sport.sliding import (
+    REST_TIME,
+    Sliding,
+    SlidingDisc,
+    beside,
+    beyond,
+    end_of,
+    in_play,
+    lateral_offset,
+    removed_by,
+)
 
 Team = Literal["red", "yellow"]
 #: The sheet (World Curling, rule R1), in m from the tee: back line, hog line, the one of release; radii of the rings.
@@ -61,7 +71,7 @@ class Parameters(Sliding):
     sweep: Sweeping = group(..., "sweeping")
     ice: Ice = group(..., "the ice")
     width: float = quantity(..., "m", 2, 6, "of the sheet, between the side lines")
-    stone: Body = group(..., "the stones")
+    stone: SlidingDisc = group(..., "the stones")
 
 
 CONTROLS = Controls(
@@ -95,7 +105,7 @@ def _ice(parameters: Parameters) -> CurlingIce:
 
 
 def team_of(name: str, parameters: Parameters) -> str:
-    """Whose stone it is."""
+    """The team of a stone, by its name."""
     return parameters.team if name == DELIVERED else name.partition(" ")[0]
 
 
@@ -108,7 +118,7 @@ def _lie(run: Run, parameters: Parameters) -> dict[str, Vector]:
 
 
 def _score(run: Run, parameters: Parameters) -> tuple[str, int]:
-    """Who would score, and how many: the stones in the house that are nearer to the tee than any of the others'."""
+    """The team that would score, and its points: its stones in the house, nearer to the tee than all others'."""
     far = sorted((hypot(*place), team_of(name, parameters)) for name, place in _lie(run, parameters).items())
     house = [team for distance, team in far if distance < RINGS[0] + parameters.stone.radius]
     others = next((i for i, team in enumerate(house) if team != house[0]), len(house))

@@ -18,11 +18,11 @@ UPRIGHT, APART, TALL, DEEP = 10.67, 5.64, 1.85, 48.8  # m: above the bar and bet
 
 class Picture(SideView[Parameters]):
     LOOK = Look(COLOURS["ball"])
-    TRACE, EARLIER = COLOURS["trace"], COLOURS["earlier"]
-    LENGTHS, FROM, THING = 1, "from the kick", "ball"
+    TRACE, OTHER_TRACES = COLOURS["trace"], COLOURS["earlier"]
+    LENGTH_ROWS, MEASURED_FROM, THING = 1, "from the kick", "ball"
 
     @property
-    def near_view(self) -> float:
+    def frame_width(self) -> float:
         """So much that the uprights, of which the nearer one looks larger, end below the headline."""
         rows, tall = self.sheet.side_rows(len(self.ghosts), 0), 1.1 * (self.parameters.goal.height + UPRIGHT)
         return tall * self.size[0] / (rows.base - rows.top)
@@ -37,7 +37,7 @@ class Picture(SideView[Parameters]):
         return [Box(goal.distance - 1.5, 0.0, goal.distance + 2.0, goal.height + UPRIGHT)] if goal.present else []
 
     @property
-    def target(self) -> Box | None:
+    def preferred_view(self) -> Box | None:
         goal = self.parameters.goal
         return Box(goal.distance, 0.0, goal.distance + 3.0, goal.height + 3.0) if goal.present else None
 

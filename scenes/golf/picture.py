@@ -50,7 +50,7 @@ LEAST_GRAVITY = 5.0
 STRIPE, LEAST_APEX = 70, 44
 #: Height of the flagstick in m, and scale of things at the far side of the fairway, compared with the line of play.
 FLAGSTICK, FAR = 2.13, 0.42
-#: How deep the turf is that is cut open, and a hollow at most, in px on 720 rows; a cup is drawn that is so wide.
+#: Depth of the turf that is cut open, and most of a hollow, in px on 720 rows; a cup of this width is drawn.
 TURF, HOLLOW, LEAST_CUP = 7, 16, 10
 #: Frames show at most this much of the world's length, in m.
 WIDEST_VIEW = 64.0
@@ -66,11 +66,11 @@ class Picture(SideView[Parameters]):
 
     LOOK = Look(BALL["colour"], Mark(BALL["mark"], _stripe, least=6), dimples(BALL["dimple"]))
     HEADROOM = 40
-    STRETCHES = 2.0
-    LEAST_PATH = 0.2
-    LEAST_IMPACT, SOFT = 1.0, 0.25
-    TRAIL, LEAST_SPAN = 1.4, 0.4
-    LEVEL, ASIDE = 58, 0.5
+    MAX_STRETCH = 2.0
+    MIN_PATH_SHARE = 0.2
+    MIN_IMPACT, MIN_IMPACT_SHARE = 1.0, 0.25
+    TRAIL, MIN_STROBE_SHARE = 1.4, 0.4
+    EYE_HEIGHT, EYE_COLUMN = 58, 0.5
 
     @cached_property
     def on_dark(self) -> bool:
@@ -82,11 +82,11 @@ class Picture(SideView[Parameters]):
         return (self.pin, 0.0), "the pin"
 
     @property
-    def target(self) -> Box:
+    def preferred_view(self) -> Box:
         return Box(self.pin, 0.0, self.pin, 0.0)
 
     @property
-    def near_view(self) -> float:
+    def frame_width(self) -> float:
         return min(WIDEST_VIEW, max(0.35 * float(np.ptp(self.path.points[:, 0])), 100 * self.radius))
 
     # The place
@@ -236,7 +236,7 @@ class Picture(SideView[Parameters]):
     def sky(self) -> float:
         return min(super().sky, self.flag_box(self.camera).top - 36 * self.unit)
 
-    def closeups_of(self) -> list[Box]:
+    def closeup_boxes(self) -> list[Box]:
         """The cup, as a putt comes to it."""
         cup = self.cup
         wide = cup.right - cup.left

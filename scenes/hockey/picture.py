@@ -26,7 +26,7 @@ LOOKS = {name: Look(COLOURS[name], MARK, gloss=0.6) for name in ("puck", "air_pu
 #: across to all of them; radii of circles, creases and spots; widths of the wide and the thin lines; depth of a goal.
 BLUE, NEUTRAL, END, ASIDE, RING, CREASE = 7.62, 6.1, 6.1, 6.706, 4.572, 1.83
 SPOT, WIDE, THIN, DEPTH = 0.3, 0.3, 0.05, 1.0
-#: How thick the boards are, as a share of the rink's width; how far the hall goes on; a post's radius; a goal's height;
+#: Thickness of the boards, as a share of the rink's width; reach of the hall; a post's radius; a goal's height;
 #: between the holes of an air table.
 BOARDS, FAR, POST, HEIGHT, HOLES = 0.025, 200.0, 0.03, 1.22, 0.075
 
@@ -37,7 +37,7 @@ BOTH = (-1, 1)
 
 
 class Picture(AboveView[Parameters]):
-    EARLIER, THING, CAVEAT = COLOURS["earlier"], "puck", "not validated"
+    OTHER_TRACES, THING, CAVEAT = COLOURS["earlier"], "puck", "not validated"
 
     @property
     def table(self) -> bool:

@@ -23,7 +23,7 @@ from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact
 from sandbox.sport.readings import before
-from sandbox.sport.sliding import Body, Slide, Sliding, check_inside, collisions_of, end_of, removed_by, rounded
+from sandbox.sport.sliding import Slide, Sliding, SlidingDisc, check_inside, collisions_of, end_of, removed_by, rounded
 
 DECIDING = {"goal", "goalie", "defender", "receiver"}
 POST, DEPTH = 0.030, 1.0  # m: radius of a post (NHL rule 2.1), depth of the net
@@ -71,8 +71,8 @@ class Parameters(Sliding):
 
     launch: Launch = group(..., "the puck as it leaves the stick")
     players: list[Player] = groups(..., "who is on the ice")
-    player: Body = group(..., "what they are, and how the puck meets them")
-    puck: Body = group(..., "the puck, and how it meets the boards")
+    player: SlidingDisc = group(..., "what they are, and how the puck meets them")
+    puck: SlidingDisc = group(..., "the puck, and how it meets the boards")
     rink: Rink = group(..., "the ice, or the table")
     duration: float = quantity(..., "s", 0.1, 60, "shown at most")
 
@@ -119,7 +119,7 @@ def touches(run: Run, parameters: Parameters) -> list[str]:
 
 
 def decided(run: Run, parameters: Parameters) -> tuple[float, str]:
-    """When, in s, and by whom or what the shot is decided: the goal or the first player; "" where by none."""
+    """The time in s at which the shot is decided, and by the goal or which player; "" where by none."""
     found = ((event.t, what.partition(" ")[0]) for what, event in collisions_of(run, "puck"))
     return next(((t, what) for t, what in found if what in DECIDING), (run.duration, ""))
 

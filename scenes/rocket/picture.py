@@ -28,15 +28,15 @@ FLAME = Silhouette(BODY["hull"], *zip(FLAMES, BODY["flame"], strict=True))
 
 class Picture(SideView[Parameters]):
     LOOK, THING = ROCKET, "rocket"
-    TRACE, EARLIER, ON_DARK = COLOURS["trace"], COLOURS["earlier"], False
-    LENGTHS, SECOND_UNIT, LEVEL, ASIDE, HEADROOM, STRETCHES = 1, "ft", 70, 0.4, 44, 5.0
+    TRACE, OTHER_TRACES, ON_DARK = COLOURS["trace"], COLOURS["earlier"], False
+    LENGTH_ROWS, SECOND_UNIT, EYE_HEIGHT, EYE_COLUMN, HEADROOM, MAX_STRETCH = 1, "ft", 70, 0.4, 44, 5.0
 
     @property
     def must_be_visible(self) -> Box:
         return Box(-1.0, 0.0, 1.0, self.parameters.launch.rail + 0.5)
 
     @cached_property
-    def span(self) -> float:
+    def strobe_end(self) -> float:
         return self.run.duration
 
     @cached_property

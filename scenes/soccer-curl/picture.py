@@ -36,9 +36,9 @@ BEYOND = 0.2
 class Picture(AboveView[Parameters]):
     """One kick, seen by a camera that stays near the ball."""
 
-    LOOK, TRACE, EARLIER = FromTheSide.LOOK, FromTheSide.TRACE, FromTheSide.EARLIER
-    FAINT = mix(TRACE, COLOURS["grass"][0], 0.3)
-    TRAIL, LEAST_SPAN, NEAREST, DUSK = 0.4, 0.6, 34.0, COLOURS["dusk"]
+    LOOK, TRACE, OTHER_TRACES = FromTheSide.LOOK, FromTheSide.TRACE, FromTheSide.OTHER_TRACES
+    FAINT_TRACE = mix(TRACE, COLOURS["grass"][0], 0.3)
+    TRAIL, MIN_STROBE_SHARE, FRAME_WIDTH, DUSK = 0.4, 0.6, 34.0, COLOURS["dusk"]
 
     @property
     def balls(self) -> list[str]:

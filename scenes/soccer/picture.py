@@ -41,7 +41,7 @@ KICKER, LEAST_TOP = 1.5, 2.7
 GOAL_WIDTH, BOARD = 7.32, 8.0
 #: Boards are drawn if the ball comes so near to them, in m.
 NEARBY = 20.0
-#: How much smaller things look at the boards on the far side.
+#: Scale of things at the boards on the far side.
 FAR = 0.38
 #: Players of the wall stand so far apart, in m; they are this tall unless they jump or the wall is low.
 PLAYERS, ABREAST, BEHIND, TALL, LEAST_TALL, HIGHEST = 4, 0.62, 0.5, 1.88, 1.55, 2.6
@@ -51,12 +51,12 @@ class Picture(SideView[Parameters]):
     """One kick."""
 
     LOOK = Look(BALL["colour"], patches(BALL["patch"]))
-    TRACE, EARLIER = COLOURS["trace"], COLOURS["earlier"]
-    FAINT = mix(TRACE, PITCH["grass"][0], 0.4)
+    TRACE, OTHER_TRACES = COLOURS["trace"], COLOURS["earlier"]
+    FAINT_TRACE = mix(TRACE, PITCH["grass"][0], 0.4)
     TRAIL = 0.6
-    LEAST_IMPACT = 1.5
-    LEVEL, ASIDE = 152, 0.2
-    FROM = "from the kick"
+    MIN_IMPACT = 1.5
+    EYE_HEIGHT, EYE_COLUMN = 152, 0.2
+    MEASURED_FROM = "from the kick"
 
     @cached_property
     def story_end(self) -> float:
@@ -79,7 +79,7 @@ class Picture(SideView[Parameters]):
         return [Box(goal.distance, 0.0, goal.distance + goal.depth, goal.height)] if goal.present else []
 
     @property
-    def target(self) -> Box:
+    def preferred_view(self) -> Box:
         goal = self.parameters.goal
         return Box(goal.distance, 0.0, goal.distance + goal.depth, goal.height + 0.3 if goal.present else 0.0)
 

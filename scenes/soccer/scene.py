@@ -192,14 +192,14 @@ at_wall, at_goal = passing_at(lambda it: it.wall.distance), passing_at(lambda it
 
 @cached_per_run
 def scored(run: Run, parameters: Parameters) -> float | None:
-    """When the ball was in the goal, under the bar; None if never."""
+    """The time in s at which the ball was in the goal, under the bar; None if never."""
     goal = parameters.goal
     entries = goal.entries(run, parameters.ball.radius)
     return next((t for t, state in entries if goal.present and state[1] < goal.height), None)
 
 
 def entered(parameters: Parameters) -> Passes:
-    """When it is known that a kick is a goal, well under the bar; that it is none is known at the end."""
+    """The condition at which a kick is known to be a goal, well under the bar; that it is none is known at the end."""
     goal = parameters.goal
     line, top = goal.over_line(parameters.ball.radius), goal.height - UNDER if goal.present else 0.0
     return Passes("nothing", 1, (line, 0.0), (line, top))

@@ -23,8 +23,8 @@ LOOKS = [Look(ball["colour"], seams(ball["seam"])) for ball in (COURT["ball"], T
 
 
 class Picture(NetView[Parameters]):
-    TRACE, EARLIER = COLOURS["trace"], COLOURS["earlier"]
-    LENGTHS, SECOND_UNIT, FROM = 0, "ft", "from the racket"
+    TRACE, OTHER_TRACES = COLOURS["trace"], COLOURS["earlier"]
+    LENGTH_ROWS, SECOND_UNIT, MEASURED_FROM = 0, "ft", "from the racket"
 
     @property
     def aims(self) -> list[Box]:
@@ -33,7 +33,7 @@ class Picture(NetView[Parameters]):
         return [Box(middle - 0.1, 0.0, middle + 0.1, high), Box(middle, -0.05, 2.0 * middle, 0.05)]
 
     @property
-    def target(self) -> Box:
+    def preferred_view(self) -> Box:
         end, left = self.parameters.court.length, self.parameters.release.place - 0.7
         right = max(0.3 + 1.1 * end, float(self.path.points[-1, 0]) + 0.6 * TALL)
         return Box(min(-0.3 - 0.04 * end, left), 0.0, right, 2.0 - self.parameters.court.table)

@@ -18,8 +18,8 @@ UP = 1.20  # of the hand, in heights of the athlete
 
 class Picture(SideView[Parameters]):
     LOOK = Look(COLOURS["ball"], gloss=0.45)  # smooth iron
-    TRACE, EARLIER = COLOURS["trace"], COLOURS["earlier"]
-    LENGTHS, SECOND_UNIT, FROM = 1, "ft", "from the board"
+    TRACE, OTHER_TRACES = COLOURS["trace"], COLOURS["earlier"]
+    LENGTH_ROWS, SECOND_UNIT, MEASURED_FROM = 1, "ft", "from the board"
 
     @property
     def aims(self) -> list[Box]:
@@ -27,7 +27,7 @@ class Picture(SideView[Parameters]):
         return [Box(self.parameters.record - 0.1, 0.0, self.parameters.record + 0.4, 0.9)]
 
     @property
-    def target(self) -> Box:
+    def preferred_view(self) -> Box:
         return Box(-CIRCLE - 0.3, 0.0, self.parameters.record + 1.5, 2.5)
 
     @cached_property

@@ -22,8 +22,8 @@ PLAYERS = (
 
 class Picture(NetView[Parameters]):
     LOOK = Look(COLOURS["ball"]["colour"], seams(COLOURS["ball"]["seam"]))
-    TRACE, FAINT, EARLIER = COLOURS["trace"], COLOURS["trace"], COLOURS["earlier"]
-    LENGTHS, SECOND_UNIT = 0, "ft"
+    TRACE, FAINT_TRACE, OTHER_TRACES = COLOURS["trace"], COLOURS["trace"], COLOURS["earlier"]
+    LENGTH_ROWS, SECOND_UNIT = 0, "ft"
 
     @property
     def aims(self) -> list[Box]:
@@ -32,7 +32,7 @@ class Picture(NetView[Parameters]):
         return [Box(middle - 0.1, 0.0, middle + 0.1, high), Box(middle, -0.05, 2.0 * middle, 0.05)]
 
     @property
-    def target(self) -> Box:
+    def preferred_view(self) -> Box:
         return Box(-1.0, 0.0, self.parameters.court.length + 1.0, 1.4 * self.parameters.net.height)
 
     @cached_property

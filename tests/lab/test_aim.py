@@ -15,8 +15,8 @@ from PIL import Image
 from sandbox.cli import main
 from sandbox.errors import RequestError, RunError
 from sandbox.lab.aim import Target, aim, as_target, parse_target, search
-from sandbox.lab.aim.greatest import peak
-from sandbox.lab.aim.question import GREATEST
+from sandbox.lab.aim.maximize import peak
+from sandbox.lab.aim.question import MAXIMIZE
 from sandbox.lab.aim.report import as_json, as_text
 from sandbox.lab.axes import Span, parse_span
 from sandbox.lab.runs import runs
@@ -226,7 +226,7 @@ def test_the_greatest_value_is_found(vacuum):
     assert farthest.result["carry"] == pytest.approx(SPEED**2 / GRAVITY, abs=1e-8)
     found = aim(vacuum, {"launch.angle": (5, 85), "launch.speed": (20, 50)}, maximize="carry")
     assert found.solutions[0].values == pytest.approx({"launch.angle": 45.0, "launch.speed": 50.0}, abs=1e-4)
-    assert "greatest carry" in repr(found)
+    assert "maximum carry" in repr(found)
     with pytest.raises(RequestError, match="--maximize holed: is true or false, not a number"):
         aim(vacuum, {"launch.angle": (5, 85)}, maximize="holed")
 
@@ -282,7 +282,7 @@ def test_what_is_named_twice_is_told():
     for spans, targets, told in (
         ([height, height], [bounces, bounces], "--vary launch.height: given twice"),
         ([height], [bounces, bounces], "--target bounces: given twice"),
-        ([height], [bounces, Target("bounces", GREATEST)], "--target bounces: --maximize names the same number"),
+        ([height], [bounces, Target("bounces", MAXIMIZE)], "--target bounces: --maximize names the same number"),
     ):
         with pytest.raises(RequestError, match=told):
             search(scene, spans, targets)

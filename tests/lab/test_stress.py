@@ -18,7 +18,7 @@ from sandbox.engine.model.shapes import box
 from sandbox.engine.model.surface import Circle, Segment, Surface
 from sandbox.engine.paths.run import Run
 from sandbox.lab import stress as lab
-from sandbox.lab.extremes import Extreme, bare, of_scene
+from sandbox.lab.extremes import Extreme, of_scene, setups_without_scene
 from sandbox.lab.stress import FAILED, HELD, REFUSED, Outcome, tried
 from sandbox.physics.forces import Gravity
 from sandbox.scene import load
@@ -33,7 +33,7 @@ def one(extreme: Extreme, method: str) -> Outcome:
     return next(outcome for outcome in tried("", extreme, methods=[method]))
 
 
-BARE = {extreme.name: extreme for extreme in bare()}
+BARE = {extreme.name: extreme for extreme in setups_without_scene()}
 
 
 # What is promised ----------------------------------------------------------------------------------------------------

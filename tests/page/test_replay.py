@@ -68,7 +68,7 @@ def test_every_instant_is_that_of_python(browser, pages, name: str):
                 np.testing.assert_allclose(matrix[i], view.turn(ball, t), atol=1e-6)
             else:
                 assert angle[i] == pytest.approx(run.angle(ball, t), abs=1e-9)
-    radius, places = view.least, [balls[0][:2] for balls in states]
+    radius, places = view.min_radius, [balls[0][:2] for balls in states]
     spots = browser.run("arguments[0].map(([x, y]) => player.spot(x, y, arguments[1]))", places, radius)
     first = np.array([run.state(view.balls[0], t)[:2] for t in times])
     np.testing.assert_allclose(spots, view.spots(view.camera, first, radius), atol=0.5)

@@ -47,7 +47,7 @@ def test_the_table_is_whole_legible_and_its_balls_large_enough(name, size):
     picture = picture_of(name, size)
     assert picture.poster().get_size() == size
     assert_legible(picture.sheet)
-    drawn = max(picture.radius * picture.camera.scale, picture.least)
+    drawn = max(picture.radius * picture.camera.scale, picture.min_radius)
     assert 2 * drawn >= 7  # px
     said = any("balls drawn" in text for text, _ in picture.sheet.written)
     assert said == (drawn > 1.001 * picture.radius * picture.camera.scale)

@@ -105,4 +105,4 @@ def test_other_runs_are_unlike_the_run_and_the_hall():
     court = scene_colours(str(run_of("basketball").scene.folder / "picture.py"))
     for colour in (court["trace"], *court["hall"]["wall"], *court["floor"]["wood"][:2]):
         assert dist(picture.ghosts[0].light, colour) > 90  # of 442 levels from black to white
-    assert [ghost.colour for ghost in picture.ghosts] == list(picture.EARLIER)[:1]
+    assert [ghost.colour for ghost in picture.ghosts] == list(picture.OTHER_TRACES)[:1]

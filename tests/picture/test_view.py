@@ -16,6 +16,7 @@ from sandbox.picture.ball import Look
 from sandbox.picture.painter import Painter
 from sandbox.picture.places import Landscape, Person, Stands, Stripes
 from sandbox.picture.view import View
+from sandbox.renamed import OPTIONS
 from tests.scenes.play import run_of
 
 SIDE = ["golf", "golf/golf-game", "golf/putt", "soccer", "soccer/goal-kick-in-a-gale", "basketball/rattle"]
@@ -206,7 +207,7 @@ def test_a_lens_shows_the_path_of_a_ball_that_is_aimed():
 
 def test_a_frame_notes_that_only_the_smaller_ball_is_enlarged():
     picture = picture_of("collisions/heavy-on-light", (480, 270))
-    assert picture.radius * picture.camera.scale > picture.least
+    assert picture.radius * picture.camera.scale > picture.min_radius
     picture.frame(0.0)
     assert "balls drawn larger than they are" in written(picture)
 
@@ -249,7 +250,7 @@ def test_a_ball_crosses_nobody(name: str):
         assert not inside.all(axis=1).any()
 
 
-@pytest.mark.parametrize(("old", "new"), [("told", "story_end"), ("company", "must_be_visible")])
+@pytest.mark.parametrize(("old", "new"), [*OPTIONS.items()])
 def test_an_option_that_was_called_otherwise_is_named(old: str, new: str):
     with pytest.raises(sandbox.RequestError, match=f"Mine.{old} is now {new}"):
         type("Mine", (View,), {old: 1.0})

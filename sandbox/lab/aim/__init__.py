@@ -13,10 +13,10 @@ from pathlib import Path
 from typing import Any
 
 from sandbox.errors import RequestError
-from sandbox.lab.aim.greatest import greatest
 from sandbox.lab.aim.intervals import intervals
+from sandbox.lab.aim.maximize import maximize
 from sandbox.lab.aim.pair import pairs
-from sandbox.lab.aim.question import GREATEST, Aim, Target, Trial, as_target, parse_target
+from sandbox.lab.aim.question import MAXIMIZE, Aim, Target, Trial, as_target, parse_target
 from sandbox.lab.aim.regions import regions
 from sandbox.lab.aim.scalar import roots_of
 from sandbox.lab.aim.shots import Shots
@@ -50,7 +50,7 @@ def aim(
             raise RequestError(f"vary {key}: only numbers have a range, (low, high), but this is {given!r}")
         spans.append(axis)
     targets = [as_target(name, value, chosen) for name, value in (target or {}).items()]
-    return search(chosen, spans, [*targets, *([] if maximize is None else [Target(maximize, GREATEST)])], progress)
+    return search(chosen, spans, [*targets, *([] if maximize is None else [Target(maximize, MAXIMIZE)])], progress)
 
 
 def search(scene: Scene, spans: Sequence[Span], targets: Sequence[Target], progress: Progress = no_progress) -> Aim:
@@ -62,7 +62,7 @@ def search(scene: Scene, spans: Sequence[Span], targets: Sequence[Target], progr
     for option, names in (("--vary", [span.key for span in spans]), ("--target", [each.name for each in targets])):
         twice = next((name for name in names if names.count(name) > 1), None)
         if twice is not None:
-            both = any(each.name == twice and each.value is GREATEST for each in targets)
+            both = any(each.name == twice and each.value is MAXIMIZE for each in targets)
             why = "--maximize names the same number; give one of the two" if both else "given twice"
             raise RequestError(f"{option} {twice}: {why}")
     numbers = [target.is_number for target in targets]
@@ -74,8 +74,8 @@ def search(scene: Scene, spans: Sequence[Span], targets: Sequence[Target], progr
         )
     shots = Shots(scene, spans, targets, progress)
     jumps: list[tuple[Trial, Trial]] = []
-    if targets[0].value is GREATEST:
-        solutions = greatest(shots)
+    if targets[0].value is MAXIMIZE:
+        solutions = maximize(shots)
     elif len(targets) == 2:
         solutions = pairs(shots)
     elif numbers[0]:

@@ -8,7 +8,7 @@ from math import hypot, inf
 
 import numpy as np
 
-from sandbox.lab.aim.greatest import peak
+from sandbox.lab.aim.maximize import peak
 from sandbox.lab.aim.question import Solution
 from sandbox.lab.aim.root import SAME, STEP, is_met, solution
 from sandbox.lab.aim.shots import Shots

@@ -14,7 +14,7 @@ from sandbox.lab.axes import Span
 from sandbox.scene import Scene
 
 #: The wanted value of a number that is to be as great as possible.
-GREATEST = object()
+MAXIMIZE = object()
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class Target:
         return isinstance(self.value, float)
 
     def __str__(self) -> str:
-        return f"greatest {self.name}" if self.value is GREATEST else f"{self.name} = {self.value}"
+        return f"maximum {self.name}" if self.value is MAXIMIZE else f"{self.name} = {self.value}"
 
     def met(self, value: Any) -> bool:
         """True if a run's value is the wanted one, or holds it; for targets that are not numbers."""

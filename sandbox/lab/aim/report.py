@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from sandbox.files import json_text
-from sandbox.lab.aim.question import GREATEST, Aim, Interval, Solution, Target, Trial
+from sandbox.lab.aim.question import MAXIMIZE, Aim, Interval, Solution, Target, Trial
 from sandbox.lab.axes import label, result_label, unit_of
 from sandbox.lab.chart import chart, legend, mark
 from sandbox.lab.tables import paragraph, table
@@ -32,8 +32,8 @@ def as_json(aim: Aim) -> str:
         "scene": aim.scene.name,
         "preset": aim.scene.preset,
         "vary": {span.key: [span.low, span.high] for span in aim.spans},
-        "target": {target.name: target.value for target in aim.targets if target.value is not GREATEST},
-        "maximize": next((target.name for target in aim.targets if target.value is GREATEST), None),
+        "target": {target.name: target.value for target in aim.targets if target.value is not MAXIMIZE},
+        "maximize": next((target.name for target in aim.targets if target.value is MAXIMIZE), None),
         "solutions": [_solution(solution) for solution in aim.solutions],
         "nearest": None if aim.nearest is None else _try(aim, aim.nearest) | {"misses": aim.misses},
         "jumps": [[_try(aim, side) for side in jump] for jump in aim.jumps],
@@ -108,7 +108,7 @@ def _question(aim: Aim) -> str:
 
 
 def _wanted(target: Target, aim: Aim) -> str:
-    return str(target) if target.value is GREATEST else f"{target.name} = {_value(target, aim)}"
+    return str(target) if target.value is MAXIMIZE else f"{target.name} = {_value(target, aim)}"
 
 
 def _value(target: Target, aim: Aim) -> str:
@@ -226,7 +226,7 @@ def draw(aim: Aim, path: Path) -> None:
             _draw_two(axes, aim, colours)
         elif len(aim.spans) == 2:
             _draw_plane(axes, aim, colours)
-        elif aim.targets[0].is_number or aim.targets[0].value is GREATEST:
+        elif aim.targets[0].is_number or aim.targets[0].value is MAXIMIZE:
             _draw_one(axes, aim, colours)
         else:
             _draw_intervals(axes, aim, colours)
@@ -277,7 +277,7 @@ def _draw_two(axes: Any, aim: Aim, colours: Mapping[str, Any]) -> None:
 def _draw_plane(axes: Any, aim: Aim, colours: Mapping[str, Any]) -> None:
     """All tries by two parameters: whether they meet the target, or how great the number is."""
     card, target = colours["card"], aim.targets[0]
-    if target.value is GREATEST:
+    if target.value is MAXIMIZE:
         tries = [each for each in aim.tries if each.found[0] is not None]
         places, heights = list(zip(*(each.values for each in tries), strict=True)), [each.found[0] for each in tries]
         axes.figure.colorbar(axes.scatter(*places, c=heights, s=9), label=result_label(aim.scene, target.name))

@@ -8,7 +8,7 @@ from math import copysign, inf, isfinite
 
 import numpy as np
 
-from sandbox.lab.aim.greatest import peak
+from sandbox.lab.aim.maximize import peak
 from sandbox.lab.aim.question import Solution, Trial
 from sandbox.lab.aim.root import SAME, bracketed, is_met, solution
 from sandbox.lab.aim.shots import SCAN, Shots, scan

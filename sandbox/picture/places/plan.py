@@ -19,7 +19,7 @@ from sandbox.picture.painter import Painter, Point, blank, from_coverage
 from sandbox.picture.palette import Colour
 from sandbox.picture.places.things import SHADOW, unit_of
 
-#: What would be smaller is drawn so large, px on 720 rows: width of a line, a stripe, a person.
+#: The smallest width of a line, a stripe and a person, in px on 720 rows.
 LEAST_LINE, LEAST_STRIPE, LEAST_PERSON = 1.3, 10.0, 9.0
 #: Shoulders are so broad, in m.
 BREADTH = 0.5

@@ -19,9 +19,9 @@ HALL, SHADOW, WHITE = palette("hall"), palette("card")["shadow"], (255, 255, 255
 
 #: Heads larger than this, in px, have shoulders below them.
 SHOULDERS = 4
-#: Where an evening sky has its middle colour, on the way down to the stands.
+#: Height of an evening sky's middle colour, as a share of the way down to the stands.
 TURN = 0.62
-#: How far each layer of a landscape moves when the eye moves by 1 px: the far hills hardly, the near trees most.
+#: Motion of each layer of a landscape in px when the eye moves by 1 px: the far hills least, the near trees most.
 CLOUDS, HILLS, TREES = 0.01, (0.02, 0.04, 0.08), 0.16
 
 #: A surface at least as wide as the picture, whose ends join; the row of its top in px; how far it moves to the left

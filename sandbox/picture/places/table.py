@@ -22,13 +22,13 @@ from sandbox.picture.places.things import Shape
 
 #: Light is computed at every so many px and smoothed between.
 COARSE = 4
-#: How much of the light in the middle is left at the table's corners, and the colour of what is left of white there.
+#: Share of the light in the middle that reaches the table's corners, and the colour of white there.
 AT_CORNER, WARM = 0.56, (1.0, 0.985, 0.955)
 #: Streaks of grain on each rail.
 GRAIN = 16
-#: How round the rails' outer corners are, in m.
+#: Radius of the rails' outer corners, in m.
 CORNER = 0.055
-#: How wide things are in m: the lip on the rails' inside, the leather round a pocket, a sight.
+#: Widths in m: of the lip on the rails' inside, the leather round a pocket, a sight.
 LIP, LEATHER, SIGHT = 0.009, 0.018, 0.010
 #: The cushions' shadow on the bed: how dark, and how far it reaches in m.
 SHADE, SHADE_REACH = 0.45, 0.022

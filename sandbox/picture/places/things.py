@@ -22,7 +22,7 @@ PERSON, SHADOW = palette("person"), palette("card")["shadow"]
 
 #: The least that is drawn of a net's mesh, of a post's width and of a person's height, px on 720 rows.
 LEAST_MESH, LEAST_POST, LEAST_PERSON = 4.0, 1.8, 30.0
-#: How dark a net makes what is behind it, as a share of its opacity.
+#: Darkening of things behind a net, as a share of its opacity.
 SHADED = 0.3
 
 #: A point in m: along the plane of play, up, and behind it or, from above, to the left; two numbers are on the ground.

@@ -1,4 +1,4 @@
-"""The greatest value of a number, by one or two parameters."""
+"""Search for the greatest value of a number, by one or two parameters."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ _SCAN, _CLOSER = {1: 129, 2: 41}, {1: 25, 2: 9}
 #: The place is found to this fraction of the range: near its greatest value a result hardly changes.
 _FINE = 1e-7
 
-#: Of a run's targeted results, None if it failed; None or NaN if it is unknown.
+#: The value that is maximized, from a run's targeted results, or None for a failed run; None or NaN if unknown.
 Height = Callable[[Mapping[str, Any] | None], float | None]
 
 
-def greatest(shots: Shots) -> list[Solution]:
+def maximize(shots: Shots) -> list[Solution]:
     """The place at which the number is greatest; none if no run has it."""
     shots.planned = _SCAN[len(shots.spans)] ** len(shots.spans)
     low, high = ([getattr(span, end) for span in shots.spans] for end in ("low", "high"))
