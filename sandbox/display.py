@@ -1,4 +1,4 @@
-"""How runs, scenes and results are shown: by pictures and notebooks, which are above them and register here."""
+"""Display of runs, scenes and results by pictures and notebooks, which are above them and register here."""
 
 from __future__ import annotations
 

@@ -206,7 +206,7 @@ else:
 class Accuracy(Group):
     """The computing time to spend; common to all scenes. A key left out follows from the level."""
 
-    level: Literal["fast", "balanced", "precise"] = choice("balanced", "speed against accuracy")
+    level: Literal["fast", "balanced", "precise"] = choice("balanced", "the speed-accuracy trade-off")
     tolerance: float | None = quantity(None, "m", 1e-12, 1.0, "error allowed in each step of the motion")
     method: Literal["exact", "plain"] | None = choice(
         None, "exact: stop at the moment of contact; plain: pymunk alone, at a fixed step"
@@ -221,7 +221,7 @@ class SceneParameters(Group):
     #: Lists that belong together: a scene file that has one of them has only those that it gives.
     TOGETHER: ClassVar[Sequence[str]] = ()
 
-    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
+    accuracy: Accuracy = group(Accuracy(), "the speed-accuracy trade-off")
 
     @classmethod
     def layered(cls, values: Mapping[str, Any], file: Mapping[str, Any]) -> dict[str, Any]:

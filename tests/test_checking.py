@@ -1,4 +1,4 @@
-"""A check says how far a result is to be trusted: numbers that another start by a nanometre would change as well."""
+"""A check says how far a result can be trusted: numbers that another start by a nanometre would change as well."""
 
 from __future__ import annotations
 

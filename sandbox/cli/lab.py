@@ -37,7 +37,7 @@ def aim(
     with its middle, which is the most forgiving value; by two parameters it finds regions, each with its most forgiving
     point. If there is no solution it reports the nearest result, and the exit code is 0.
 
-    A number that jumps, as where a golf ball stops, takes a minute or two, since each place where it may reach the
+    A number that jumps, such as where a golf ball stops, takes a minute or two, since each place where it may reach the
     target is searched. A target that is not a number takes 500 to 2,000 runs, and more where it changes.
 
     \b
@@ -96,7 +96,7 @@ def aim(
     help="Number of random points, within ranges and from lists.",
 )
 @click.option("--seed", metavar="N", type=click.IntRange(0), help="Seed of the random points.  [default: 0]")
-@click.option("--check", is_flag=True, help="Run each point again, finer, and add its errors.")
+@click.option("--check", is_flag=True, help="Rerun each point at finer accuracy and add its errors.")
 @click.option("--plot", metavar="F.png", type=Path, help="A map over two parameters, a curve over one.")
 @click.option(
     "--html", metavar="F.html", type=Path, help="A page with the map, and the path of the point under the cursor."
@@ -180,7 +180,7 @@ def sweep(
 @scene_argument
 @changes_options
 @json_option
-@click.option("--plot", metavar="F.png", type=Path, help="Draw error against speed, a curve for each method.")
+@click.option("--plot", metavar="F.png", type=Path, help="Plot error against speed, one curve per method.")
 def trade(scene: str, changes: dict[str, Any], as_json: bool, plot: Path | None) -> None:
     """Measure the speed-accuracy trade-off of a scene.
 

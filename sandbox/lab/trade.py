@@ -1,4 +1,4 @@
-"""Speed against accuracy, measured on this machine: every method over its steps or tolerances, and the three levels."""
+"""The speed-accuracy trade-off, measured on this machine: every method over its steps or tolerances, and the levels."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """Smooth shapes on a pygame surface. Positions and sizes are in px and may lie between pixels.
 
 pygame's own shapes have rough edges, so discs and shadows are computed exactly, and everything else is drawn larger and
-scaled down. What is not large is kept: as long as the camera stands, or moves by whole px, it is the same again.
+scaled down. Small shapes are cached: while the camera stands still, or moves by whole px, they are the same.
 """
 
 from __future__ import annotations

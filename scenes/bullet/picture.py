@@ -86,14 +86,8 @@ class Target:
 class Picture(SideView[Parameters]):
     LOOK, THING = Look(COLOURS["ball"], gloss=0.45), "bullet"
     TRACE, OTHER_TRACES, ON_DARK = COLOURS["trace"], COLOURS["earlier"], False
-    LENGTH_ROWS, HEADROOM, MEASURED_FROM, EYE_HEIGHT, MIN_PATH_SHARE, MAX_STRETCH = (
-        0,
-        92,
-        "from the muzzle",
-        60,
-        0.0,
-        inf,
-    )
+    LENGTH_ROWS, HEADROOM, MEASURED_FROM = 0, 92, "from the muzzle"
+    EYE_HEIGHT, MIN_PATH_SHARE, MAX_STRETCH = 60, 0.0, inf
 
     @property
     def aims(self) -> list[Box]:

@@ -13,7 +13,7 @@ from sandbox.errors import RequestError
 from sandbox.lab.axes import Span
 from sandbox.scene import Scene
 
-#: The wanted value of a number that is to be as great as possible.
+#: The wanted value of a number that is to be maximized.
 MAXIMIZE = object()
 
 
