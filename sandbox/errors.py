@@ -6,19 +6,38 @@ from contextlib import contextmanager
 
 
 class SandboxError(Exception):
-    """An error with a message for the user; the command line prints it without a traceback."""
+    """An error with a message for the user; the command line prints it without a traceback.
+
+    >>> import sandbox
+    >>> issubclass(sandbox.RequestError, sandbox.SandboxError)
+    True
+    """
 
     exit_code = 1
 
 
 class RequestError(SandboxError):
-    """The request was wrong: unknown scene or key, bad value, unreadable file."""
+    """The request was wrong: unknown scene or key, bad value, unreadable file.
+
+    >>> import sandbox
+    >>> sandbox.load("gulf")
+    Traceback (most recent call last):
+    sandbox.errors.RequestError: unknown scene gulf; did you mean golf?
+    """
 
     exit_code = 2
 
 
 class RunError(SandboxError):
-    """The run could not be completed: diverged, stalled, left the world."""
+    """The run could not be completed: diverged, stalled, left the world.
+
+    >>> import sandbox
+    >>> from sandbox import Ball, Setup
+    >>> runaway = Ball("ball", mass=1.0, radius=0.1, position=(0, 0), forces=[lambda t, x, v, spin: (1e9, 0.0)])
+    >>> sandbox.simulate(Setup([runaway]))
+    Traceback (most recent call last):
+    sandbox.errors.RunError: t = ...
+    """
 
 
 class Stopped(SandboxError):

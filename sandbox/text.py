@@ -8,6 +8,8 @@ from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from typing import Any
 
+from sandbox.errors import RequestError
+
 #: Characters that a terminal interprets instead of showing: control characters (C0 except tab and newline, DEL, C1),
 #: and those that change the writing direction or break lines.
 _CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ufeff]|[\ud800-\udfff]")
@@ -35,6 +37,12 @@ def one_line(text: str) -> str:
 def shortened(text: str, most: int = 80) -> str:
     """The text cut to at most ``most`` characters, for a message."""
     return text if len(text) <= most else text[: most - 3] + "..."
+
+
+def check_mapping(name: str, value: object, example: str) -> None:
+    """Raise RequestError if the argument of this name is no mapping, such as the ``example``."""
+    if not isinstance(value, Mapping):
+        raise RequestError(f"{name} = {shortened(repr(value))}: must be a dictionary such as {example}")
 
 
 def nearest(word: str, known: Sequence[str]) -> str | None:

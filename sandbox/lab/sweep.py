@@ -23,6 +23,7 @@ from sandbox.lab.plan import Plan, Record, records
 from sandbox.lab.row_file import RowFile
 from sandbox.lab.runs import Progress, no_progress
 from sandbox.scene import Scene, as_scene
+from sandbox.text import check_mapping
 from sandbox.workers import Call, Cluster, InTurn, Processes, WorkerLost, Workers, cores
 
 #: Target time in s of one call to a worker, so that progress is shown and Ctrl-C handled a few times a second.
@@ -57,6 +58,11 @@ class Sweep:
 
     ``sweep["carry"]`` is an array in the shape of the grid, ``sweep.columns`` a dictionary of flat arrays (for
     ``pandas.DataFrame``), ``sweep.records`` a list of dictionaries. Missing numbers are NaN in arrays.
+
+    >>> import sandbox
+    >>> found = sandbox.sweep("golf", {"launch.angle": [8, 10, 12]})
+    >>> found["carry"].shape, len(found.records)
+    ((3,), 3)
     """
 
     plan: Plan
@@ -118,8 +124,13 @@ def sweep(
     ``(60.0, 80.0)`` is a range from which ``samples`` random points are drawn, the same for the same ``seed``.
     ``check`` repeats each run at finer accuracy and adds estimated errors. ``jobs`` above 1 uses that many processes
     (the calling script then needs ``if __name__ == "__main__":``), ``scheduler`` the workers of a Dask scheduler.
+
+    >>> import sandbox
+    >>> sandbox.sweep("golf", {"launch.angle": [8, 10], "launch.spin": [2000, 2500, 3000]})["carry"].shape
+    (2, 3)
     """
     chosen = as_scene(scene)
+    check_mapping("over", over, '{"launch.angle": [10, 20, 30]}')
     axes = tuple(as_axis(chosen, key, given) for key, given in over.items())
     plan = Plan(chosen, axes, samples, seed, check)
     found: list[Record] = []

@@ -70,6 +70,12 @@ class LogWind:
     grass. Valid in the lowest 100 m in neutral air; it is constant above ``ceiling``, and zero at and below
     the ground (y = 0). Source: Wieringa 1992, J. Wind Eng. Ind. Aerodyn. 41:357; the 1 added inside the logarithm
     keeps it finite at the ground.
+
+    >>> from sandbox import Drag, LogWind
+    >>> breeze = LogWind(reference=(-5.0, 0.0), reference_height=10.0, roughness=0.03)
+    >>> drag = Drag(coefficient=0.25, wind=breeze)
+    >>> round(breeze(0.0, (0.0, 10.0))[0], 9)  # m/s
+    -5.0
     """
 
     reference: tuple[float, float]  # m/s

@@ -33,11 +33,11 @@ def check(what: str, thing: Any, **fields: Sequence[str]) -> None:
             except TypeError:  # such as text in place of a number
                 right = False
             if not right:
-                shown = value if isinstance(value, float | int | tuple) else _short(value)
+                shown = value if isinstance(value, float | int | tuple) else short(value)
                 raise ValueError(f"{what}: {name} = {shown} {words}")
 
 
-def _short(value: Any) -> str:
+def short(value: Any) -> str:
     """Return a value for a message, in one line."""
     text = " ".join(repr(value).split())
     return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 3]}..."

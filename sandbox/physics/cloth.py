@@ -40,6 +40,13 @@ class Cloth:
     ``sliding`` mu_s and ``rolling`` mu_r are deceleration divided by gravity. ``spinning`` mu_sp is the torque about
     the vertical divided by m g r; 0.0127 slows a pool ball by 10.9 rad/s^2, and 5 to 15 is typical of tables
     (Alciatore).
+
+    >>> import sandbox
+    >>> from sandbox import Ball, Cloth, Setup
+    >>> cue = Ball("cue", mass=0.17, radius=0.0286, position=(0, 0), velocity=(1, 0))
+    >>> run = sandbox.simulate(Setup([cue], plane=Cloth(sliding=0.2, rolling=0.01)))
+    >>> run.ended
+    'rest'
     """
 
     sliding: float = 0.2

@@ -42,7 +42,15 @@ def _straight(state: PlaneState, deceleration: float, spin_deceleration: float) 
 
 @dataclass(frozen=True)
 class Glide:
-    """Constant friction: mu is the deceleration over gravity, mu_sp the torque on the spin over m g r."""
+    """Constant friction: mu is the deceleration over gravity, mu_sp the torque on the spin over m g r.
+
+    >>> import sandbox
+    >>> from sandbox import DISC, Ball, Glide, Setup
+    >>> puck = Ball("puck", mass=0.17, radius=0.038, position=(0, 0), velocity=(2, 0), inertia_factor=DISC)
+    >>> run = sandbox.simulate(Setup([puck], plane=Glide(sliding=0.1)))
+    >>> round(run.state("puck", run.duration).x, 6)  # m, v^2 / (2 mu g)
+    2.038736
+    """
 
     sliding: float
     spinning: float = 0.0
@@ -71,6 +79,15 @@ class CurlingIce:
     """Pebbled ice: ``friction`` and ``curl`` multiply the deceleration and the turning, as sweeping does.
 
     The rest are the constants a (m/s), b (m/s), c, k (m^0.8 s^-1.8) and s (m/s^3) of the law.
+
+    >>> import sandbox
+    >>> from dataclasses import replace
+    >>> from sandbox import DISC, Ball, CurlingIce, Setup
+    >>> still = Ball("stone", mass=19.0, radius=0.145, position=(0, 0), inertia_factor=DISC)
+    >>> stone = replace(still, velocity=(2.2, 0.0), spin=1.5)
+    >>> run = sandbox.simulate(Setup([stone], plane=CurlingIce()))
+    >>> run.state("stone", run.duration).y > 0.5  # m
+    True
     """
 
     friction: float = 1.0

@@ -5,18 +5,28 @@ from __future__ import annotations
 import numpy as np
 import pygame
 
-from sandbox.engine.model.surface import Circle
+from sandbox.engine.model.surface import Circle, Segment
 from sandbox.parameters import Group
 from sandbox.picture.above import AboveView
 from sandbox.picture.ball import Look, seams
 from sandbox.picture.camera import Camera
-from sandbox.picture.painter import Painter, gradient
+from sandbox.picture.painter import Painter, Point, gradient
 from sandbox.picture.palette import palette
+from sandbox.picture.sheet import Sheet
 from sandbox.picture.view import View
 
 COLOURS, TRACES = palette("plain"), palette("trace")["colours"]
 #: The looks of several balls, each in the colour of its path.
 SEVERAL = [Look(colour, seams(COLOURS["marks"])) for colour in TRACES]
+
+
+#: Surfaces with more names than this are not named.
+MOST_NAMED = 8
+#: The name of a segment stands at the first of these fractions of the part in sight where there is room.
+ALONG = (0.9, 0.1, 0.75, 0.25, 0.5)
+
+#: Below a surface, or above it: the sign of the distance in px, and the part of the text that is there.
+SIDES = ((1.0, "midtop"), (-1.0, "midbottom"))
 
 
 class Picture(AboveView[Group]):
@@ -43,3 +53,31 @@ class Picture(AboveView[Group]):
                 painter.disc(camera.pixel(*shape.center), thick, colour)
             elif seen := near.clipline(camera.pixel(*shape.a), camera.pixel(*shape.b)):
                 painter.line(seen, 2 * thick, colour)
+
+    def shadow(self, painter: Painter, camera: Camera, name: str, t: float, at: Point, radius: float) -> None:
+        """On the plane that balls roll on; from the side there is none."""
+        if self.run.setup.plane is not None:
+            super().shadow(painter, camera, name, t, at, radius)
+
+    def landmarks(self, sheet: Sheet, camera: Camera) -> None:
+        """The names of the surfaces, where there are few."""
+        named = {surface.name: surface.shape for surface in self.run.setup.surfaces}
+        if len(named) > MOST_NAMED:
+            return
+        gap, room = 4 * self.unit, pygame.FRect(0, sheet.top_row, self.size[0], self.card_row - sheet.top_row)
+        for name, shape in named.items():
+            thick = max(shape.radius * camera.scale, 1.5 * self.unit) + gap
+            spots = [
+                (x, y + side * thick, anchor) for x, y in self._along(shape, camera, room) for side, anchor in SIDES
+            ]
+            sheet.label(name, "small", spots, COLOURS["surface"])
+
+    def _along(self, shape: Segment | Circle, camera: Camera, room: pygame.FRect) -> list[Point]:
+        """Places in px along a surface, as far as it is in sight."""
+        if isinstance(shape, Circle):
+            return [camera.pixel(*shape.center)]
+        seen = room.clipline(camera.pixel(*shape.a), camera.pixel(*shape.b))
+        if not seen:
+            return []
+        (x0, y0), (x1, y1) = seen
+        return [(x0 + part * (x1 - x0), y0 + part * (y1 - y0)) for part in ALONG]

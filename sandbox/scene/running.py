@@ -114,7 +114,13 @@ def simulate_at(
 
 @dataclass(frozen=True)
 class Check:
-    """How accurate a result is, according to runs that should agree with it."""
+    """How accurate a result is, according to runs that should agree with it.
+
+    >>> import sandbox
+    >>> found = sandbox.check("golf")
+    >>> found.errors["carry"] < 0.01, found.chaotic  # m
+    (True, {})
+    """
 
     finer: SceneRun
     errors: dict[str, float] = field(default_factory=dict)  # estimated, of each number in the result, in its unit
@@ -138,6 +144,10 @@ def check(scene: Scene | str | Path, run: SceneRun | None = None, progress: Prog
 
     The error of a number is twice its largest difference to a finer run, plus the largest to a nudged one.
     ``progress`` is called as by ``simulate``, in each of them.
+
+    >>> import sandbox
+    >>> sandbox.check("golf").errors["carry"] < 0.01  # m
+    True
     """
     chosen = as_scene(scene)
     run = run or simulate(chosen)

@@ -23,7 +23,7 @@ from sandbox.scene.finding import SceneSource, default_file, docstring, find, fi
 from sandbox.scene.modules import module_in
 from sandbox.sport.controls import Controls
 from sandbox.sport.facts import ENDED, FALLBACK_FACTS, Fact, FinalWhen, fallback_verdict, problem_with
-from sandbox.text import shortened
+from sandbox.text import check_mapping, shortened
 from sandbox.toml import read_toml
 
 if TYPE_CHECKING:
@@ -49,7 +49,13 @@ CALLS = {
 
 @dataclass(frozen=True)
 class Scene:
-    """A sport with all its parameters, ready to run."""
+    """A sport with all its parameters, ready to run.
+
+    >>> import sandbox
+    >>> scene = sandbox.load("golf/driver")
+    >>> scene.title, len(scene.build().balls)
+    ('golf/driver', 1)
+    """
 
     name: str
     preset: str | None
@@ -259,11 +265,12 @@ def load(source: str | Path, overrides: Mapping[str, Any] | None = None, *, over
 
     ``source`` is a scene (``"golf"``), a preset (``"golf/driver"``), or a path to a scene file or a scene's folder.
     Raises RequestError if it is not found, not readable or invalid; ``overrides_from`` names the overrides in messages.
+
+    >>> import sandbox
+    >>> sandbox.load("golf", {"launch.speed": "150 mph"}).parameters.launch.speed  # m/s
+    67.056
     """
-    if not isinstance(overrides, Mapping | None):
-        raise RequestError(
-            f'overrides = {shortened(repr(overrides))}: must be a dictionary such as {{"air.wind": [5, 0]}}'
-        )
+    check_mapping("overrides", overrides or {}, '{"air.wind": [5, 0]}')
     found = find(source)
     parameters = _parameters(found, overrides, overrides_from)
     file = found.files[-1][0] if found.files else found.folder
@@ -274,7 +281,7 @@ def load(source: str | Path, overrides: Mapping[str, Any] | None = None, *, over
 def as_scene(scene: Scene | str | Path) -> Scene:
     """The scene itself, or the one that is named."""
     if not isinstance(scene, Scene | str | Path):
-        raise RequestError(f"{shortened(repr(scene))}: must be a scene, its name, or the path of its file")
+        raise RequestError(f"{shortened(repr(scene))}: must be a setup, a scene, its name, or the path of its file")
     return scene if isinstance(scene, Scene) else load(scene)
 
 

@@ -24,6 +24,12 @@ class Accuracy:
     steps from it, one without uses ``step``. ``settle`` is the height in m below which a bounce counts as lasting
     contact, ``hop`` the minimum height of a hop where a plane presses a ball against something, and ``skin`` the
     overlap in m at which two shapes count as touching.
+
+    >>> import sandbox
+    >>> sandbox.simulate("golf", accuracy="fast").accuracy.tolerance  # m
+    0.1
+    >>> sandbox.simulate("golf").accuracy.finer().step < 1 / 240
+    True
     """
 
     level: str

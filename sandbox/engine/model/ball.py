@@ -28,13 +28,25 @@ DISC = 1 / 2
 class Force(Protocol):
     """Force on a ball in N, as (fx, fy). Time (s), components of position (m) and velocity (m/s), and the spin (rad/s,
     counter-clockwise) are floats, or arrays of shape (n,) when many shots fly at once. It must depend on nothing
-    else, since steps may be repeated."""
+    else, since steps may be repeated.
+
+    >>> from sandbox import Ball
+    >>> def fan(t, position, velocity, spin):
+    ...     return 0.0, 4.0 / (1.0 + (position[0] - 6.0) ** 2)
+    >>> ball = Ball("ball", mass=0.1, radius=0.1, position=(0, 0), forces=[fan])
+    """
 
     def __call__(self, t: Any, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]: ...
 
 
 class Torque(Protocol):
-    """Torque on a ball in N m, counter-clockwise; arguments as for Force."""
+    """Torque on a ball in N m, counter-clockwise; arguments as for Force.
+
+    >>> from sandbox import Ball
+    >>> def friction(t, position, velocity, spin):
+    ...     return -1e-4 * spin
+    >>> ball = Ball("ball", mass=0.1, radius=0.1, position=(0, 0), torques=[friction])
+    """
 
     def __call__(self, t: Any, position: Any, velocity: Any, spin: Any) -> Any: ...
 
@@ -42,7 +54,14 @@ class Torque(Protocol):
 @with_old_fields_named
 @dataclass(frozen=True)
 class Ball:
-    """A ball, its state at the start, and the forces on it. Lengths in m, kg, s, rad; spin counter-clockwise."""
+    """A ball, its state at the start, and the forces on it. Lengths in m, kg, s, rad; spin counter-clockwise.
+
+    >>> from sandbox import HOLLOW_SPHERE, Ball, Drag, Gravity
+    >>> ball = Ball("ball", mass=0.62, radius=0.12, position=(0, 2), velocity=(5, 6), inertia_factor=HOLLOW_SPHERE,
+    ...             forces=[Gravity(9.81), Drag()])
+    >>> round(ball.inertia, 6)  # kg m^2
+    0.005952
+    """
 
     name: str
     mass: float  # kg
@@ -85,6 +104,11 @@ class Body(Ball):
     Mass and moment of inertia follow from the outline and its ``density``, mass per area, or are given; ``center`` is
     the centre of mass where it is not that of the outline. ``position`` is that of the centre of mass, ``angle`` says
     how far the outline is turned at the start. A force on a body may read ``position.angle``.
+
+    >>> from sandbox import Body, Gravity, box
+    >>> crate = Body("crate", position=(0.0, 1.0), shape=box(0.4, 0.3), mass=2.0, angle=0.3, forces=[Gravity(9.81)])
+    >>> round(crate.inertia, 6)  # kg m^2, m (a^2 + b^2) / 12
+    0.041667
     """
 
     rotates: ClassVar[bool] = True

@@ -10,6 +10,11 @@ class Event(NamedTuple):
 
     ``kind`` is ``"impact"`` (``speed`` is the normal approach speed in m/s), ``"contact"`` (it starts to slide or
     roll on the surface), ``"leave"`` (it leaves the surface), ``"rest"``, or a kind defined by the scene.
+
+    >>> import sandbox
+    >>> event = sandbox.simulate("basketball").events[0]
+    >>> event.kind, event.ball, event.speed > 0.0
+    ('impact', 'ball', True)
     """
 
     t: float  # s

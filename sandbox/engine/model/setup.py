@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from sandbox.engine.model.ball import Ball
 from sandbox.engine.model.setup_errors import call_user_function
-from sandbox.engine.model.surface import ELASTIC, BounceLaw, Surface, Trap
-from sandbox.physics.checks import check
+from sandbox.engine.model.surface import ELASTIC, BounceLaw, Circle, Segment, Surface, Trap
+from sandbox.physics.checks import check, short
 from sandbox.physics.elementwise import maximum, minimum
 from sandbox.physics.hertz import PHENOLIC
 from sandbox.renamed import name_old_names, with_old_fields_named
@@ -23,7 +23,12 @@ if TYPE_CHECKING:
 
 class ForceRegion(NamedTuple):
     """A region at whose border a force begins, ends or has a kink, such as a net: steps end there, and none through it
-    is longer than ``step``, so that none skips it."""
+    is longer than ``step``, so that none skips it.
+
+    >>> from sandbox import Ball, ForceRegion, Setup
+    >>> net = ForceRegion(left=4.4, bottom=2.6, right=4.8, top=3.05, step=0.01)
+    >>> setup = Setup([Ball("ball", mass=1.0, radius=0.1, position=(0, 0))], force_regions=[net])
+    """
 
     left: float  # m
     bottom: float  # m
@@ -42,7 +47,11 @@ class ForceRegion(NamedTuple):
 
 
 class Bounds(NamedTuple):
-    """The world's edges in m: a ball outside them is an error."""
+    """The world's edges in m: a ball outside them is an error.
+
+    >>> from sandbox import Ball, Bounds, Setup
+    >>> setup = Setup([Ball("ball", mass=1.0, radius=0.1, position=(0, 0))], bounds=Bounds(left=-1e6, right=1e6))
+    """
 
     left: float = -1e5
     bottom: float = -1e5
@@ -77,6 +86,10 @@ class ContactModel:
     ``stiffness`` is that of a pair in N/m^1.5; None means phenolic resin. ``wall_stiffness`` is that of a ball and a
     wall; 0 for walls, such as cushions, that are so much softer than balls that they push back after the balls have
     separated.
+
+    >>> from sandbox import Ball, ContactModel, Setup
+    >>> ball = Ball("ball", mass=1.0, radius=0.1, position=(0, 0))
+    >>> setup = Setup([ball], contact=ContactModel("hertz", stiffness=1e9))
     """
 
     name: Literal["auto", "rigid", "hertz"] = "auto"
@@ -89,7 +102,19 @@ class ContactModel:
 
 
 class Until:
-    """A condition for the end of a run that needs more than the latest event."""
+    """A condition for the end of a run that needs more than the latest event.
+
+    >>> import sandbox
+    >>> from sandbox import Ball, Setup, Until
+    >>> class Beyond(Until):
+    ...     def over(self, events):
+    ...         return False
+    ...     def passed(self, start, end):
+    ...         return end[0] > 10.0
+    >>> ball = Ball("ball", mass=1.0, radius=0.1, position=(0, 0), velocity=(5, 0))
+    >>> sandbox.simulate(Setup([ball], until=Beyond())).ended
+    'until'
+    """
 
     def over(self, events: Sequence[Event]) -> bool:
         """Return True if the run ends with the last of these events."""
@@ -114,6 +139,13 @@ class Touches(Until):
     bounce.
 
     ``what`` is the name of a surface, a ball or a trap.
+
+    >>> import sandbox
+    >>> from sandbox import Ball, Gravity, Segment, Setup, Surface, Touches
+    >>> ball = Ball("ball", mass=1.0, radius=0.1, position=(0, 1), forces=[Gravity(9.81)])
+    >>> floor = Surface("floor", Segment((-1, 0), (1, 0)), restitution=0.8, friction=0.0)
+    >>> len(sandbox.simulate(Setup([ball], [floor], until=Touches("floor", 2))).events)
+    2
     """
 
     what: str
@@ -136,6 +168,12 @@ class Setup:
     ``between_balls(normal_speed, slip_speed)`` returns the Bounce of two balls; ``pairs`` gives a law for two by name:
     ``("ball", "keeper", law)``. With a ``plane`` the balls are seen from above, sliding and rolling on it by its law of
     motion, or that in ``planes`` under a ball's name: ``("ball", law)``; their own forces are then ignored.
+
+    >>> from sandbox import Ball, Gravity, Segment, Setup, Surface
+    >>> setup = Setup([Ball("ball", mass=0.62, radius=0.12, position=(0, 2), velocity=(5, 6), forces=[Gravity(9.81)])],
+    ...               [Surface("floor", Segment((-10, 0), (30, 0)), restitution=0.8, friction=0.4)], duration=3.0)
+    >>> setup.names
+    ['ball', 'floor']
     """
 
     balls: Sequence[Ball]
@@ -156,6 +194,12 @@ class Setup:
         check(
             "setup", self, lists=["balls", "surfaces", "traps", "force_regions", "pairs", "planes", "discontinuities"]
         )
+        for ball in self.balls:
+            if not isinstance(ball, Ball):
+                raise ValueError(f"setup: balls: {short(ball)} is no Ball or Body")
+        for surface in self.surfaces:
+            if isinstance(surface, Segment | Circle):
+                raise ValueError(f"setup: surfaces: {short(surface)} is a shape: write Surface(name, shape, ...)")
         names = [ball.name for ball in self.balls]
         if not names:
             raise ValueError("a setup needs at least one ball")

@@ -37,7 +37,13 @@ class MassProperties(NamedTuple):
 @dataclass(frozen=True)
 class Polygon:
     """A convex polygon, rounded by a disc of ``radius`` that runs along its sides: it is larger by that much all
-    around. Its corners go around counter-clockwise; two are a capsule, one is a disc."""
+    around. Its corners go around counter-clockwise; two are a capsule, one is a disc.
+
+    >>> from sandbox import Body, Polygon
+    >>> wedge = Body("wedge", position=(0, 0), shape=Polygon([(0, 0), (0.4, 0), (0, 0.3)]), density=10.0)
+    >>> round(wedge.mass, 6)  # kg
+    0.6
+    """
 
     corners: Sequence[Vector]  # m
     radius: float = 0.0  # m
@@ -178,7 +184,12 @@ class Polygon:
 
 @dataclass(frozen=True)
 class Ellipse:
-    """An ellipse with semi-axes ``a`` along its own x and ``b`` along its own y."""
+    """An ellipse with semi-axes ``a`` along its own x and ``b`` along its own y.
+
+    >>> from sandbox import Ellipse
+    >>> round(Ellipse(0.14, 0.085).mass_properties().area, 6)  # m^2
+    0.037385
+    """
 
     a: float  # m
     b: float  # m
@@ -249,7 +260,12 @@ Shape = Polygon | Ellipse
 
 
 def box(width: float, height: float, rounding: float = 0.0) -> Polygon:
-    """A rectangle, whose corners are rounded with this radius; lengths in m."""
+    """A rectangle, whose corners are rounded with this radius; lengths in m.
+
+    >>> from sandbox import box
+    >>> box(0.4, 0.3).corners
+    ((-0.2, -0.15), (0.2, -0.15), (0.2, 0.15), (-0.2, 0.15))
+    """
     x, y = 0.5 * width - rounding, 0.5 * height - rounding
     if min(x, y) < 0.0:
         raise ValueError(f"box of {width} m x {height} m: rounding = {rounding} m is more than half of a side")
@@ -258,17 +274,32 @@ def box(width: float, height: float, rounding: float = 0.0) -> Polygon:
 
 
 def capsule(length: float, radius: float) -> Polygon:
-    """A straight rod with round ends, of this length in all; lengths in m."""
+    """A straight rod with round ends, of this length in all; lengths in m.
+
+    >>> from sandbox import capsule
+    >>> capsule(0.4, 0.05).reach  # m
+    0.2
+    """
     return box(length, 2.0 * radius, radius)
 
 
 def disc(radius: float) -> Polygon:
-    """A disc; lengths in m."""
+    """A disc; lengths in m.
+
+    >>> from sandbox import disc
+    >>> disc(0.1).reach  # m
+    0.1
+    """
     return Polygon(((0.0, 0.0),), radius)
 
 
 def regular(count: int, radius: float, rounding: float = 0.0) -> Polygon:
-    """A regular polygon whose corners lie on a circle of this radius (m)."""
+    """A regular polygon whose corners lie on a circle of this radius (m).
+
+    >>> from sandbox import regular
+    >>> len(regular(6, 0.1).corners)
+    6
+    """
     turns = [2.0 * pi * k / count for k in range(count)]
     return Polygon([(radius * cos(turn), radius * sin(turn)) for turn in turns], rounding)
 

@@ -20,7 +20,12 @@ def _check_shape(shape: Segment | Circle, *points: str) -> None:
 
 @dataclass(frozen=True)
 class Segment:
-    """A straight line from a to b with half thickness ``radius`` and rounded ends; can be touched from either side."""
+    """A straight line from a to b with half thickness ``radius`` and rounded ends; can be touched from either side.
+
+    >>> from sandbox import Segment
+    >>> Segment((0, 0), (3, 4)).length  # m
+    5.0
+    """
 
     a: Vector  # m
     b: Vector  # m
@@ -36,7 +41,11 @@ class Segment:
 
 @dataclass(frozen=True)
 class Circle:
-    """A fixed disc."""
+    """A fixed disc.
+
+    >>> from sandbox import Circle, Surface
+    >>> rim = Surface("rim front", Circle((4.0, 3.05), 0.008), restitution=0.7, friction=0.4)
+    """
 
     center: Vector  # m
     radius: float  # m
@@ -46,7 +55,13 @@ class Circle:
 
 
 class Bounce(NamedTuple):
-    """The response of a surface to one impact."""
+    """The response of a surface to one impact.
+
+    >>> from sandbox import Bounce, Segment, Surface
+    >>> def clay(normal_speed, slip_speed):
+    ...     return Bounce(restitution=max(0.5, 0.85 - 0.01 * normal_speed), friction=0.6)
+    >>> court = Surface("court", Segment((-12, 0), (12, 0)), restitution=0.85, friction=0.6, law=clay)
+    """
 
     restitution: float
     friction: float
@@ -66,6 +81,10 @@ class Surface:
     ``lowest_bounce`` is the height in m below which the surface absorbs a bounce and the ball rolls, as on grass.
     ``law`` replaces restitution and friction at an impact by a function of the normal and the tangential speed (m/s).
     ``nose_height`` is for balls seen from above: the height in m above their plane at which a cushion touches them.
+
+    >>> from sandbox import Segment, Surface
+    >>> floor = Surface("floor", Segment((-10, 0), (30, 0)), restitution=0.8, friction=0.4)
+    >>> green = Surface("green", Segment((-10, 0), (30, 0)), restitution=0.4, friction=0.4, rolling_resistance=0.1)
     """
 
     name: str
@@ -84,7 +103,12 @@ class Surface:
 
 @dataclass(frozen=True)
 class ConstantBounce:
-    """The contact law with the same bounce at any speed."""
+    """The contact law with the same bounce at any speed.
+
+    >>> from sandbox import Ball, Bounce, ConstantBounce, Setup
+    >>> balls = [Ball(name, mass=0.17, radius=0.0286, position=(x, 0)) for name, x in (("cue", 0.0), ("nine", 0.5))]
+    >>> setup = Setup(balls, between_balls=ConstantBounce(Bounce(restitution=0.95, friction=0.06)))
+    """
 
     bounce: Bounce
 
@@ -99,7 +123,15 @@ ELASTIC = ConstantBounce(Bounce(1.0, 0.0))
 @dataclass(frozen=True)
 class Trap:
     """A place that removes a ball once its centre is closer than ``radius``: a pocket; or a gutter, from ``center`` to
-    ``end``. It removes those named in ``only``, if any are."""
+    ``end``. It removes those named in ``only``, if any are.
+
+    >>> from sandbox import Ball, Setup, Trap
+    >>> ball = Ball("ball", mass=0.17, radius=0.0286, position=(0, 0), velocity=(1, 0))
+    >>> setup = Setup([ball], traps=[Trap("pocket", center=(1, 0), radius=0.06)], duration=2.0)
+    >>> import sandbox
+    >>> round(sandbox.simulate(setup).caught_at("ball"), 6)  # s
+    0.94
+    """
 
     name: str
     center: Vector  # m

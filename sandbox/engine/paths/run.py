@@ -23,7 +23,12 @@ if TYPE_CHECKING:
 
 @dataclass(slots=True)
 class Numerics:
-    """The cost of a run."""
+    """The cost of a run.
+
+    >>> import sandbox
+    >>> sandbox.simulate("golf").numerics.force_evaluations > 100
+    True
+    """
 
     force_evaluations: int = 0
     steps: int = 0  # pieces of path
@@ -70,7 +75,7 @@ class Run(Drawable):
     >>> floor = Surface("floor", Segment((-10, 0), (30, 0)), restitution=0.8, friction=0.4)
     >>> run = sandbox.simulate(Setup([ball], [floor], duration=3.0))
     >>> run.events[0].partner, round(run.events[0].t, 4), run.duration
-    ('floor', 1.4795, 3.0)
+    ('floor', 1.4819, 3.0)
     >>> round(run.state("ball", 1.0).x, 6)  # m
     5.0
     >>> run.states("ball", [0.0, 0.5, 1.0]).shape

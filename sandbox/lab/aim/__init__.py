@@ -23,6 +23,7 @@ from sandbox.lab.aim.shots import Shots
 from sandbox.lab.axes import Span, as_axis
 from sandbox.lab.runs import Progress, no_progress
 from sandbox.scene import Scene, as_scene
+from sandbox.text import check_mapping
 
 __all__ = ["Aim", "Target", "aim", "as_target", "parse_target", "search"]
 
@@ -41,8 +42,15 @@ def aim(
     met, the widest first, each with its middle, which tolerates the largest error; by two parameters, the regions, each
     with its most forgiving point. ``maximize="carry"``, in place of a target, gives the place at which a number is
     greatest. Raises RequestError for an invalid request, and RunError if no run in the range could be completed.
+
+    >>> import sandbox
+    >>> found = sandbox.aim("golf", {"launch.angle": (5, 40)}, maximize="carry")
+    >>> len(found.solutions)
+    1
     """
     chosen = as_scene(scene)
+    check_mapping("vary", vary, '{"launch.angle": (5, 75)}')
+    check_mapping("target", target or {}, '{"carry": 200.0}')
     spans = []
     for key, given in vary.items():
         axis = as_axis(chosen, key, tuple(given) if isinstance(given, list) else given, "vary")

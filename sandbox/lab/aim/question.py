@@ -85,7 +85,13 @@ class Solution:
 
 @dataclass(frozen=True)
 class Aim:
-    """The result of a search. ``solutions`` are in order of the value, or the widest interval first."""
+    """The result of a search. ``solutions`` are in order of the value, or the widest interval first.
+
+    >>> import sandbox
+    >>> found = sandbox.aim("golf", {"launch.angle": (2, 40)}, {"carry": "250 yd"})
+    >>> len(found.solutions), sorted(found.solutions[0].values)
+    (2, ['launch.angle'])
+    """
 
     scene: Scene
     spans: tuple[Span, ...]
