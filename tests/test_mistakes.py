@@ -46,7 +46,12 @@ def scene(written: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pat
         (OF_DROP, FORCE, "        return velocity[2], self", "IndexError: tuple index out of range"),
         (OF_DROP, "bounces(run, parameters) > 0", "run.events[99]", "IndexError: list index out of range"),
         (OF_DROP, "FACTS = (", "FACTS = [", "SyntaxError: "),
-        (OF_DROP, 'return "Bounced"', 'return run.result["gone"] and "Bounced"', "KeyError: 'gone'"),
+        (
+            OF_DROP,
+            'return "Bounced"',
+            'return run.result["gone"] and "Bounced"',
+            "UnknownFact: 'gone': no such result; the results are",
+        ),
         (OF_DROP, "duration=parameters.duration", "length=parameters.duration", "TypeError: "),
         (OF_DROP, '"m/s", low=0', '"furlong", low=0', 'ValueError: "furlong" is not a known unit; use'),
         (OF_DROP, '"m/s", low=0', '"MPH", low=0', 'ValueError: "MPH" is not a known unit; did you me'),

@@ -15,6 +15,7 @@ import pytest
 
 import sandbox
 from sandbox import Ball, Body, Drag, Gravity, RequestError, Segment, Setup, Surface, box
+from sandbox.scene.setup_scene import with_scene
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGE = (ROOT / "docs" / "python.md").read_text("utf-8")
@@ -156,6 +157,13 @@ def test_a_bare_run_has_all_pictures(run: sandbox.Run, tmp_path: Path):
     run.page(tmp_path / "run.html")
     assert all((tmp_path / name).stat().st_size > 1000 for name in ("run.webp", "graph.png", "run.html"))
     assert "<code>" not in run.page()  # a setup has no command
+
+
+def test_the_picture_of_a_setup_names_its_surfaces(run: sandbox.Run):
+    shown = with_scene(run)
+    view = shown.scene.picture(shown, (640, 360))
+    view.poster()
+    assert "floor" in dict(view.sheet.written)
 
 
 # Errors -------------------------------------------------------------------------------------------------------------

@@ -25,8 +25,9 @@ MOST_NAMED = 8
 #: The name of a segment stands at the first of these fractions of the part in sight where there is room.
 ALONG = (0.9, 0.1, 0.75, 0.25, 0.5)
 
-#: Below a surface, or above it: the sign of the distance in px, and the part of the text that is there.
-SIDES = ((1.0, "midtop"), (-1.0, "midbottom"))
+#: Beside what is level and what is steep: the direction in px, and the part of the text that is there.
+LEVEL = ((0.0, 1.0, "midtop"), (0.0, -1.0, "midbottom"))
+STEEP = ((1.0, 0.0, "midleft"), (-1.0, 0.0, "midright"))
 
 
 class Picture(AboveView[Group]):
@@ -64,20 +65,19 @@ class Picture(AboveView[Group]):
         named = {surface.name: surface.shape for surface in self.run.setup.surfaces}
         if len(named) > MOST_NAMED:
             return
-        gap, room = 4 * self.unit, pygame.FRect(0, sheet.top_row, self.size[0], self.card_row - sheet.top_row)
+        room = pygame.FRect(0, sheet.top_row, self.size[0], self.card_row - sheet.top_row)
         for name, shape in named.items():
-            thick = max(shape.radius * camera.scale, 1.5 * self.unit) + gap
-            spots = [
-                (x, y + side * thick, anchor) for x, y in self._along(shape, camera, room) for side, anchor in SIDES
-            ]
-            sheet.label(name, "small", spots, COLOURS["surface"])
+            sheet.label(name, "small", self._spots(shape, camera, room), COLOURS["surface"])
 
-    def _along(self, shape: Segment | Circle, camera: Camera, room: pygame.FRect) -> list[Point]:
-        """Places in px along a surface, as far as it is in sight."""
-        if isinstance(shape, Circle):
-            return [camera.pixel(*shape.center)]
-        seen = room.clipline(camera.pixel(*shape.a), camera.pixel(*shape.b))
+    def _spots(self, shape: Segment | Circle, camera: Camera, room: pygame.FRect) -> list[tuple[float, float, str]]:
+        """Where the name of a surface may stand, beside the part of it that is in sight, in px."""
+        off = max(shape.radius * camera.scale, 1.5 * self.unit) + 4 * self.unit
+        ends = (shape.center, shape.center) if isinstance(shape, Circle) else (shape.a, shape.b)
+        a, b = (camera.pixel(*end) for end in ends)
+        seen = (a, b) if a == b else room.clipline(a, b)
         if not seen:
             return []
         (x0, y0), (x1, y1) = seen
-        return [(x0 + part * (x1 - x0), y0 + part * (y1 - y0)) for part in ALONG]
+        sides = STEEP if abs(y1 - y0) > abs(x1 - x0) else LEVEL
+        places = [(x0 + part * (x1 - x0), y0 + part * (y1 - y0)) for part in ALONG]
+        return [(x + across * off, y + down * off, anchor) for x, y in places for across, down, anchor in sides]

@@ -6,13 +6,12 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from sandbox.engine.paths.run import Run
-from sandbox.errors import RequestError
 
 if TYPE_CHECKING:
     from sandbox.scene.scene import Scene
 
 
-class UnknownFact(RequestError, KeyError):
+class UnknownFact(KeyError):
     """A run's result was asked for what is not in it."""
 
     def __str__(self) -> str:
