@@ -50,7 +50,7 @@ def scene(written: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pat
             OF_DROP,
             'return "Bounced"',
             'return run.result["gone"] and "Bounced"',
-            "UnknownFact: 'gone': no such result; the results are",
+            "UnknownFact: 'gone': no such",
         ),
         (OF_DROP, "duration=parameters.duration", "length=parameters.duration", "TypeError: "),
         (OF_DROP, '"m/s", low=0', '"furlong", low=0', 'ValueError: "furlong" is not a known unit; use'),
