@@ -14,15 +14,18 @@ from math import inf
 from time import perf_counter
 from typing import TYPE_CHECKING
 
+from sandbox.engine.contact.driven import DrivenPath, MovingObstacle
 from sandbox.engine.contact.manifold import all_round
 from sandbox.engine.contact.touch import Obstacle
 from sandbox.engine.event_queue import EventQueue, QueuedEvent
 from sandbox.engine.impact.impacts import Hit, Impacts, Outcome
 from sandbox.engine.model.accuracy import Accuracy
+from sandbox.engine.model.ball import Ball
 from sandbox.engine.model.event import Event
 from sandbox.engine.model.setup import Setup, Until
 from sandbox.engine.model.setup_errors import failed
 from sandbox.engine.model.surface import Surface
+from sandbox.engine.motion.carried_ball import CarriedBall
 from sandbox.engine.motion.event_kind import EventKind
 from sandbox.engine.motion.moving_ball import MovingBall
 from sandbox.engine.motion.moving_body import MovingBody
@@ -101,16 +104,29 @@ class Simulation:
         setup = self._setup
         obstacles: dict[float, list[Obstacle]] = {}
         skin = self._accuracy.skin
+        driven = {id(each): DrivenPath(each) for each in setup.surfaces if each.motion is not None}
         traps = [(each, Obstacle(Surface(each.name, each.shape, 0.0, 0.0), 0.0, skin)) for each in setup.traps]
         for radius in {ball.radius for ball in setup.balls}:
-            obstacles[radius] = [Obstacle(surface, radius, skin) for surface in setup.surfaces]
+            obstacles[radius] = [
+                Obstacle(surface, radius, skin)
+                if surface.motion is None
+                else MovingObstacle(surface, driven[id(surface)], radius, skin)
+                for surface in setup.surfaces
+            ]
         movers: list[MovingBall] = []
         for ball, (x, y) in zip(setup.balls, starts(setup.balls, obstacles), strict=True):
             state: State = (x, y, *map(float, setup.start_of(ball)[2:]))
-            kind = OnPlane if setup.plane is not None else MovingBody if ball.rotates else MovingBall
+            kind = self._kind_of_mover(ball, bool(driven))
             near = [place for trap, place in traps if trap.takes(ball.name)]
             movers.append(kind(ball, state, obstacles[ball.radius], near, setup, self._accuracy, self._numerics))
         return movers
+
+    def _kind_of_mover(self, ball: Ball, among_moving: bool) -> type[MovingBall]:
+        if self._setup.plane is not None:
+            return OnPlane
+        if ball.rotates:
+            return MovingBody
+        return CarriedBall if among_moving else MovingBall
 
     # ------------------------------------------------------------------ the algorithm
 
@@ -171,13 +187,13 @@ class Simulation:
         mover = self._movers[index]
         self._over = self._passes(t, index)
         mover.arrive(t, mover.arc.state(t))
-        mover.snap_to_contact(kind)
+        mover.snap_to_contact(t, kind)
 
     def _change_contact(self, t: float, index: int, kind: EventKind) -> None:
         """Go on where an arc ends because the contact with a surface changes."""
         mover = self._movers[index]
         mover.arrive(t, mover.arc.state(t))
-        mover.snap_to_contact(kind)
+        mover.snap_to_contact(t, kind)
         mover.arc = resting_arc(t, t, mover.state)
         self._collide(t, [index])
 

@@ -59,7 +59,9 @@ def _overlaps(
     for i, j, found in overlapping:
         yield i, j, balls[j].name, balls[i].radius + balls[j].radius, -found.gap, *found.normal
     for i, ball in enumerate(balls):
-        for obstacle, met in surfaces_met(ball, obstacles[ball.radius], _placed(ball, places[i]), -NEGLIGIBLE_OVERLAP):
+        for obstacle, met in surfaces_met(
+            ball, [o.at(0.0) for o in obstacles[ball.radius]], _placed(ball, places[i]), -NEGLIGIBLE_OVERLAP
+        ):
             yield i, None, obstacle.surface.name, ball.radius, -met.gap, *met.normal
 
 

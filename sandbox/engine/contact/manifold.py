@@ -72,11 +72,21 @@ def meeting(one: Ball, state: State, other: Ball, other_state: State, within: fl
 def surface_met(ball: Ball, state: State, near: Near, within: float = 0.0) -> ContactManifold:
     """Return the manifold of a ball or body and a surface that is prepared for its radius, and ``near`` its centre."""
     obstacle, (gap, nx, ny, *_) = near
+    normal, points = (nx, ny), [(state[0] - ball.radius * nx, state[1] - ball.radius * ny)]
     if ball.rotates:
-        shape = fixed_outline(obstacle.surface.shape).shape
-        found = _touching(outline_of(ball), pose_of(state), shape, _IN_PLACE, within, atan2(ny, nx))
-        return meeting_at((ball,), (state,), *found)
-    return meeting_at((ball,), (state,), gap, (nx, ny), [(state[0] - ball.radius * nx, state[1] - ball.radius * ny)])
+        shape = fixed_outline(obstacle.shape).shape
+        gap, normal, points = _touching(outline_of(ball), pose_of(state), shape, _IN_PLACE, within, atan2(ny, nx))
+    if not obstacle.moves:
+        return meeting_at((ball,), (state,), gap, normal, points)
+    seen = [relative(state, obstacle.velocity_at(point)) for point in points]
+    speeds = [meeting_at((ball,), (each,), gap, normal, [at]).speeds[0] for each, at in zip(seen, points, strict=True)]
+    return ContactManifold(gap, normal, points, speeds)
+
+
+def relative(state: State, velocity: Vector) -> State:
+    """A state as seen by what has a velocity in m/s."""
+    x, y, vx, vy, *rest = state
+    return x, y, vx - velocity[0], vy - velocity[1], *rest
 
 
 def surfaces_met(
@@ -139,7 +149,7 @@ def _stays(
     height = max(height, obstacle.surface.lowest_bounce, SKIN)
     if -approach <= max(takeoff_speed(hypot(*applied[:2]), height), rounding(body, state)):
         return True
-    shapes = outline_of(body), fixed_outline(obstacle.surface.shape).shape
+    shapes = outline_of(body), fixed_outline(obstacle.shape).shape
     return approach == met.closing and touches_again(shapes, (state,), (applied,), met, height)
 
 

@@ -125,20 +125,37 @@ class Outline(NamedTuple):
         )
 
 
-@lru_cache(maxsize=4096)
-def _prepared(shape: Segment | Circle, radius: float) -> tuple[Outline, tuple[float, float, float, float]]:
-    """An outline and its box; cached, since a scene's shapes are the same in every run."""
+def _prepare(shape: Segment | Circle, radius: float) -> tuple[Outline, tuple[float, float, float, float]]:
+    """An outline and its box."""
     outline = Outline.of(shape, radius)
     return outline, outline.box()
+
+
+#: The same; cached, since a scene's shapes are the same in every run.
+_prepared = lru_cache(maxsize=4096)(_prepare)
 
 
 class Obstacle:
     """A surface, prepared for one ball radius; touched when a ball overlaps it by ``skin`` (m)."""
 
-    def __init__(self, surface: Surface, radius: float, skin: float = SKIN) -> None:
+    moves = False
+
+    def __init__(
+        self, surface: Surface, radius: float, skin: float = SKIN, shape: Segment | Circle | None = None
+    ) -> None:
+        """``shape`` is where the surface is now, if it moves."""
         self.surface = surface
-        self._skin = skin
-        self.outline, self.box = _prepared(surface.shape, radius)
+        self.skin = skin
+        self.shape = shape or surface.shape
+        self.outline, self.box = _prepared(self.shape, radius) if shape is None else _prepare(shape, radius)
+
+    def at(self, t: float) -> Obstacle:
+        """The obstacle where it is at time t in s."""
+        return self
+
+    def velocity_at(self, point: Point) -> tuple[float, float]:
+        """The velocity in m/s of the point of the surface that is at a place in m."""
+        return 0.0, 0.0
 
     def near(self, x: float, y: float) -> Touching:
         """The nearest feature to a ball centred at (x, y), with gap and normal."""
@@ -185,7 +202,7 @@ class Obstacle:
     def first_touch(self, arc: Arc) -> float | None:
         """The first u in [0, 1] of the arc at which the ball starts to touch, or None."""
         ax, ay, bx, by, reach, length, tx, ty = self.outline
-        radius = reach - self._skin
+        radius = reach - self.skin
         if length == 0.0:
             return _corner(arc, ax, ay, radius)
         across = [(y - ay) * tx - (x - ax) * ty for x, y in zip(arc.curves[0], arc.curves[1], strict=True)]
@@ -200,9 +217,9 @@ class Obstacle:
         first = None
         for side in (1.0, -1.0):
             farthest = high if side > 0.0 else -low
-            if farthest - reach + self._skin <= -GAP_ROUNDING and side * across[0] <= 0.0:
+            if farthest - reach + self.skin <= -GAP_ROUNDING and side * across[0] <= 0.0:
                 continue  # entirely beyond the line
-            gap = [side * d - reach + self._skin for d in across]
+            gap = [side * d - reach + self.skin for d in across]
             for u in _closings(gap, side * across[0] > 0.0 and self._within(xs[0], ys[0], TOUCHING_GAP)):
                 if first is not None and u >= first:
                     break

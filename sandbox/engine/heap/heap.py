@@ -170,8 +170,11 @@ class Heap:
             return False
         applied = self._applied(index, t, state)
         within = self.margin if index in self._members else TOUCHING_GAP
-        found = resting_points(mover.ball, mover.obstacles, state, within, applied, self._settle)
+        found = resting_points(mover.ball, mover.obstacles_at(t), state, within, applied, self._settle)
         alone = len(found) == 1 and body_point_contact(mover.ball, state, *found[0], applied) is not None
+        if found and any(obstacle.moves for obstacle, *_ in found):
+            what = f"it stays on {found[0][0].surface.name!r}, which moves"
+            raise failed(t, mover.ball.name, f"{what}: a body bounces off what moves, but is not carried by it")
         return bool(found) and not alone
 
     def step(self, t: float, until: float, states: Mapping[int, State]) -> dict[int, Arc]:
@@ -245,7 +248,7 @@ class Heap:
         if ball.rotates:
             return
         applied = self._applied(index, t, state)
-        for obstacle, touching in mover.near(state[0], state[1], self.margin):
+        for obstacle, touching in mover.near(t, state[0], state[1], self.margin):
             pushed = press(state, applied, touching.nx, touching.ny, touching.curvature)
             self._members[index].resist(obstacle.surface, ball.mass * max(0.0, pushed), ball.radius)
 
@@ -318,6 +321,8 @@ class Heap:
     def keeps_apart(self, index: int, other: Obstacle | int) -> bool:
         """True if the heap keeps a ball from this obstacle or ball, so that they have no impact of their own: they
         touch, or would meet slowly."""
+        if isinstance(other, Obstacle) and other.moves:
+            return False
         if index in self._resting:
             return isinstance(other, Obstacle) or other in self._resting[index]
         here, there = self._members[index], self._members.get(other) if isinstance(other, int) else None

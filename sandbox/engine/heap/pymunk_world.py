@@ -32,6 +32,8 @@ class PymunkWorld:
         self._margin = margin
         self._raised: BaseException | None = None
         for place, surface in enumerate(surfaces):
+            if surface.motion is not None:
+                continue  # what moves is met in impacts only
             shape = self._shape(self.space.static_body, fixed_outline(surface.shape).shape.as_polygon(), _SURFACE)
             shape.elasticity, shape.friction = surface.restitution, surface.friction
             self.surface_of[shape] = place

@@ -62,7 +62,8 @@ class ClusterSearch:
 
         None if impulses are right: no two balls strike each other, other forces change their speed more during the
         contact than they approach with, no other body is touched during the contact, or balls are too soft; and if
-        balls of a heap that is still forming, ``fresh``, can be reached. What is slower than ``slow`` (m/s) lasts.
+        balls of a heap that is still forming, ``fresh``, or a surface that moves can be reached. What is slower than
+        ``slow`` (m/s) lasts.
         """
         model = self._setup.contact
         blow = self._hardest_blow(t, touching, max(slow, FAINTEST)) if model.name != "rigid" else None
@@ -76,8 +77,10 @@ class ClusterSearch:
             self._add_reached(t, members, blow, fresh)
             if not members.keys().isdisjoint(fresh):
                 return None
-            walls, room = self._walls_near(members, reach, hard > 0.0, deep)
+            walls, room = self._walls_near(t, members, reach, hard > 0.0, deep)
             if model.name == "auto" and len(members) == 2 and not walls:
+                return None
+            if any(wall.moves for _, wall in walls):
                 return None
             pairs = self._pairs(members, blow, met)
             try:
@@ -151,14 +154,14 @@ class ClusterSearch:
                     waiting.append(other)
 
     def _walls_near(
-        self, members: dict[int, State], reach: float, hard: bool, deep: float
+        self, t: float, members: dict[int, State], reach: float, hard: bool, deep: float
     ) -> tuple[list[tuple[int, Obstacle]], dict[int, float]]:
         """The walls within ``reach`` (m) of each ball; and how far (m) each may move before it is in a wall that is not
         among them, or that is not ``hard``, by more than ``deep`` radii."""
         near: list[tuple[int, Obstacle]] = []
         room = dict.fromkeys(members, inf)
         for index, (x, y, *_) in members.items():
-            for obstacle in self._movers[index].obstacles:
+            for obstacle in self._movers[index].obstacles_at(t):
                 left, bottom, right, top = obstacle.box
                 if max(left - x, x - right, bottom - y, y - top) > max(reach, room[index]):
                     continue  # farther than that

@@ -6,7 +6,15 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from math import dist, hypot
 from typing import NamedTuple
 
-from sandbox.engine.contact.manifold import ContactManifold, all_round, farthest, meeting, speeds_at, surfaces_met
+from sandbox.engine.contact.manifold import (
+    ContactManifold,
+    all_round,
+    farthest,
+    meeting,
+    relative,
+    speeds_at,
+    surfaces_met,
+)
 from sandbox.engine.contact.surfaces import (
     after_impulses,
     after_vertical_friction,
@@ -53,6 +61,7 @@ _FAINT = 1e-4
 class ImpactGroup(NamedTuple):
     """Balls that touch at one time, directly or through others."""
 
+    t: float  # s
     states: dict[int, State]  # by index into the balls of the setup
     pairs: list[tuple[int, int]]
     gap: float = TOUCHING_GAP  # m, up to which shapes touch; wider in a heap
@@ -92,6 +101,7 @@ class Impacts:
         model = setup.contact
         self._all_soft = len(setup.balls) > 1 and model.name != "rigid" and model.wall_stiffness == 0.0
         self._some_soft = self._all_soft or any(map(self._soft, setup.surfaces))
+        self._some_move = any(surface.motion is not None for surface in setup.surfaces)
         self._walls: dict[tuple[int, bool | None], list[Obstacle]] = {}  # soft or hard, of each ball
         self._all_round = all_round(*setup.balls)
         self._heaviest = max(ball.mass for ball in setup.balls)  # kg
@@ -108,7 +118,7 @@ class Impacts:
         last = _TURNS if self._some_soft and group.gap == TOUCHING_GAP and not self._any_body(states) else 0
         for turn in range(last + 1):
             if turn in (0, last):
-                states, hits = dict(start), []
+                states, hits, work = dict(start), [], 0.0
                 group = group._replace(states=states)
             elif turn % 2 == 0 and (parted := resolve_cluster(t, states)) is not None:
                 marker = InCluster(t, parted.t)
@@ -118,20 +128,24 @@ class Impacts:
                 return Outcome(parted.t, ends, hits + parted.hits, arcs)
             before = dict(states)
             if turn < last and turn % 2:
-                closed = self._close_soft_walls(group)
+                closed, done = self._close_soft_walls(group)
             else:
-                closed = self._close_at_once(group, None if turn == last else False)
+                closed, done = self._close_at_once(group, None if turn == last else False)
             if turn > 0 and not closed:
                 break
             if closed and self._slowest_hop > 0.0:
-                self._pay_for_hops(before, states)
+                self._pay_for_hops(before, states, done)
+            work += done
             hits += _hits(t, closed)
-        self._refuse_gain(t, start, states, hits)
+        self._refuse_gain(t, start, states, hits, work)
         return Outcome(t, states, hits)
 
-    def _refuse_gain(self, t: float, before: dict[int, State], after: dict[int, State], hits: Sequence[Hit]) -> None:
-        """Raise RunError if the bodies that touch at t have more energy after their impact than before."""
-        had, has = self._energy(before), self._energy(after)
+    def _refuse_gain(
+        self, t: float, before: dict[int, State], after: dict[int, State], hits: Sequence[Hit], work: float
+    ) -> None:
+        """Raise RunError if the bodies that touch at t have more energy after their impact than before, and the
+        ``work`` (J) of what moves."""
+        had, has = self._energy(before) + abs(work), self._energy(after) + abs(work) - work
         if has - had > _CREATED * had + len(hits) * self._heaviest * self._slowest_hop**2:
             names = {self._movers[index].ball.name for index in before} | {hit.partner for hit in hits}
             raise RunError(
@@ -144,34 +158,33 @@ class Impacts:
         """True if some of these are bodies, not balls."""
         return not self._all_round and any(self._movers[index].ball.rotates for index in indices)
 
-    def _close_at_once(self, group: ImpactGroup, soft: bool | None) -> list[Contact]:
+    def _close_at_once(self, group: ImpactGroup, soft: bool | None) -> tuple[list[Contact], float]:
         """Close all contacts of balls with each other and with soft or hard walls, or both, at once; returns those that
-        were closing. If a ball closes one, and does not come to close the others by that, these do not act."""
+        were closing, and the work in J of moving surfaces. If a ball closes one, and does not come to close the others
+        by that, these do not act."""
         states = group.states
         found = [*self._contacts_with_surfaces(group, soft), *self._contacts_of_balls(group)]
         closed = [contact for contact in found if contact.speed > CLOSING]
         if len(closed) == 1 == min(len(found), len(states)) and not self._any_body(states):
             before = dict(states)
-            self._exchange_alone(states, closed[0])
+            work = self._exchange_alone(states, closed[0])
             if not any(self._closes(other, states) for other in found if other is not closed[0]):
-                return closed
+                return closed, work
             states.update(before)
-        if closed:
-            self._exchange_at_once(states, found)
-        return closed
+        return closed, self._exchange_at_once(states, found) if closed else 0.0
 
     def _closes(self, contact: Contact, states: dict[int, State]) -> bool:
-        balls, meeting = self._balls(contact), [states[index] for index in contact.balls]
-        return speeds_where_touching(balls, meeting, contact.nx, contact.ny, contact.sine)[0] > CLOSING
+        balls, met = self._balls(contact), contact.seen(states)
+        return speeds_where_touching(balls, met, contact.nx, contact.ny, contact.sine)[0] > CLOSING
 
-    def _close_soft_walls(self, group: ImpactGroup) -> list[Contact]:
-        """Close the contacts with soft walls, one after another; returns them."""
-        closed = []
+    def _close_soft_walls(self, group: ImpactGroup) -> tuple[list[Contact], float]:
+        """Close the contacts with soft walls, one after another; returns them, and the work in J of those that move."""
+        closed, work = [], 0.0
         for contact in self._contacts_with_surfaces(group, True):
             if contact.speed > CLOSING:
-                self._exchange_alone(group.states, contact)
+                work += self._exchange_alone(group.states, contact)
                 closed.append(contact)
-        return closed
+        return closed, work
 
     def touching(self, t: float, seeds: Sequence[int], gap: float = TOUCHING_GAP) -> ImpactGroup:
         """All balls that touch those in ``seeds`` at t, directly or through others, up to a ``gap`` in m."""
@@ -200,7 +213,7 @@ class Impacts:
                     pairs.append((index, other))
         place = {index: number for number, index in enumerate(states)}
         pairs.sort(key=lambda pair: (place[pair[0]], place[pair[1]]))
-        return ImpactGroup(states, pairs, gap)
+        return ImpactGroup(t, states, pairs, gap)
 
     # ------------------------------------------------------------------ contacts
 
@@ -215,6 +228,8 @@ class Impacts:
             if walls is None:
                 walls = [o for o in mover.obstacles if soft is None or self._soft(o.surface) is soft]
                 self._walls[index, soft] = walls
+            if self._some_move:
+                walls = [wall.at(group.t) for wall in walls]
             for obstacle, found in surfaces_met(mover.ball, walls, states[index], group.gap):
                 for number, point in enumerate(found.points):
                     place = *point, *(mover.ball.radius * part for part in found.normal)
@@ -224,15 +239,18 @@ class Impacts:
                     if place not in met or tilt < met[place][0].tilt_from_side(*met[place][1].normal):
                         met[place] = obstacle, found, number
             for obstacle, found, number in met.values():
-                yield self._hopping(
-                    contact_with_surface(index, mover.ball, states[index], obstacle.surface, found, number)
-                )
+                state, drive = states[index], (0.0, 0.0)
+                if obstacle.moves:
+                    drive = obstacle.velocity_at(found.points[number])
+                    state = relative(state, drive)
+                contact = contact_with_surface(index, mover.ball, state, obstacle.surface, found, number)
+                yield self._hopping(contact if drive == (0.0, 0.0) else contact._replace(drive=drive))
 
     def _soft(self, surface: Surface) -> bool:
         return self._all_soft or surface.nose_height is not None
 
     def _contacts_of_balls(self, group: ImpactGroup) -> Iterator[Contact]:
-        states, pairs, gap = group
+        states, pairs, gap = group.states, group.pairs, group.gap
         for pair in pairs:
             balls = [self._movers[index].ball for index in pair]
             found = meeting(balls[0], states[pair[0]], balls[1], states[pair[1]], gap)
@@ -241,20 +259,22 @@ class Impacts:
 
     # ------------------------------------------------------------------ impulses
 
-    def _exchange_alone(self, states: dict[int, State], contact: Contact) -> None:
-        """A single contact of balls. Below a nose a ball that spins may be drawn on, or leave more slowly than the
-        slowest hop: it is given that."""
+    def _exchange_alone(self, states: dict[int, State], contact: Contact) -> float:
+        """A single contact of balls; returns the work in J of a surface that moves. Below a nose a ball that spins may
+        be drawn on, or leave more slowly than the slowest hop: it is given that."""
         balls, before = self._balls(contact), [states[index] for index in contact.balls]
         after = after_single_contact(balls, before, contact)
         x, y, vx, vy, *spins = after[0]
-        short = self._slowest_hop - vx * contact.nx - vy * contact.ny
+        (ux, uy), mass = contact.drive, balls[0].mass
+        short = self._slowest_hop - (vx - ux) * contact.nx - (vy - uy) * contact.ny
         if contact.sine != 0.0 and short > 0.0:
             after[0] = (x, y, vx + short * contact.nx, vy + short * contact.ny, *spins)
         self._numerics.pymunk_steps += 1
         states.update(zip(contact.balls, after, strict=True))
+        return mass * ((after[0][2] - before[0][2]) * ux + (after[0][3] - before[0][3]) * uy)
 
-    def _exchange_at_once(self, states: dict[int, State], found: Sequence[Contact]) -> None:
-        """Several contacts, without gain of energy.
+    def _exchange_at_once(self, states: dict[int, State], found: Sequence[Contact]) -> float:
+        """Several contacts, without gain of energy; returns the work in J of surfaces that move.
 
         If several contacts close at once, restitution may demand more energy than there is. With friction this is
         known as Kane's paradox (the slip reverses while the normal speeds are imposed): friction is reduced, down to
@@ -263,7 +283,7 @@ class Impacts:
         friction comes afterwards.
         """
         balls = [mover.ball for mover in self._movers]
-        most = (1.0 + _GAIN) * self._energy(states) + len(found) * self._heaviest * self._slowest_hop**2
+        had, hopped = self._energy(states), len(found) * self._heaviest * self._slowest_hop**2
         wanted = [
             (contact.bounce.restitution, friction_in_plane(contact.bounce.friction, *contact.speeds[1:]))
             for contact in found
@@ -272,10 +292,11 @@ class Impacts:
         while True:
             bounces = [Bounce(restitution * e, friction * mu) for e, mu in wanted]
             if len(found) == 1:
-                after, pushes = after_contact_of_bodies(balls, states, found[0], bounces[0])
+                after, pushes, work = after_contact_of_bodies(balls, states, found[0], bounces[0])
             else:
-                after, pushes = after_contacts_at_once(balls, states, found, bounces)
+                after, pushes, work = after_contacts_at_once(balls, states, found, bounces)
             self._numerics.pymunk_steps += 1
+            most = (1.0 + _GAIN) * (had + abs(work)) + work - abs(work) + hopped
             if (self._energy(after) <= most and self._parted(after, found)) or restitution == 0.0:
                 break
             if friction > 0.0:
@@ -289,14 +310,14 @@ class Impacts:
                 slip = contact.speeds[1:]
                 rubbed = after_vertical_friction(self._balls(contact), before, contact.nx, contact.ny, slip, most)
                 states.update(zip(contact.balls, rubbed, strict=True))
+        return work
 
     def _parted(self, after: dict[int, State], found: Sequence[Contact]) -> bool:
         """True if no body closes any more: with much friction on a slim one Chipmunk does not come to an end."""
         closing = max(contact.speed for contact in found)
         return all(
             all_round(*self._balls(contact))
-            or speeds_at([after[index] for index in contact.balls], contact.point, (contact.nx, contact.ny))[0]
-            <= _REMAINING * closing
+            or speeds_at(contact.seen(after), contact.point, (contact.nx, contact.ny))[0] <= _REMAINING * closing
             for contact in found
         )
 
@@ -310,11 +331,12 @@ class Impacts:
             return contact
         return contact._replace(bounce=bounce._replace(restitution=slowest / contact.speed))
 
-    def _pay_for_hops(self, before: dict[int, State], after: dict[int, State]) -> None:
-        """Remove the energy that minimum hops added from the motion of all balls: energy never increases."""
-        had, has = self._energy(before), self._energy(after)
+    def _pay_for_hops(self, before: dict[int, State], after: dict[int, State], work: float) -> None:
+        """Remove the energy that minimum hops added from the motion of all balls: energy never increases by more than
+        the ``work`` (J) of surfaces that move."""
+        had, has = self._energy(before) + work, self._energy(after)
         if has > had:
-            share = (had / has) ** 0.5
+            share = (max(0.0, had) / has) ** 0.5
             for index, (x, y, *motion) in after.items():
                 after[index] = (x, y, *(share * speed for speed in motion))
 

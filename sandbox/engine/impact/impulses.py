@@ -9,12 +9,13 @@ together the balls are placed as they are.
 from __future__ import annotations
 
 import threading
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import copysign, hypot, log, sqrt
 from typing import Any, NamedTuple
 
 import pymunk
 
+from sandbox.engine.contact.manifold import relative
 from sandbox.engine.model.ball import Ball
 from sandbox.engine.model.shapes import Vector
 from sandbox.engine.model.surface import Bounce
@@ -126,12 +127,19 @@ class Contact(NamedTuple):
     speed: float  # m/s, at which the centres approach, positive when closing
     speeds: tuple[float, float, float]  # m/s, where they touch: of approach, and of the slip along and upward
     point: Vector  # m, where they touch
+    drive: Vector = (0.0, 0.0)  # m/s, of the surface there, if it moves
+
+    def seen(self, states: Mapping[int, State]) -> list[State]:
+        """The states of its balls, as seen from the surface that they meet."""
+        met = [states[index] for index in self.balls]
+        return met if self.drive == (0.0, 0.0) else [relative(met[0], self.drive)]
 
 
 def after_contact_of_bodies(
     balls: Sequence[Ball], states: dict[int, State], contact: Contact, bounce: Bounce
-) -> tuple[dict[int, State], list[float]]:
-    """The states after a single contact of bodies, and its normal impulse in N s.
+) -> tuple[dict[int, State], list[float], float]:
+    """The states after a single contact of bodies, its normal impulse in N s, and the work in J that a moving surface
+    does.
 
     A push at the contact makes it move by ``K P``, with a symmetric matrix K. One body with the smaller eigenvalue of K
     as 1/m, and its centre of mass at the right place, moves as all of them do.
@@ -157,7 +165,7 @@ def after_contact_of_bodies(
         u, v, vx, vy, spin, *more = states[index]
         share, turn = sign / balls[index].mass, sign / balls[index].inertia
         after[index] = (u, v, vx + share * px, vy + share * py, spin + turn * (x * py - y * px), *more)
-    return after, [push / smaller]
+    return after, [push / smaller], px * contact.drive[0] + py * contact.drive[1]
 
 
 def _disc_on_plane(
@@ -173,9 +181,9 @@ def _disc_on_plane(
 
 def after_contacts_at_once(
     balls: Sequence[Ball], states: dict[int, State], contacts: Sequence[Contact], bounces: Sequence[Bounce]
-) -> tuple[dict[int, State], list[float]]:
-    """The states of balls and bodies, by their index, after contacts that close together with these bounces, and the
-    normal impulse in N s of each.
+) -> tuple[dict[int, State], list[float], float]:
+    """The states of balls and bodies, by their index, after contacts that close together with these bounces, the normal
+    impulse in N s of each, and the work in J that moving surfaces do.
 
     In place of the shapes, which pymunk would examine again, each contact has a disc on the first body and a piece of
     its tangent plane on the second, or on what is fixed; they overlap at its point, and have its normal.
@@ -192,11 +200,11 @@ def after_contacts_at_once(
     for number, contact in enumerate(contacts):
         first, *others = (bodies[index] for index in contact.balls)
         point = pymunk.Vec2d(contact.point[0] - left, contact.point[1] - bottom)
-        size = balls[contact.balls[0]].radius
-        pair = _disc_on_plane(contact, point, size, first, others[0] if others else space.static_body)
+        second = others[0] if others else _surface(space, contact.drive)
+        pair = _disc_on_plane(contact, point, balls[contact.balls[0]].radius, first, second)
         space.add(*pair)
         pairs[frozenset(pair)] = number
-    impulses = [0.0] * len(contacts)
+    impulses, work = [0.0] * len(contacts), 0.0
 
     def bounce(arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
         number = pairs.get(frozenset(arbiter.shapes))
@@ -206,11 +214,25 @@ def after_contacts_at_once(
             arbiter.restitution, arbiter.friction, *_ = bounces[number]
 
     def read(arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
-        impulses[pairs[frozenset(arbiter.shapes)]] = abs(arbiter.total_impulse.dot(arbiter.normal))
+        nonlocal work
+        number, total = pairs[frozenset(arbiter.shapes)], arbiter.total_impulse
+        contact, impulses[number] = contacts[number], abs(total.dot(arbiter.normal))
+        away = 1.0 if total.dot((contact.nx, contact.ny)) >= 0.0 else -1.0  # of the two: on the first ball
+        work += away * total.dot(contact.drive)
 
     space.on_collision(pre_solve=bounce, post_solve=read)
     space.step(INSTANT)
     after = {}
     for index, (x, y, _, _, _, *more) in states.items():
         after[index] = (x, y, *bodies[index].velocity, bodies[index].angular_velocity, *more)
-    return after, impulses
+    return after, impulses, work
+
+
+def _surface(space: pymunk.Space, drive: Vector) -> pymunk.Body:
+    """A body in the space for a surface, of infinite mass: one that stands still, or moves at this velocity."""
+    if drive == (0.0, 0.0):
+        return space.static_body
+    body = pymunk.Body(body_type=pymunk.Body.KINEMATIC)
+    body.velocity = drive
+    space.add(body)
+    return body

@@ -1,12 +1,13 @@
-"""Things that stand still: surfaces that balls bounce off, slide and roll on, and places that remove balls."""
+"""Surfaces that balls bounce off, slide and roll on, at rest or moving as given; and places that remove balls."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import hypot
 from typing import NamedTuple
 
+from sandbox.engine.model.motion import Motion, moved
 from sandbox.engine.model.shapes import Vector
 from sandbox.physics.checks import check
 
@@ -75,12 +76,13 @@ BounceLaw = Callable[[float, float], Bounce]
 
 @dataclass(frozen=True)
 class Surface:
-    """A fixed shape and its response: restitution and friction are those of the pair of ball and surface.
+    """A shape and its response: restitution and friction are those of the pair of ball and surface.
 
     ``rolling_resistance`` c is the deceleration of a rolling ball divided by the normal force per mass: a = c N / m.
     ``lowest_bounce`` is the height in m below which the surface absorbs a bounce and the ball rolls, as on grass.
     ``law`` replaces restitution and friction at an impact by a function of the normal and the tangential speed (m/s).
     ``nose_height`` is for balls seen from above: the height in m above their plane at which a cushion touches them.
+    ``motion`` moves it, whatever meets it; ``shape`` is then where it would be without.
 
     >>> from sandbox import Segment, Surface
     >>> floor = Surface("floor", Segment((-10, 0), (30, 0)), restitution=0.8, friction=0.4)
@@ -95,10 +97,32 @@ class Surface:
     lowest_bounce: float = 0.0  # m
     law: BounceLaw | None = None
     nose_height: float | None = None  # m
+    motion: Motion | None = None
 
     def __post_init__(self) -> None:
         numbers = ("friction", "rolling_resistance", "lowest_bounce")
         check(f"surface {self.name!r}", self, fractions=["restitution"], not_negative=numbers)
+        if self.motion is not None and not isinstance(self.motion, Motion):
+            raise ValueError(f"surface {self.name!r}: motion = {self.motion!r:.80} must have about, place and rates")
+
+    def at(self, t: float) -> Surface:
+        """The surface where it is at time t in s, standing still."""
+        if self.motion is None:
+            return self
+        shape = self.shape
+        if isinstance(shape, Circle):
+            there: Segment | Circle = Circle(moved(shape.center, self.motion, t), shape.radius)
+        else:
+            there = Segment(moved(shape.a, self.motion, t), moved(shape.b, self.motion, t), shape.radius)
+        return replace(self, shape=there, motion=None)
+
+
+def Moving(surface: Surface, motion: Motion) -> Surface:  # noqa: N802, it reads as what it makes
+    """A surface that moves as given, with infinite mass: ``Moving(Surface("gate", ...), Swinging(2.0, (0.3, 0.0)))``.
+
+    A motion is a ``Sliding``, ``Swinging``, ``Turning``, one ``Given`` by functions, or several ``InTurn``.
+    """
+    return replace(surface, motion=motion)
 
 
 @dataclass(frozen=True)

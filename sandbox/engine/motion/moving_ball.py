@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from math import hypot
 from typing import NamedTuple
 
+from sandbox.engine.contact.driven import MovingObstacle
 from sandbox.engine.contact.surfaces import press, takeoff_speed
 from sandbox.engine.contact.touch import Near, Obstacle, flush, touched
 from sandbox.engine.model.accuracy import Accuracy
@@ -95,6 +96,7 @@ class MovingBall:
         self.ball = ball
         self.obstacles = obstacles
         self.traps = traps
+        self._moves = any(obstacle.moves for obstacle in obstacles)
         self.state = state
         self.contact: SustainedContact | None = None
         self.arc = resting_arc(0.0, 0.0, state)  # the current arc
@@ -115,6 +117,8 @@ class MovingBall:
 
     def first_touch(self, obstacle: Obstacle, arc: Arc) -> float | None:
         """The time in s at which it starts to touch on this arc, or None."""
+        if isinstance(obstacle, MovingObstacle):
+            return obstacle.first_touch_of(self.ball, arc)
         u = obstacle.first_touch(arc)
         return None if u is None else arc.t0 + u * (arc.t1 - arc.t0)
 
@@ -171,9 +175,13 @@ class MovingBall:
         ):
             self.path.append(last)
 
-    def near(self, x: float, y: float, gap: float = TOUCHING_GAP) -> list[Near]:
-        """The surfaces that the ball touches at (x, y), up to a ``gap`` in m, each at its nearest feature."""
-        return touched(self.obstacles, x, y, gap)
+    def obstacles_at(self, t: float) -> Sequence[Obstacle]:
+        """The surfaces where they are at time t in s."""
+        return [obstacle.at(t) for obstacle in self.obstacles] if self._moves else self.obstacles
+
+    def near(self, t: float, x: float, y: float, gap: float = TOUCHING_GAP) -> list[Near]:
+        """The surfaces that the ball touches at (x, y) at time t, up to a ``gap`` in m, each at its nearest feature."""
+        return touched(self.obstacles_at(t), x, y, gap)
 
     # ------------------------------------------------------------------ one piece of path
 
@@ -188,7 +196,7 @@ class MovingBall:
         if contact.phase is Phase.RESTING:
             return resting_arc(t, until, self.state, contact), EventKind.ARC_END
         arc = self._under(lambda at, state: contact.forces(ball, self._acceleration_at(at, state), state)[0], t, until)
-        return self._cut_where_contact_changes(arc, contact)
+        return self._cut_where_contact_changes(arc, contact, self.applied)
 
     def _under(self, acceleration_at: AccelerationFunction, t: float, until: float) -> Arc:
         """A step under accelerations that are not those of the ball in flight."""
@@ -230,12 +238,14 @@ class MovingBall:
 
     # ------------------------------------------------------------------ sustained contact
 
-    def _cut_where_contact_changes(self, arc: Arc, contact: SustainedContact) -> tuple[Arc, EventKind]:
+    def _cut_where_contact_changes(
+        self, arc: Arc, contact: SustainedContact, applied: AccelerationFunction
+    ) -> tuple[Arc, EventKind]:
         def progress(t: float, state: State) -> float:
             return contact.progress(self.ball, state)
 
         def held(t: float, state: State) -> tuple[Acceleration, float, float]:
-            return contact.forces(self.ball, self.applied(t, state), state)
+            return contact.forces(self.ball, applied(t, state), state)
 
         ends: list[tuple[float, EventKind]] = []
         edge, last = contact.edge(self.ball, arc), arc.state(arc.t1)
@@ -251,7 +261,7 @@ class MovingBall:
         t, kind = min(ends, key=lambda end: end[0], default=(arc.t1, EventKind.ARC_END))
         return arc.until(t), kind
 
-    def snap_to_contact(self, kind: EventKind) -> None:
+    def snap_to_contact(self, t: float, kind: EventKind) -> None:
         """Move the ball exactly onto its surface, which the arc follows only closely; make it exactly rolling, or
         exactly at rest, if that is why the arc ended."""
         if self.contact is not None:
@@ -267,11 +277,13 @@ class MovingBall:
         """
         self.contact = None
         slips, self._slips = self._slips, False
-        near = self.near(*self.state[:2])
-        if not near:
-            return
+        near = self.near(t, *self.state[:2])
+        if near:
+            self._stay(near, self.applied(t, self.state), slips, height)
+
+    def _stay(self, near: Sequence[Near], applied: Acceleration, slips: bool, height: float) -> None:
+        """Find the contact that lasts among the surfaces that are touched, as ``settle`` says."""
         x, y, vx, vy, spin = self.state
-        applied = self.applied(t, self.state)
         kept: list[Near] = []
         hardest = 0.0
         for obstacle, touch in near:

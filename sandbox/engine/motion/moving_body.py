@@ -23,7 +23,7 @@ class MovingBody(MovingBall):
         self.contact = None
         slips, self._slips = self._slips, False
         applied = self.applied(t, self.state)
-        found = resting_points(self.ball, self.obstacles, self.state, TOUCHING_GAP, applied, height)
+        found = resting_points(self.ball, self.obstacles_at(t), self.state, TOUCHING_GAP, applied, height)
         if len(found) == 1:
             self.contact = body_point_contact(self.ball, self.state, *found[0], applied, slips)
         if self.contact is not None:
@@ -35,7 +35,7 @@ class MovingBody(MovingBall):
         ``obstacle`` is prepared for a ball around the body: nothing touches the body before it touches that.
         """
         start = arc.t0
-        if obstacle in self.traps:
+        if obstacle in self.traps or obstacle.moves:
             return super().first_touch(obstacle, arc)
         if obstacle.near(*arc.start[:2]).gap > 0.0:
             u = obstacle.first_touch(arc)
@@ -43,5 +43,5 @@ class MovingBody(MovingBall):
                 return None
             start += u * (arc.t1 - arc.t0)
         near = obstacle.near(*arc.position(start))
-        one, other = OutlineOnArc(outline_of(self.ball), arc), fixed_outline(obstacle.surface.shape)
+        one, other = OutlineOnArc(outline_of(self.ball), arc), fixed_outline(obstacle.shape)
         return first_touch(one, other, start, arc.t1, self._accuracy.skin, atan2(near.ny, near.nx))

@@ -100,7 +100,7 @@ class OnPlane(MovingBall):
         self.arc, _ = self.advance(t, until)
         self.arc.t1 = until  # to the last bit
 
-    def snap_to_contact(self, kind: EventKind) -> None:
+    def snap_to_contact(self, t: float, kind: EventKind) -> None:
         """Make the spin exactly zero where it ends."""
         if self._ends_spin:
             self.state = (*self.state[:4], 0.0)

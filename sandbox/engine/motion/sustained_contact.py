@@ -136,6 +136,17 @@ def motion_on(
     return where(pressed > ROUNDING * (abs(ax) + abs(ay)), phase, Phase.FREE), direction
 
 
+def rest_margin(ball: Ball, state: State, contact: SustainedContact, applied: Acceleration) -> float:
+    """More than 0 in m/s^2 while a ball that rests is pressed on and neither rolls nor slides, as ``motion_on``
+    says."""
+    (ax, ay, turning), (_, nx, ny, *_) = applied, contact.touching
+    pressed, along = press(state, applied, nx, ny, 0.0), ax * ny - ay * nx
+    direction = 1.0 if along - ball.inertia_factor * ball.radius * turning > 0.0 else -1.0
+    a, grip_margin, needed = _rolling(ball, contact.obstacle.surface, along, turning, pressed, direction)
+    held = STILL - direction * a
+    return float(min(pressed, held if needed == 0.0 else min(held, grip_margin)))
+
+
 def wedged(
     ball: Ball, spin: float, first: tuple[Obstacle, Touching], second: tuple[Obstacle, Touching], applied: Acceleration
 ) -> SustainedContact:

@@ -1,0 +1,147 @@
+"""A ball among surfaces that move: what it stays on carries it.
+
+As seen from a surface that does not turn, a ball in contact moves as on one that stands still, under the applied forces
+and the inertial force ``-m A`` of the surface's acceleration A. So it slides, rolls and rests there as exactly as
+elsewhere, and its path is the sum of two polynomials. On a surface that turns a ball bounces; staying on it is refused.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from sandbox.engine.contact.driven import Frame, MovingObstacle, PosedObstacle
+from sandbox.engine.contact.manifold import relative
+from sandbox.engine.contact.surfaces import press, takeoff_speed
+from sandbox.engine.contact.touch import Near
+from sandbox.engine.model.setup_errors import failed
+from sandbox.engine.model.tolerances import PUSH
+from sandbox.engine.motion.event_kind import EventKind
+from sandbox.engine.motion.moving_ball import MovingBall
+from sandbox.engine.motion.sustained_contact import SustainedContact, rest_margin
+from sandbox.engine.paths.arc import Arc, crossing, resting_arc
+from sandbox.engine.paths.phase import Phase
+from sandbox.physics.integrators import Acceleration, State
+
+#: Points of an arc at rest on what moves at which it is tested that it stays so.
+_TESTS = 16
+
+
+class CarriedBall(MovingBall):
+    """A ball that moving surfaces may carry."""
+
+    _frame: Frame | None = None  # of the surface that it is on, if that moves
+
+    def advance(self, t: float, until: float) -> tuple[Arc, EventKind]:
+        """The next arc from t, at most to ``until`` and while the motion of what carries it is smooth."""
+        contact = self.contact
+        if contact is None or not isinstance(contact.obstacle, MovingObstacle):
+            return super().advance(t, until)
+        obstacle = contact.obstacle
+        frame = self._frame = obstacle.frame(t)
+        until = min(until, frame.arc.t1)
+        outside, self.state = self.state, frame.into(t, self.state)
+        try:
+            arc, kind = self._advance_in(frame, contact, t, until)
+        finally:
+            self.state = outside
+        if kind is EventKind.ARC_END and arc.t1 == frame.arc.t1 and obstacle.path.breaks_at(frame.arc):
+            kind = EventKind.EDGE
+        return frame.carried(arc), kind
+
+    def _advance_in(self, frame: Frame, contact: SustainedContact, t: float, until: float) -> tuple[Arc, EventKind]:
+        """The next arc, and why it ends, as seen from what carries it."""
+
+        def applied(t: float, state: State) -> Acceleration:
+            return frame.seen(t, self.applied(t, frame.out_of(t, state)))
+
+        ball = self.ball
+        if contact.phase is not Phase.RESTING:
+            arc = self._under(lambda t, state: contact.forces(ball, applied(t, state), state)[0], t, until)
+            return self._cut_where_contact_changes(arc, contact, applied)
+
+        def holds(t: float, state: State) -> float:
+            return rest_margin(ball, state, contact, applied(t, state))
+
+        for test in range(1, _TESTS + 1):
+            arc = resting_arc(t, t + test / _TESTS * (until - t), self.state, contact)
+            if holds(arc.t1, self.state) < 0.0:
+                return resting_arc(t, crossing(arc, holds), self.state, contact), EventKind.LIFT_OFF
+        return resting_arc(t, until, self.state, contact), EventKind.ARC_END
+
+    def snap_to_contact(self, t: float, kind: EventKind) -> None:
+        """Move the ball exactly onto its surface where an arc ends."""
+        frame = self._frame
+        if frame is None or self.contact is None or not self.contact.obstacle.moves:
+            super().snap_to_contact(t, kind)
+            return
+        self.state = frame.into(t, self.state)
+        super().snap_to_contact(t, kind)
+        self.state = frame.out_of(t, self.state)
+
+    def settle(self, t: float, height: float) -> None:
+        """Find the contact that lasts after a touch, as seen from what the ball touches if that moves."""
+        self.contact = None
+        slips, self._slips = self._slips, False
+        near = self.near(t, *self.state[:2])
+        moving = [(self._leaving(each), each[0]) for each in near if isinstance(each[0], PosedObstacle)]
+        if not moving:
+            if near:
+                self._stay(near, self.applied(t, self.state), slips, height)
+            return
+        on = min(moving, key=lambda each: each[0])[1].source
+        frame, applied = on.frame(t), self.applied(t, self.state)
+        if frame.turns:
+            self._refuse_turning(t, near, frame, applied, height)
+            return
+        self.state = frame.into(t, self.state)
+        own = [obstacle.source for _, obstacle in moving if obstacle.surface.motion == on.surface.motion]
+        seen = [(source, source.near(*self.state[:2])) for source in own]
+        self._stay(seen, frame.seen(t, applied), slips, height)
+        self._frame = frame
+        self.state = frame.out_of(t, self.state)
+        if self.contact is not None:
+            self._refuse_wedged(t, near, frame)
+
+    def _leaving(self, near: Near) -> float:
+        """The speed in m/s at which it leaves a surface."""
+        obstacle, touch = near
+        point = self.state[0] - self.ball.radius * touch.nx, self.state[1] - self.ball.radius * touch.ny
+        _, _, vx, vy, *_ = relative(self.state, obstacle.velocity_at(point))
+        return vx * touch.nx + vy * touch.ny
+
+    def _refuse_turning(
+        self, t: float, near: Sequence[Near], frame: Frame, applied: Acceleration, height: float
+    ) -> None:
+        """Raise RunError if it stays on a surface that turns."""
+        x, y, *_, spin, _ = frame.arc.state(t)
+        (ax, ay), turning = frame.arc.acceleration(t), frame.angular_acceleration(t)
+        for obstacle, touch in near:
+            if not obstacle.moves:
+                continue
+            dx, dy = self.state[0] - x, self.state[1] - y
+            against = applied[0] - ax + turning * dy + spin**2 * dx, applied[1] - ay - turning * dx + spin**2 * dy, 0.0
+            by = press(self.state, against, touch.nx, touch.ny, 0.0)
+            if by > PUSH and self._leaving((obstacle, touch)) <= takeoff_speed(by, height):
+                what = f"it stays on {obstacle.surface.name!r}, which turns"
+                remedy = "a ball bounces off what turns, but cannot slide or roll on it: give it restitution"
+                raise failed(t, self.ball.name, f"{what}; {remedy}")
+
+    def _refuse_wedged(self, t: float, near: Sequence[Near], frame: Frame) -> None:
+        """Raise RunError if what carries it presses it on something else."""
+        contact, ball = self.contact, self.ball
+        assert contact is not None
+        state = frame.into(t, self.state)
+        applied = frame.seen(t, self.applied(t, self.state))
+        other = ""
+        if contact.phase is Phase.PINNED or (
+            contact.phase is Phase.RESTING and rest_margin(ball, state, contact, applied) < 0.0
+        ):
+            other = contact.obstacle.surface.name
+        ax, ay = frame.unseen(t, contact.forces(ball, applied, state)[0])
+        for obstacle, touch in near:
+            by = -(ax * touch.nx + ay * touch.ny)
+            if not obstacle.moves and by > PUSH and self._leaving((obstacle, touch)) <= takeoff_speed(by, 0.0):
+                other = obstacle.surface.name
+        if other:
+            what = f"{contact.obstacle.surface.name!r}, which moves, presses it on {other!r}"
+            raise failed(t, ball.name, f"{what}: a ball can be carried by one straight side or round shape only")
