@@ -10,13 +10,15 @@ from collections import defaultdict
 from dataclasses import dataclass
 from itertools import pairwise
 
+from sandbox.engine.contact.driven import MovingObstacle
+from sandbox.engine.contact.touch import Outline
 from sandbox.engine.model.ball import Ball, kinetic
 from sandbox.engine.motion.forces_on_ball import acceleration_function, by_cause
 from sandbox.engine.motion.moving_ball import InCluster, InHeap
 from sandbox.engine.motion.sustained_contact import SustainedContact
 from sandbox.engine.paths.arc import Arc
 from sandbox.engine.paths.run import Run
-from sandbox.physics.integrators import INTEGRATORS
+from sandbox.physics.integrators import INTEGRATORS, State
 
 #: Gauss-Legendre nodes and weights on [0, 1]: exact for polynomials of degree 9.
 _NODES = (0.04691007703066802, 0.23076534494715845, 0.5, 0.7692346550528415, 0.953089922969332)
@@ -33,7 +35,7 @@ class Ledger:
 
     start: float  # kinetic, of all balls, including rotation
     end: float
-    work: dict[str, float]  # by force or torque; by "lost mass", what that takes away
+    work: dict[str, float]  # by force or torque; by "lost mass", what that takes away; "driven by" a surface that moves
     impacts: dict[str, float]  # by the partner; an impact of two balls under both names
     #: By the surface slid or rolled on, including bounces too low to simulate; by "heap" where balls press on one
     #: another, and "position correction", what moving them apart there adds.
@@ -70,11 +72,18 @@ def ledger(run: Run) -> Ledger:
             hit = met.partner(ball.name, after.t0, after.t0)
             lasting = after.contact or before.contact
             if hit is not None:
-                impacts[hit] += jump
+                driven = _driven_in_impact(run, ball, hit, before.state(before.t1), after)
+                if driven:
+                    work[f"driven by {hit}"] += driven
+                impacts[hit] += jump - driven
             elif isinstance(lasting, InHeap):
                 contacts["heap"] += jump
             elif isinstance(lasting, SustainedContact):
-                contacts[lasting.obstacle.surface.name] += jump
+                surface = lasting.obstacle.surface
+                driven = _driven_in_impact(run, ball, surface.name, before.state(before.t1), after)
+                if driven:
+                    work[f"driven by {surface.name}"] += driven
+                contacts[surface.name] += jump - driven
             else:
                 residue += jump
     return Ledger(start, end, dict(work), dict(impacts), dict(contacts), residue)
@@ -113,6 +122,20 @@ class _Impacts:
         return " and ".join(sorted((own.ball, own.partner))) if own.partner in self._balls else own.partner
 
 
+def _driven_in_impact(run: Run, ball: Ball, name: str, before: State, after: Arc) -> float:
+    """The work in J that a surface of this name does in an impact of a ball: its velocity at the point of contact times
+    the change of momentum; 0 if it does not move."""
+    surface = next((each for each in run.setup.surfaces if each.name == name and each.motion is not None), None)
+    if surface is None or surface.motion is None:
+        return 0.0
+    t, (x, y, vx, vy, *_) = after.t0, after.start
+    place, rates = surface.motion.place(t), surface.motion.rates(t)
+    _, nx, ny, *_ = Outline.of(surface.at(t).shape, ball.radius).near(x, y)
+    ux = rates.x - rates.angle * (y - ball.radius * ny - place.y)
+    uy = rates.y + rates.angle * (x - ball.radius * nx - place.x)
+    return float(ball.mass * ball.mass_fraction(t) * ((vx - before[2]) * ux + (vy - before[3]) * uy))
+
+
 def _work_of_forces(ball: Ball, arc: Arc, moved: InHeap) -> float:
     """The work in J of the forces on a ball while position correction moves it."""
     forces = [force for _, force in by_cause(ball.forces, arc.t0, arc.start)]
@@ -136,7 +159,17 @@ def _book(ball: Ball, arc: Arc, work: dict[str, float], contacts: dict[str, floa
             work[name] += weight * h * power
             applied += power
         if isinstance(contact, SustainedContact):
-            (ax, ay, alpha), _, _ = contact.forces(ball, acceleration_function(ball)(t, state), state)
+            free = acceleration_function(ball)(t, state)
+            if isinstance(contact.obstacle, MovingObstacle):
+                frame = contact.obstacle.frame(t)
+                seen = contact.forces(ball, frame.seen(t, free), frame.into(t, state))[0]
+                ax, ay, alpha = *frame.unseen(t, seen), seen[2]
+                ux, uy, mass = *frame.arc.state(t)[2:4], ball.mass * ball.mass_fraction(t)
+                pushed = mass * ((ax - free[0]) * ux + (ay - free[1]) * uy)
+                work[f"driven by {contact.obstacle.surface.name}"] += weight * h * pushed
+                applied += pushed
+            else:
+                (ax, ay, alpha), _, _ = contact.forces(ball, free, state)
             lost = powers[-1][1] if ball.loss is not None else 0.0
             total = ball.mass_fraction(t) * (ball.mass * (ax * vx + ay * vy) + ball.inertia * alpha * spin) + lost
             contacts[contact.obstacle.surface.name] += weight * h * (total - applied)

@@ -78,7 +78,7 @@ class CarriedBall(MovingBall):
         super().snap_to_contact(t, kind)
         self.state = frame.out_of(t, self.state)
 
-    def settle(self, t: float, height: float) -> None:
+    def find_sustained_contact(self, t: float, height: float) -> None:
         """Find the contact that lasts after a touch, as seen from what the ball touches if that moves."""
         self.contact = None
         slips, self._slips = self._slips, False

@@ -282,7 +282,7 @@ class MovingBall:
             self._stay(near, self.applied(t, self.state), slips, height)
 
     def _stay(self, near: Sequence[Near], applied: Acceleration, slips: bool, height: float) -> None:
-        """Find the contact that lasts among the surfaces that are touched, as ``settle`` says."""
+        """Find the contact that lasts among the surfaces that are touched."""
         x, y, vx, vy, spin = self.state
         kept: list[Near] = []
         hardest = 0.0
