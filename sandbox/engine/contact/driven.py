@@ -26,9 +26,9 @@ from sandbox.engine.paths.bernstein import derivative, elevate, evaluate, piece
 from sandbox.errors import RunError
 from sandbox.physics.integrators import Acceleration, State
 
-#: How far in m, and in m/s over a time of 1 s, an arc may be from the motion; how often it may be halved, and the
-#: longest in s.
-_FITS, _HALVINGS, _LONGEST = 1e-11, 40, 1.0
+#: How far an arc may be from the motion, as a share of its size, and of its speed; what rounding makes of the slope of a
+#: size; the shortest and the longest in s.
+_FITS, _DRIFT, _ROUNDING, _SHORTEST, _LONGEST = 1e-11, 1e-9, 1e-13, 1e-7, 1.0
 
 #: Degree of the arcs; they match the motion at so many nodes.
 _DEGREE, _NODES = 7, (0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0)
@@ -74,7 +74,7 @@ class DrivenPath:
     def _arc_from(self, t: float) -> Arc:
         motion, until = piece_of(self._motion, t)
         h = min(self._next, until - t)
-        for _ in range(_HALVINGS):
+        while h > _SHORTEST:
             arc, fits = self._fitted(motion, t, h)
             if fits:
                 self._next = min(2.0 * h, _LONGEST)
@@ -99,13 +99,15 @@ class DrivenPath:
             for place, rate in ((places[0], rates[0]), (places[-1], rates[-1]))
         )
         arc = Arc(t, t + h, start, (x, y, vx, vy, spin, angle), None, end)
-        size = 1.0 + max(abs(part) for place in places for part in place[:2])
+        reach = self.outline.reach
+        size = 1.0 + max(abs(place.x) + abs(place.y) + reach * abs(place.angle) for place in places)
+        speed = 1.0 + max(abs(rate.x) + abs(rate.y) + reach * abs(rate.angle) for rate in rates)
         for probe in _PROBES:
-            place, rate, state = self._place(motion, t + probe * h), self._rates(motion, t + probe * h), None
-            state = [evaluate(curve, probe) for curve in arc.curves]
-            off = max(hypot(state[0] - place.x, state[1] - place.y), self.outline.reach * abs(state[5] - place.angle))
-            drift = max(hypot(state[2] - rate.x, state[3] - rate.y), self.outline.reach * abs(state[4] - rate.angle))
-            if not (off <= _FITS * size and drift * min(1.0, h) <= 100.0 * _FITS * (size + abs(rate.angle))):
+            place, rate = self._place(motion, t + probe * h), self._rates(motion, t + probe * h)
+            u, v, ux, uy, turning, turned = (evaluate(curve, probe) for curve in arc.curves)
+            off = max(hypot(u - place.x, v - place.y), reach * abs(turned - place.angle))
+            drift = max(hypot(ux - rate.x, uy - rate.y), reach * abs(turning - rate.angle))
+            if off > _FITS * size or drift > _DRIFT * speed + _ROUNDING * size / h:
                 return arc, False
         return arc, True
 

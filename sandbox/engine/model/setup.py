@@ -230,9 +230,10 @@ class Setup:
 
     @property
     def is_single_ball(self) -> bool:
-        """True if it has one ball among surfaces, and no more: many of these can be computed together."""
+        """True if it has one ball among surfaces at rest, and no more: many of these can be computed together."""
         alone = len(self.balls) == 1 and not self.balls[0].rotates
-        return alone and len(self.surfaces) > 0 and self.plane is None and not self.traps
+        still = all(surface.motion is None for surface in self.surfaces)
+        return alone and still and len(self.surfaces) > 0 and self.plane is None and not self.traps
 
     def between(self, one: str, other: str) -> BounceLaw:
         """The law for impacts of two balls."""
