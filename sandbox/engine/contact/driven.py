@@ -26,8 +26,8 @@ from sandbox.engine.paths.bernstein import derivative, elevate, evaluate, piece
 from sandbox.errors import RunError
 from sandbox.physics.integrators import Acceleration, State
 
-#: How far an arc may be from the motion, as a share of its size, and of its speed; what rounding makes of the slope of a
-#: size; the shortest and the longest in s.
+#: How far an arc may be from the motion, as a share of its size, and of its speed; what rounding makes of the slope of
+#: a size; the shortest and the longest in s.
 _FITS, _DRIFT, _ROUNDING, _SHORTEST, _LONGEST = 1e-11, 1e-9, 1e-13, 1e-7, 1.0
 
 #: Degree of the arcs; they match the motion at so many nodes.
