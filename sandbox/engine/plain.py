@@ -106,6 +106,11 @@ class PlainSimulation:
         self, setup: Setup, accuracy: Accuracy, progress: Callable[[float, float], None] | None = None
     ) -> None:
         """``progress`` is called regularly with the time simulated and the most that it can become, in s."""
+        moving = next((surface.name for surface in setup.surfaces if surface.motion is not None), None)
+        if moving is not None:
+            raise RequestError(
+                f'the plain method has no surfaces that move, as {moving!r} does: use accuracy.method = "exact"'
+            )
         self._setup = setup
         self._accuracy = accuracy
         self._progress = progress
