@@ -8,16 +8,16 @@ from functools import cache
 from typing import Any
 
 import sandbox
-from sandbox.engine.paths.run import Run
+from sandbox.scene.scene_run import SceneRun
 
 
-def run_of(source: str, changes: Mapping[str, Any] | None = None) -> Run:
+def run_of(source: str, changes: Mapping[str, Any] | None = None) -> SceneRun:
     """The run of a scene or preset: computed once in a process, for all tests that only look at it."""
     return _computed(source, json.dumps(changes))
 
 
 @cache
-def _computed(source: str, changes: str) -> Run:
+def _computed(source: str, changes: str) -> SceneRun:
     return sandbox.simulate(sandbox.load(source, json.loads(changes)))
 
 
@@ -26,7 +26,7 @@ def dotted(changes: Mapping[str, Any]) -> dict[str, Any]:
     return {key.replace("__", "."): value for key, value in changes.items()}
 
 
-def playing(name: str, **usual: Any) -> Callable[..., Run]:
+def playing(name: str, **usual: Any) -> Callable[..., SceneRun]:
     """``kick = playing("soccer")``: ``kick(launch__speed=20)`` is a run with that launch.speed, and
     ``kick("soccer/dipping-free-kick")`` one of a preset."""
     return lambda source=name, **changes: sandbox.simulate(sandbox.load(source, dotted(usual | changes)))
