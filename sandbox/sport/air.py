@@ -49,9 +49,10 @@ class Weather(Air):
 
     @property
     def air(self) -> Air:
-        moist = moist_density(self.temperature + 273.15, 100.0 * self.pressure, self.humidity, self.elevation)
-        density = moist if self.density is None else self.density
-        return Air(density=density, viscosity=self.viscosity, wind=self.wind)
+        if self.density is not None:
+            return self
+        density = moist_density(self.temperature + 273.15, 100.0 * self.pressure, self.humidity, self.elevation)
+        return self.model_copy(update={"density": density})
 
 
 def wind_in(air: Air) -> Wind | None:
