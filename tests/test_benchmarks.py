@@ -223,7 +223,7 @@ def test_the_page_names_the_machine(opened: Callable[[str], ModuleType]):
 
 
 @pytest.mark.parametrize(
-    ("part", "first"), [("scenes", 3), ("setups", 0), ("bodies", 0), ("faulty", 5), ("replays", 0)]
+    ("part", "first"), [("scenes", 3), ("setups", 0), ("bodies", 5), ("faulty", 5), ("replays", 0)]
 )
 def test_the_soak_tries_each_part(opened: Callable[[str], ModuleType], part: str, first: int):
     soak = opened("soak")

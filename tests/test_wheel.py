@@ -41,7 +41,7 @@ def installed(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Call:
     venv.create(environment, with_pip=False)
     python = environment / "bin" / "python"
     subprocess.run(
-        [*PIP, "--python", str(python), "install", "--no-deps", "--no-index", str(wheel)],
+        [*PIP, "--python", str(python), "install", "--no-deps", "--no-index", "--no-compile", str(wheel)],
         check=True,
         capture_output=True,
         text=True,
