@@ -10,6 +10,8 @@ from contextlib import contextmanager
 
 #: Work that takes less than this shows no bar, in s.
 PATIENCE = 2.0
+#: Work of which more than this is left after that time says so in a line, on a terminal or not, in s.
+LONG = 20.0
 #: Seconds between two refreshes of the bar.
 INTERVAL = 0.1
 #: Length of the bar, in characters.
@@ -18,46 +20,53 @@ LENGTH = 30
 
 @contextmanager
 def bar(what: str) -> Iterator[Callable[[float, float], None]]:
-    """Yield a function to call with the amount done and the total; the bar shows on a terminal only.
+    """Yield a function to call with the amount done and the total.
 
-    Rate and time left are measured from its first call, which may already count work done earlier, and again from one
-    that has less done than the call before: the next piece of work.
+    The bar shows on a terminal only. Work that takes long is announced in a line, in a log, too; and again if it has
+    become more than twice as much. Rate and time left are measured from the first call, which may already count work
+    done earlier, and again from one that has less done than the call before: the next piece of work.
     """
     begun = time.monotonic()
-    refreshed = latest = 0.0
+    refreshed = latest = announced = 0.0
     first: tuple[float, float] | None = None
+    terminal = sys.stderr is not None and sys.stderr.isatty()
 
     def show(done: float, total: float) -> None:
-        nonlocal refreshed, first, latest
+        nonlocal refreshed, first, latest, announced
         now = time.monotonic()
         first = first if first is not None and done >= latest else (now, done)
         latest = done
         if now - begun < PATIENCE or now - refreshed < INTERVAL:
             return
         refreshed = now
-        full = round(LENGTH * min(1.0, done / total)) if total else LENGTH
-        pace = _pace(done - first[1], now - first[0], total - done)
-        _write(f"{what} {'━' * full}{'─' * (LENGTH - full)} {int(done)}/{int(total)} {pace}")
+        worked, seconds = done - first[1], now - first[0]
+        wait = (total - done) * seconds / worked if worked > 0 and seconds > 0.0 else 0.0
+        if wait > LONG and total > 2.0 * announced:
+            announced = total
+            _write(f"{what}: {total:,.0f} in all, about {_time(wait)} left", "\n", terminal)
+        if terminal:
+            full = round(LENGTH * min(1.0, done / total)) if total else LENGTH
+            pace = f"{_rate(worked / seconds)}/s  {_time(wait)} left" if worked > 0 and seconds > 0.0 else ""
+            _write(f"{what} {'━' * full}{'─' * (LENGTH - full)} {int(done)}/{int(total)} {pace}")
 
     try:
-        yield show if sys.stderr is not None and sys.stderr.isatty() else lambda done, total: None
+        yield show if sys.stderr is not None else lambda done, total: None
     finally:
-        if refreshed:
-            _write("")
+        if refreshed and terminal:
+            _write("", "\r")
 
 
-def _write(line: str) -> None:
-    """Over the line before, within the terminal's width; an empty one leaves the line empty."""
+def _write(line: str, end: str = "", over: bool = True) -> None:
+    """Write within the terminal's width, over the line before if there may be one."""
     width = shutil.get_terminal_size((80, 24)).columns - 1
-    sys.stderr.write("\r" + line[:width].ljust(width) + "\r" * (not line))
+    sys.stderr.write("\r" + line[:width].ljust(width) + end if over else line + end)
     sys.stderr.flush()
 
 
-def _pace(done: float, seconds: float, left: float) -> str:
-    """Rate and time left, as ``"1,240/s  12 s left"``."""
-    if done <= 0 or seconds <= 0.0:
-        return ""
-    rate = done / seconds
-    wait = left / rate
-    remaining = f"{wait:.0f} s" if wait < 100.0 else f"{wait / 60:.0f} min" if wait < 6000.0 else f"{wait / 3600:.1f} h"
-    return f"{rate:,.0f}/s  {remaining} left" if rate >= 10.0 else f"{rate:.2g}/s  {remaining} left"
+def _rate(rate: float) -> str:
+    return f"{rate:,.0f}" if rate >= 10.0 else f"{rate:.2g}"
+
+
+def _time(wait: float) -> str:
+    """A time in s, as ``"12 s"``."""
+    return f"{wait:.0f} s" if wait < 100.0 else f"{wait / 60:.0f} min" if wait < 6000.0 else f"{wait / 3600:.1f} h"

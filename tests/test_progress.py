@@ -71,7 +71,7 @@ def test_short_work_shows_nothing(clock, monkeypatch):
     assert terminal.getvalue() == ""
 
 
-def test_what_is_no_terminal_shows_nothing(clock, monkeypatch):
+def test_what_is_no_terminal_shows_no_bar(clock, monkeypatch):
     monkeypatch.setattr("sys.stderr", file := io.StringIO())
     work(clock, 4.0)
     assert file.getvalue() == ""
@@ -104,6 +104,27 @@ def test_each_piece_of_work_has_its_own_rate(clock, monkeypatch):
         clock(4.0)
         progress(2.5, 10.0)
     assert re.search(r"2/10\S* 0\.5/s  15 s left", terminal.getvalue())
+
+
+def test_long_work_says_so_before_in_a_log_too(clock, monkeypatch):
+    monkeypatch.setattr("sys.stderr", log := io.StringIO())
+    with bar("aim") as progress:
+        for done, total in ((0, 129), (100, 129), (129, 2691), (200, 2691), (300, 2700)):
+            progress(done, total)
+            clock(3.0)
+    assert log.getvalue() == "aim: 2,691 in all, about 2 min left\n"
+
+
+def test_long_work_is_announced_above_the_bar(clock, monkeypatch):
+    monkeypatch.setattr("sys.stderr", terminal := Terminal())
+    with bar("sweep") as progress:
+        progress(0, 100)
+        clock(4.0)
+        progress(10, 100)
+    line, bars = terminal.getvalue().split("\n")
+    assert line.strip() == "sweep: 100 in all, about 36 s left"
+    assert "10/100" in bars
+    assert_cleared(terminal)
 
 
 @pytest.mark.parametrize("more", [[], ["--check"]])

@@ -18,6 +18,7 @@ from sandbox.lab.aim import Target, aim, as_target, parse_target, search
 from sandbox.lab.aim.maximize import peak
 from sandbox.lab.aim.question import MAXIMIZE
 from sandbox.lab.aim.report import as_json, as_text
+from sandbox.lab.aim.root import is_met
 from sandbox.lab.axes import Span, parse_span
 from sandbox.lab.runs import runs
 from sandbox.parameters import walk
@@ -158,6 +159,21 @@ def test_what_holds_or_not_has_intervals():
     assert abs(interval.high - (0.05 + 0.5 * 9.81)) < interval.high_error < 1e-5
     assert solution.values["launch.height"] == pytest.approx(0.5 * (0.1 + interval.high))
     assert solution.result["bounced"] is True
+
+
+@pytest.mark.parametrize(("jump", "met"), [(0.0, True), (0.026, False), (26.0, False)])
+def test_a_small_jump_over_the_target_is_no_solution(jump: float, met: bool):
+    """At the jump a finer run is on its other side, so that its shift there is the jump; a step away it is 1e-5."""
+    span, root = Span("x", 2.0, 40.0), 2.1066973
+
+    def numbers(point, phase):
+        return np.array([point[0] - root + (0.5 if point[0] >= root else -0.5) * jump])
+
+    def checked(points):
+        return [({}, {}, np.array([jump if abs(x - root) < 1e-6 else 1e-5])) for (x,) in points]
+
+    shots = SimpleNamespace(spans=[span], targets=[None], numbers=numbers, checked=checked, spread=lambda _: 280.0)
+    assert is_met(shots, (root,)) == met
 
 
 def test_an_interval_ends_next_to_where_the_target_is_met(tmp_path):

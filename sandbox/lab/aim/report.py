@@ -17,7 +17,7 @@ from sandbox.lab.chart import chart, legend, mark
 from sandbox.lab.tables import paragraph, table
 from sandbox.sport.amounts import significant
 
-#: Most solutions in the text; a target met in narrow bands can have dozens.
+#: Most solutions, and most jumps, in the text; a target met in narrow bands can have dozens.
 _SHOWN = 12
 
 
@@ -76,12 +76,13 @@ def as_text(aim: Aim) -> list[str]:
         lines += _region_lines(aim)
     else:
         lines += _root_lines(aim)
-    for one, other in aim.jumps:
+    for one, other in aim.jumps[:_SHOWN]:
         places = " and ".join(f"{side.values[0]:.10g}" for side in (one, other))
         lines += paragraph(
             f"between {aim.spans[0].key} = {places} {aim.targets[0].name} jumps from {one.found[0]:.6g} to "
             f"{other.found[0]:.6g}, over the target"
         )
+    lines += _more(len(aim.jumps), " jumps")
     failures = f", {aim.failures} of which failed" if aim.failures else ""
     return [*lines, "", *paragraph(f"{len(aim.tries):,} runs{failures}{_resolution(aim)}")]
 
@@ -128,7 +129,7 @@ def _root_lines(aim: Aim) -> list[str]:
             row += [f"{solution.result[name]:.8g}", _error(solution.result_errors.get(name))]
         rows.append(row)
     headings += [part for name in names for part in (_heading(aim, name), "±")]
-    return [*table(headings, rows, "r" * len(headings)), *_more(aim)]
+    return [*table(headings, rows, "r" * len(headings)), *_more(len(aim.solutions))]
 
 
 def _heading(aim: Aim, name: str) -> str:
@@ -157,7 +158,7 @@ def _interval_lines(aim: Aim) -> list[str]:
     side = "both sides" if best.open_low and best.open_high else "the lower side" if best.open_low else "the upper side"
     cut = f"; it continues beyond the range on {side}: widen the range to see its middle" if _is_cut(best) else ""
     forgiving = paragraph(f"{_forgiving(aim)}, with a margin of ±{room}{cut}")
-    return [*table(headings, rows, "rrrrrl"), *_more(aim), "", *forgiving]
+    return [*table(headings, rows, "rrrrrl"), *_more(len(aim.solutions)), "", *forgiving]
 
 
 def _region_lines(aim: Aim) -> list[str]:
@@ -169,7 +170,7 @@ def _region_lines(aim: Aim) -> list[str]:
         row = [part for key, value in solution.values.items() for part in (f"{value:.5g}", significant(room[key], 2))]
         rows.append([*row, f"{significant(100.0 * solution.region.share, 2)} %"])
     headings = [part for span in aim.spans for part in (label(aim.scene, span.key), "room")]
-    return ["  most forgiving points", *table([*headings, "of the range"], rows, "rrrrr"), *_more(aim)]
+    return ["  most forgiving points", *table([*headings, "of the range"], rows, "rrrrr"), *_more(len(aim.solutions))]
 
 
 def _is_cut(interval: Interval) -> bool:
@@ -188,9 +189,9 @@ def _with_unit(aim: Aim, axis: int, number: str) -> str:
     return f"{number} {unit_of(aim.scene, aim.spans[axis].key)}".rstrip()
 
 
-def _more(aim: Aim) -> list[str]:
-    left = len(aim.solutions) - _SHOWN
-    return [f"  ... {left} more; --json has them all"] if left > 0 else []
+def _more(count: int, kind: str = "") -> list[str]:
+    left = count - _SHOWN
+    return [f"  ... {left} more{kind}; --json has them all"] if left > 0 else []
 
 
 def _error(error: float | None) -> str:

@@ -14,7 +14,7 @@ from sandbox.lab.aim.shots import Shots
 STEP, SAME = 1e-5, 1e-6
 
 #: A target is met if the miss is below this fraction of the result's variation, or below its numerical error if that
-#: is below the second fraction: at a jump a finer run differs by the jump itself.
+#: is below the second fraction.
 _MET, _NOISE = 1e-6, 1e-3
 
 
@@ -51,9 +51,21 @@ def is_met(shots: Shots, point: tuple[float, ...]) -> bool:
     spreads = np.array([shots.spread(index) for index in range(len(shots.targets))])
     if (misses <= _MET * spreads).all():
         return True
-    _, _, shift = shots.checked([point])[0]
-    noise = np.minimum(3.0 * np.abs(shift), _NOISE * spreads)
+    noise = np.minimum(3.0 * _error_beside(shots, point), _NOISE * spreads)
     return bool((misses <= np.maximum(_MET * spreads, noise)).all())
+
+
+def _error_beside(shots: Shots, point: tuple[float, ...]) -> np.ndarray:
+    """The numerical errors of the targets a step to either side of a point, whichever are smaller; NaN if both runs
+    failed. At a jump itself a finer run differs by the jump, however small that is."""
+    sides = [
+        tuple(
+            float(np.clip(x + way * STEP * (on.high - on.low), on.low, on.high))
+            for x, on in zip(point, shots.spans, strict=True)
+        )
+        for way in (-1.0, 1.0)
+    ]
+    return np.fmin(*(np.abs(shift) for _, _, shift in shots.checked(sides)))
 
 
 def solution(shots: Shots, point: tuple[float, ...]) -> Solution:
