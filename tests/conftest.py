@@ -30,6 +30,19 @@ def call(capsys: pytest.CaptureFixture[str]) -> Callable[..., Outcome]:
 
 
 @pytest.fixture
+def printed(request: pytest.FixtureRequest) -> Callable[[str, str], None]:
+    """Compares a text with ``tests/printed/NAME.txt``, which ``--golden-update`` writes."""
+
+    def check(name: str, text: str) -> None:
+        file = Path(__file__).parent / "printed" / f"{name}.txt"
+        if request.config.getoption("--golden-update"):
+            file.write_text(f"{text.rstrip()}\n", "utf-8")
+        assert text.rstrip().splitlines() == file.read_text("utf-8").splitlines(), "if intended: pytest --golden-update"
+
+    return check
+
+
+@pytest.fixture
 def drop(tmp_path: Path) -> Path:
     """A scene of the user's own: a copy of the folder ``drop``."""
     return copy_of(DROP, tmp_path / "drop")
