@@ -192,7 +192,8 @@ def described(draw: Any, folder: Path) -> list[str]:
 
 def _axes_lines(axes: Any) -> Iterator[str]:
     yield f"axes {axes.get_xlabel()} | {axes.get_ylabel()} | {_short([*axes.get_xlim(), *axes.get_ylim()])}"
-    yield f"scales {axes.get_xscale()} {axes.get_yscale()}, grid {[line.get_visible() for line in axes.yaxis.get_gridlines()[:1]]}"
+    grid = [line.get_visible() for line in axes.yaxis.get_gridlines()[:1]]
+    yield f"scales {axes.get_xscale()} {axes.get_yscale()}, grid {grid}"
     yield f"title {axes.get_title('left').strip()}"
     for text in axes.texts:
         place = [*getattr(text, "xyann", ()), text.get_fontsize(), text.get_zorder()]
