@@ -79,6 +79,35 @@ def test_where_the_tip_hits_and_what_can_be_aimed_at(player, golden):
     golden.check("window-tip", player.screen)
 
 
+#: What is shown over a free throw that has been thrown, by the keys that show it.
+SHOWN = {"charts": "w", "graphs": "alt w", "energy": "j", "tape": "t", "arrows": "o", "keys": "h", "menu": "l"}
+#: The same while aiming.
+SHOWN_WHILE_AIMING = {"fan": "f", "map": "m"}
+
+
+@pytest.mark.parametrize("name", SHOWN)
+def test_what_a_key_shows(player, golden, name: str):
+    player = player("basketball/rattle", SIZE)
+    player.key(pygame.K_SPACE)
+    player.game.watching.playback.seek(1.2)
+    player.game.watching.playback.playing = False
+    player.press_named(SHOWN[name])
+    player.settle()
+    player.view.changed = True
+    player.frames(3)
+    golden.check(f"window-{name}", player.screen)
+
+
+@pytest.mark.parametrize("name", SHOWN_WHILE_AIMING)
+def test_what_a_key_shows_while_aiming(player, golden, name: str):
+    player = player("basketball/free-throw", SIZE)
+    player.press_named(SHOWN_WHILE_AIMING[name])
+    player.settle()
+    player.view.changed = True
+    player.frames(3)
+    golden.check(f"window-{name}", player.screen)
+
+
 def test_a_line_is_as_wide_in_every_direction():
     for angle in np.radians([0, 20, 45, 70, 90]):
         surface = pygame.Surface((200, 200))
