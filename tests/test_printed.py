@@ -49,7 +49,7 @@ def test_controls_and_facts(name: str, printed):
     scene = load(name)
     controls, parameters = scene.controls, scene.parameters
     lines = [f"{field.name}: {_said(getattr(controls, field.name), parameters)}" for field in fields(controls)]
-    lines += [f"{fact.key}: {_said(replace(fact, how=len), parameters)}" for fact in scene.facts.values()]
+    lines += [f"{fact.key}: {_said(replace(fact, compute=len), parameters)}" for fact in scene.facts.values()]
     printed(f"controls-{name}", "\n".join(lines))
 
 
