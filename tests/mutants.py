@@ -23,7 +23,7 @@ import tempfile
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from itertools import count
+from itertools import accumulate, count
 from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
@@ -49,6 +49,13 @@ Reach = dict[str, tuple[float, dict[str, list[str]]]]
 
 #: Not looked into: what holds names only, and shapes of types.
 LEFT_OUT = {"__init__"}
+
+#: Tests that compare all that is seen of something with what is kept of it.
+KEPT = ("tests/test_golden_runs.py", "tests/test_printed.py", "tests/picture/test_other_pictures.py",
+        "tests/window/test_look.py")  # fmt: skip
+
+#: Tests of what modules declare when they are loaded, which calls no function.
+DECLARED = ("tests/test_schemas.py::test_a_schema_is_in", "tests/test_printed.py::test_controls", *KEPT[:1])
 
 ARITHMETIC = {ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: ast.Mult}
 COMPARISONS = {ast.Lt: ast.GtE, ast.GtE: ast.Lt, ast.Gt: ast.LtE, ast.LtE: ast.Gt, ast.Eq: ast.NotEq, ast.NotEq: ast.Eq}
@@ -158,16 +165,27 @@ def function_at(source: str, place: int) -> str:
 
 
 def tests_of(reach: Reach, module: str, function: str, most: float) -> list[str]:
-    """The tests that call a function of a module, or any of its functions for "", the quickest first, as many as
-    together take ``most`` s at most."""
-    found, together = [], 0.0
-    for test, (seconds, called) in sorted(reach.items(), key=lambda item: item[1][0]):
-        if function in called.get(module, []) if function else module in called:
-            together += seconds
-            if together > most:
-                break
-            found.append(test)
-    return found
+    """The tests that call a function of a module, the quickest first: as many as together take half of ``most`` s, and
+    for as long those of KEPT. For "" those that call any of its functions, and of DECLARED those of its scene."""
+    by_time = sorted(reach, key=lambda test: reach[test][0])
+    called = [
+        test for test in by_time if module in reach[test][1] and (not function or function in reach[test][1][module])
+    ]
+    declared = [
+        test
+        for test in by_time
+        if not function and test.startswith(DECLARED) and test.endswith(f"[{Path(module).parent.name}]")
+    ]
+    usual = _within(0.5 * most, reach, called)
+    return list(
+        dict.fromkeys([*usual, *declared, *_within(0.5 * most, reach, [t for t in called if t.startswith(KEPT)])])
+    )
+
+
+def _within(most: float, reach: Reach, tests: Sequence[str]) -> list[str]:
+    """As many of these tests, from the first on, as together take ``most`` s at most."""
+    together = list(accumulate(reach[test][0] for test in tests))
+    return [test for test, seconds in zip(tests, together, strict=True) if seconds <= most]
 
 
 class Recorder:
