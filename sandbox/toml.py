@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import sys
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -16,6 +17,9 @@ from sandbox.text import shortened
 #: Most bytes of a scene file; the largest of the project's own has 5 kB.
 LARGEST = 1_000_000
 
+#: Most parts of a key; deeper tables take time with the square of their depth.
+_DEEPEST = 100
+
 
 def read_toml(path: Path) -> dict[str, Any]:
     """The nested tables of a TOML file; RequestError says in one line why it cannot be read."""
@@ -23,12 +27,25 @@ def read_toml(path: Path) -> dict[str, Any]:
         text = read_given(path, LARGEST).decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise RequestError(f"{path}: not a text file in UTF-8 (byte {error.start})") from None
+    deep = next((n for n, line in enumerate(text.splitlines(), 1) if _parts_of_key(line) > _DEEPEST), None)
+    if deep is not None:
+        raise RequestError(f"{path}: line {deep}: a key has at most {_DEEPEST} parts")
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise RequestError(f"{path}: broken TOML: {error}{_toml_hint(text, str(error))}") from None
-    except (ValueError, RecursionError) as error:
-        raise RequestError(f"{path}: cannot be read as TOML: {error}") from None
+    except RecursionError:
+        raise RequestError(f"{path}: its lists or tables are nested too deeply") from None
+    except ValueError as error:  # Python's limit for whole numbers
+        digits = max(map(len, re.findall(r"\d+", text)), default=0)
+        if digits <= sys.int_info.default_max_str_digits:
+            raise RequestError(f"{path}: cannot be read as TOML: {error}") from None
+        raise RequestError(f"{path}: a number in it has {digits:,} digits, too many") from None
+
+
+def _parts_of_key(line: str) -> int:
+    """The parts of the key with which a line begins, roughly: dots in a text before an equals sign count, too."""
+    return line.partition("=")[0].partition("#")[0].count(".") + 1
 
 
 def _toml_hint(text: str, error: str) -> str:

@@ -59,6 +59,47 @@ def test_a_pipe_is_no_scene_file(call: Call, tmp_path: Path):
     assert_refused(call("run", tmp_path / "link.toml"), "is a pipe or a device; a file is needed")
 
 
+def test_a_pipe_is_no_part_of_a_scene(call: Call, drop: Path):
+    """As a preset it is not listed; where the scene's own values should be it is refused, not passed over."""
+    os.mkfifo(drop / "presets" / "pipe.toml")
+    assert "pipe" not in call("list", drop).out
+    assert_refused(call("run", drop / "pipe"), "drop has no preset pipe; ")
+    (drop / "drop.toml").unlink()
+    os.mkfifo(drop / "drop.toml")
+    assert_refused(call("run", drop), "drop.toml: is a pipe or a device; a file is needed")
+
+
+def test_a_device_is_no_scene(call: Call):
+    assert_refused(call("run", "/dev/zero"), "/dev/zero: is a pipe or a device; a file is needed")
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("x = " + "9" * 900_000, "a number in it has 900,000 digits, too many"),
+        ("x = " + "[" * 100_000 + "]" * 100_000, "its lists or tables are nested too deeply"),
+        ("[" + "a." * 100_000 + "b]", "line 2: a key has at most 100 parts"),
+        ("a." * 100_000 + "b = 1", "line 2: a key has at most 100 parts"),
+    ],
+    ids=["digits", "lists", "table", "key"],
+)
+def test_a_scene_file_beyond_all_measure_is_a_line(call: Call, tmp_path: Path, text: str, said: str):
+    (tmp_path / "x.toml").write_text(f'scene = "drop"\n{text}', "utf-8")
+    assert_refused(call("run", tmp_path / "x.toml"), f"x.toml: {said}")
+
+
+def test_a_sweep_without_room_leaves_all_as_it_was(tmp_path: Path):
+    """No mark, and the file of before under its name; files of any size are too large here."""
+    sweep = "sweep", DROP, "--over", "launch.height=1:2:3", "--out", tmp_path / "x.csv"
+    assert_refused(limited({resource.RLIMIT_FSIZE: 0}, *sweep), "x.csv: cannot be written: file too large", 1)
+    assert not [*tmp_path.iterdir()]
+    assert limited({}, *sweep).code == 0
+    before = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
+    other = *sweep, "--set", "gravity=5"
+    assert_refused(limited({resource.RLIMIT_FSIZE: 0}, *other), "x.csv: cannot be written: file too large", 1)
+    assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before
+
+
 def test_a_huge_scene_file_is_refused_unread(call: Call, tmp_path: Path):
     with (tmp_path / "huge.toml").open("wb") as file:
         file.truncate(100_000_000)

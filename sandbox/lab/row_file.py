@@ -128,8 +128,14 @@ class RowFile:
                 raise
             self._file_path.replace(self.before)
         mark.truncate(0)
-        mark.write(self._plan.fingerprint + "\n")
-        mark.flush()
+        try:
+            mark.write(self._plan.fingerprint + "\n")
+            mark.flush()
+        except OSError:  # a full disk: all is left as it was
+            self._mark_path.unlink()
+            if there and not self.done:
+                self.before.replace(self._file_path)
+            raise
 
     def _seal(self) -> str:
         """A digest of the sweep and of the file's content."""

@@ -156,6 +156,8 @@ def _at(path: Path, given: str = "") -> SceneSource:
         return _in_folder(path.parent.resolve().name, path.parent, path.name)
     if path.is_dir():
         raise RequestError(f"{path}: a folder without scene.py is not a scene")
+    if path.exists():
+        raise RequestError(f"{path}: is a pipe or a device; a file is needed")
     raise RequestError(f"{shortened(given or str(path))}: there is no such folder or file")
 
 
@@ -199,11 +201,11 @@ def _named_folders() -> dict[str, Path]:
 
 def default_file(folder: Path) -> Path | None:
     file = folder / f"{folder.resolve().name}.toml"
-    return file if file.is_file() else None
+    return file if file.exists() else None  # a pipe is refused where it is read
 
 
 def _presets(folder: Path) -> list[Path]:
-    return sorted((folder / "presets").glob("*.toml"))
+    return sorted(file for file in (folder / "presets").glob("*.toml") if file.is_file())
 
 
 def _preset(name: str, folder: Path, preset: str, where: str = "") -> Path:
