@@ -25,6 +25,7 @@ from sandbox.lab.sweep import sweep_to_file, workers
 from sandbox.lab.verdicts import VerdictChanges
 from sandbox.scene import listings, load
 from tests.own_scene import DROP
+from tests.scenes.play import run_of
 from tests.test_golden_runs import RUNS
 
 SCENES = sorted({listing.name for listing in listings() if "/" not in listing.name})
@@ -53,9 +54,22 @@ def test_controls_and_facts(name: str, printed):
     printed(f"controls-{name}", "\n".join(lines))
 
 
+@pytest.mark.parametrize("name", SCENES)
+def test_what_a_scene_is_built_of(name: str, printed):
+    """Surfaces and traps with their places and numbers; what a picture keeps clear, and until when it tells."""
+    run = run_of(name)
+    scene, setup, picture = run.scene, run.scene.build(), run.scene.picture(run, (640, 360))
+    lines = [_said(part, scene.parameters) for part in (*setup.surfaces, *setup.traps)]
+    lines += [f"aim {_said(aim, None)}" for aim in getattr(picture, "aims", [])]
+    story = [getattr(picture, key, None) for key in ("story_end", "moment")]
+    printed(f"built-{name}", "\n".join([*lines, f"until {_said(story, None)}"]))
+
+
 def _said(value: Any, parameters: Any) -> str:
     """A value of a dataclass as text, with functions of the parameters called, where they can be."""
-    if isinstance(value, tuple):
+    if isinstance(value, float):
+        return f"{value + 0.0:.6g}"
+    if isinstance(value, tuple | list):
         return "; ".join(_said(each, parameters) for each in value)
     if hasattr(value, "__dataclass_fields__"):
         parts = {field.name: getattr(value, field.name) for field in fields(value)}
@@ -161,7 +175,7 @@ SEARCHES: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
     "greatest": ({"launch.height": (0.5, 2)}, {"maximize": "final_height"}),
     "greatest of two": ({"launch.height": (0.5, 2), "launch.speed": (0, 3)}, {"maximize": "final_height"}),
     "region": ({"launch.height": (1, 9), "launch.speed": (0, 3)}, {"target": {"bounced": False}}),
-    "pair": ({"launch.height": (1, 2), "launch.speed": (0, 3)}, {"target": {"first_touch": 0.9, "final_height": 1}}),
+    "pair": ({"launch.height": (1, 2), "launch.speed": (0, 3)}, {"target": {"first_touch": 0.7, "final_height": 1}}),
 }
 
 
@@ -215,6 +229,8 @@ def _axes_lines(axes: Any) -> Iterator[str]:
         yield f"{type(part).__name__} {_short(numbers)} {colours} {part.get_label()} | {_short(spread)}"
         if hasattr(part, "get_sizes"):
             yield f"  {len(part.get_offsets())} of size {_short(part.get_sizes()[:1])}"
+        if hasattr(part, "get_segments"):
+            yield f"  {len(part.get_segments())} lines"
         if hasattr(part, "get_coordinates"):
             yield f"  corners {_short(_ends(part.get_coordinates().reshape(-1, 2)))}"
     if axes.get_legend() is not None:
