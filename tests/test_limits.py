@@ -61,9 +61,9 @@ def test_a_pipe_is_no_scene_file(call: Call, tmp_path: Path):
 
 def test_a_pipe_is_no_part_of_a_scene(call: Call, drop: Path):
     """As a preset it is not listed; where the scene's own values should be it is refused, not passed over."""
-    os.mkfifo(drop / "presets" / "pipe.toml")
-    assert "pipe" not in call("list", drop).out
-    assert_refused(call("run", drop / "pipe"), "drop has no preset pipe; ")
+    os.mkfifo(drop / "presets" / "hose.toml")
+    assert "hose" not in call("list", drop).out
+    assert_refused(call("run", drop / "hose"), "drop has no preset hose; ")
     (drop / "drop.toml").unlink()
     os.mkfifo(drop / "drop.toml")
     assert_refused(call("run", drop), "drop.toml: is a pipe or a device; a file is needed")
