@@ -268,15 +268,15 @@ class PlainSimulation:
             return
         absorbed = lasts or bounce.restitution * contact.speed <= lowest
         arbiter.restitution, arbiter.friction = 0.0 if absorbed else bounce.restitution, bounce.friction
-        if surface is not None and lasts and rolls(first.ball, arbiter):
+        if surface is not None and lasts and rolls(first.ball, arbiter.contact_point_set.points):
             first.resisted[arbiter.shapes[1]] = surface.rolling_resistance
 
     def _part(self, arbiter: pymunk.Arbiter) -> None:
         """Slow what rolls, after Chipmunk has solved the contact."""
         first = self._touching(arbiter)[0][0]
         resistance, body = first.resisted.pop(arbiter.shapes[1], 0.0), first.body
-        speed = body.velocity.length
-        if resistance > 0.0 and abs(speeds_at(arbiter)[1]) <= _GRIP * speed:
+        speed, met = body.velocity.length, arbiter.contact_point_set.points
+        if resistance > 0.0 and abs(speeds_at(body, None, arbiter.normal, met)[1]) <= _GRIP * speed:
             push = abs(arbiter.total_impulse.dot(arbiter.normal))
             slower = max(0.0, 1.0 - resistance * push / first.ball.mass / (speed + 1e-30))
             body.velocity, body.angular_velocity = slower * body.velocity, slower * body.angular_velocity

@@ -44,8 +44,9 @@ from sandbox.physics.integrators import Acceleration, State
 #: Gap, as a fraction of the smallest radius, up to which shapes are in contact in a heap: at rest they stay in touch.
 _MARGIN = 1e-3
 
-#: Steps without pressure after which two balls have parted.
-_PATIENCE = 8
+#: Steps without pressure after which two balls have parted, and with all at a standstill after which these rest; and
+#: the speed, in units of what forces give a ball in a step, up to which it stands still: all its forces are balanced.
+_PATIENCE, _STANDSTILL = 8, 1e-6
 
 #: Speed, in units of what forces give a ball in a step, up to which balls of a heap meet in its steps, found late and
 #: overlapped by up to half of what they move in a step; if faster, they have an impact at its exact time.
@@ -199,12 +200,13 @@ class Heap:
         overlapped = {index for index, speed in moved.items() if speed * self._span > _APART * self.margin}
         held = self._held() | overlapped
         arcs = {index: arc for index, arc in arcs.items() if index in held}
+        rests = self._lasting(_REST, self._forced)
         for index, arc in arcs.items():
             self._refuse_leap(index, arc)
             member = self._members[index]
             slow = member.fastest**2 <= 2.0 * self._forced * self._settle and index not in overlapped
-            member.slow_for = member.slow_for + h if slow else 0.0
-        rests = self._lasting(_REST, self._forced)
+            still = member.fastest <= _STANDSTILL * self._forced * self._span
+            member.slow_for = member.slow_for + max(h, still * rests / _PATIENCE) if slow else 0.0
         for heap in self._apart(held):
             if all(self._members[index].slow_for >= rests for index in heap):
                 self._resting |= dict.fromkeys(heap, heap)
@@ -331,17 +333,19 @@ class Heap:
             return True
         if other in here.left_out:  # at the corners of what stands for an ellipse, speeds differ from those on it
             return False
-        if isinstance(other, Obstacle):
-            if here.fastest <= self._fastest:
-                return True
-            met = [surface_met(here.ball, at, (other, other.near(*at[:2]))) for at in (here.start, here.end)]
-        elif there is None or here.fastest + there.fastest <= self._fastest:
-            return there is not None
-        else:
-            ways = (here.start, there.start), (here.end, there.end)
-            met = [meeting(here.ball, at, there.ball, then) for at, then in ways]
         # one that touches with one corner may be flung round, and down on the next one
-        return max(each.closing for each in (met[1:] if touching else met)) <= self._fastest
+        ways = [here.end] if touching else [here.start, here.end]
+        if isinstance(other, Obstacle):
+            together = here.fastest
+            met = (surface_met(here.ball, at, (other, other.near(*at[:2]))) for at in ways)
+        elif there is None:
+            return False
+        else:
+            together = here.fastest + there.fastest
+            others = [there.end] if touching else [there.start, there.end]
+            pairs = zip(ways, others, strict=True)
+            met = (meeting(here.ball, at, there.ball, then) for at, then in pairs)
+        return together <= self._fastest or all(each.closing <= self._fastest for each in met)
 
 
 def _thickness(body: Ball) -> float:

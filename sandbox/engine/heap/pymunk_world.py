@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any, cast
+from typing import Any
 
 import pymunk
 
@@ -90,20 +90,24 @@ class PymunkWorld:
             raise self._raised
 
 
-def speeds_at(arbiter: pymunk.Arbiter) -> tuple[float, float]:
-    """Speed of approach in m/s where two shapes meet, of two points the faster, and the speed along there."""
-    one, other = (cast(pymunk.Body, shape.body) for shape in arbiter.shapes)
-    nx, ny = arbiter.normal
+def speeds_at(
+    one: pymunk.Body, other: pymunk.Body | None, normal: Vector, met: Sequence[pymunk.ContactPoint]
+) -> tuple[float, float]:
+    """Speed of approach in m/s where two bodies, or one and what is fixed, meet, of two points the faster, and the
+    speed along there."""
+    nx, ny = normal
     found = []
-    for contact in arbiter.contact_point_set.points:
-        vx, vy = one.velocity_at_world_point(contact.point_a) - other.velocity_at_world_point(contact.point_b)
-        found.append((vx * nx + vy * ny, vy * nx - vx * ny))
+    for at in met:
+        (vx, vy), (ux, uy) = one.velocity_at_world_point(at.point_a), (0.0, 0.0)
+        if other is not None:
+            ux, uy = other.velocity_at_world_point(at.point_b)
+        found.append(((vx - ux) * nx + (vy - uy) * ny, (vy - uy) * nx - (vx - ux) * ny))
     return max(found)
 
 
-def rolls(ball: Ball, arbiter: pymunk.Arbiter) -> bool:
-    """True if it touches with a curved side."""
+def rolls(ball: Ball, met: Sequence[pymunk.ContactPoint]) -> bool:
+    """True if it touches with a curved side, at these points."""
     if not ball.rotates:
         return True
     outline = outline_of(ball)
-    return isinstance(outline, Ellipse) or (outline.radius > 0.0 and len(arbiter.contact_point_set.points) == 1)
+    return isinstance(outline, Ellipse) or (outline.radius > 0.0 and len(met) == 1)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -16,7 +16,7 @@ from sandbox.engine.heap.pymunk_world import PymunkWorld, rolls, speeds_at
 from sandbox.engine.model.ball import Ball, kinetic
 from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.shapes import Vector
-from sandbox.engine.model.surface import Surface
+from sandbox.engine.model.surface import Bounce, Surface
 from sandbox.errors import RunError
 from sandbox.physics.integrators import State
 
@@ -31,9 +31,10 @@ _ITERATIONS, _ALIKE = 100, 10.0
 #: a step moves what lies on others by more than its velocity; larger: overlaps of fast steps last.
 _LEFT, _LEAST_LEFT = 0.6, 1e-300
 
-#: Closing speed, in units of what forces give in a step, below which Chipmunk's iterations have come to their end; and
-#: overlap, in margins, that is left as it is.
-_CLOSING, _LEVEL = 1e-3, 1e-3
+#: Closing speed, in units of what forces give in a step, and gain of energy, in units of what is moving with that speed,
+#: below which Chipmunk's iterations have come to their end; and overlap, in margins, that is left as it is. A larger
+#: gain: motion is slowed; smaller: what stands still is solved directly, for rounding.
+_CLOSING, _GAIN, _LEVEL = 1e-3, 1e-6, 1e-3
 
 #: Share of restitution that is left where energy would grow, and below which there is none.
 _REDUCED, _LEAST = 0.5, 0.1
@@ -57,7 +58,7 @@ class Touch:
     friction: float
     approach: float  # m/s, before the impulses, where they approach fastest
     height: float  # m, of the centre above the surface that resists its rolling; 0 if none does
-    push: float  # N s, of the normal impulse
+    push: float = 0.0  # N s, of the normal impulse
 
 
 Group = tuple[list[Member], list[Touch]]
@@ -81,8 +82,7 @@ class Stepper:
         self.directly = not all_round(*setup.balls) or self._ratio > _ALIKE
         self._setup = setup
         self._h, self._pressed_speed, self._impact_speed = 0.0, 0.0, 0.0  # s, m/s, m/s
-        self._touches: list[Touch] = []
-        self._approach: dict[frozenset[pymunk.Shape], float] = {}  # m/s, of what touches in this step
+        self._touches: dict[tuple[pymunk.Shape, ...], Touch] = {}  # in this step
         self._of_disc: dict[pymunk.Shape, Member] = {}
         self._gained = 0.0  # J, in all steps; negative, as contacts take energy
         self._most: dict[int, float] = {}  # J, of kinetic energy, by index
@@ -114,7 +114,7 @@ class Stepper:
         self._h, self._pressed_speed, self._impact_speed = h, pressed_speed, impact_speed
         space = self.world.space
         space.collision_bias = 1.0 if self.directly else max(_LEFT ** (self.unit / span), _LEAST_LEFT)
-        self._touches, self._approach = [], {}
+        self._touches = {}
         self.world.step(h / self.unit)
         groups = self._groups()
         for members, touches in groups:
@@ -150,14 +150,14 @@ class Stepper:
     def _groups(self) -> list[Group]:
         """The members in groups that touch one another, directly or through others, each with its contacts."""
         of = {member.index: {member.index} for member in self._of_disc.values()}
-        for touch in self._touches:
+        for touch in self._touches.values():
             if touch.second is not None and of[touch.first.index] is not of[touch.second.index]:
                 joined = of[touch.first.index] | of[touch.second.index]
                 of |= dict.fromkeys(joined, joined)
         groups: dict[int, Group] = {id(group): ([], []) for group in of.values()}
         for member in self._of_disc.values():
             groups[id(of[member.index])][0].append(member)
-        for touch in self._touches:
+        for touch in self._touches.values():
             groups[id(of[touch.first.index])][1].append(touch)
         return list(groups.values())
 
@@ -165,7 +165,9 @@ class Stepper:
 
     def _solve(self, members: Sequence[Member], touches: Sequence[Touch], share: float) -> None:
         """Solve the contacts of a group, and move its members out of this share of their overlaps."""
-        partings, depths = _wanted(touches)
+        wanted = zip(_closing(touches, Member.velocity_at), (touch for touch in touches for _ in touch.points), strict=True)
+        partings = [touch.restitution * max(0.0, closing) for closing, touch in wanted]
+        depths = [-gap for touch in touches for _, gap in touch.points]
         iterated = self._ratio <= _ALIKE and self._iterated(members, touches, partings)
         if iterated and max(depths) <= _LEVEL * self.margin:
             return
@@ -191,17 +193,13 @@ class Stepper:
 
     def _iterated(self, members: Sequence[Member], touches: Sequence[Touch], partings: Sequence[float]) -> bool:
         """True if Chipmunk's iterations have come to their end in this group: nothing closes any more, and it has
-        gained no energy."""
-        most, wanted = _CLOSING * self._pressed_speed, iter(partings)
-        for touch in touches:
-            nx, ny = touch.normal
-            for (x, y), _ in touch.points:
-                (vx, vy), (ux, uy) = touch.first.velocity_after(x, y), (0.0, 0.0)
-                if touch.second is not None:
-                    ux, uy = touch.second.velocity_after(x, y)
-                if (vx - ux) * nx + (vy - uy) * ny + next(wanted) > most:
-                    return False
-        return sum(member.gain for member in members) <= 0.0
+        gained no energy but by rounding."""
+        most = _CLOSING * self._pressed_speed
+        closing = _closing(touches, Member.velocity_after)
+        if any(speed + parting > most for speed, parting in zip(closing, partings, strict=True)):
+            return False
+        mass = sum(member.ball.mass for member in members)
+        return sum(member.gain for member in members) <= _GAIN * mass * self._pressed_speed**2
 
     def _contacts(self, members: Sequence[Member], touches: Sequence[Touch]) -> Contacts:
         """The contacts of a group."""
@@ -230,11 +228,13 @@ class Stepper:
 
     def _meet(self, arbiter: pymunk.Arbiter) -> None:
         """Leave out what meets too fast for sustained contact: it has an impact of its own, at its exact time."""
-        first, second = arbiter.shapes
+        first, second = shapes = arbiter.shapes
         here, there = self._of_disc[first], self._of_disc.get(second)
         place = -1 if there is not None else self.world.surface_of[second]
+        surface = None if there is not None else self._setup.surfaces[place]
         other = here.mover.obstacles[place] if there is None else there.index
-        approach, along, slip = (speed / self.unit for speed in _speeds(arbiter, here, there))
+        normal, met = (arbiter.normal.x, arbiter.normal.y), arbiter.contact_point_set.points
+        approach, along, slip = (speed / self.unit for speed in _speeds(here, there, normal, met))
         arbiter.process_collision = other in here.before or approach <= self._impact_speed  # it is remembered
         if not arbiter.process_collision:
             here.left_out.add(other)
@@ -242,59 +242,51 @@ class Stepper:
                 there.left_out.add(here.index)
             return
         here.touching.add(other)
-        self._approach[frozenset(arbiter.shapes)] = approach
-        bounces = approach > self._pressed_speed
+        bounces, bounce = approach > self._pressed_speed, Bounce(0.0, arbiter.friction)
         if there is not None:
             there.touching.add(here.index)
             bounce = bounce_of_balls(self._setup, approach, abs(slip), here.ball.name, there.ball.name)
-        elif bounces:
-            bounce = bounce_off(self._setup.surfaces[place], approach, along)
-        else:
-            arbiter.restitution = 0.0
-            return
+        elif surface is not None and bounces:
+            bounce = bounce_off(surface, approach, along)
         arbiter.restitution, arbiter.friction = bounce.restitution if bounces else 0.0, bounce.friction
-
-    def _press(self, arbiter: pymunk.Arbiter) -> None:
-        """Note a contact."""
-        first, second = arbiter.shapes
-        here, there = self._of_disc[first], self._of_disc.get(second)
-        surface = None if there is not None else self._setup.surfaces[self.world.surface_of[second]]
         height = 0.0
-        if surface is not None and rolls(here.ball, arbiter):
+        if surface is not None and rolls(here.ball, met):
             height = here.ball.radius
             if not all_round(here.ball):
-                height = abs(arbiter.normal.dot(arbiter.contact_point_set.points[0].point_a - here.body.position))
-        points: list[tuple[Vector, float]] = []
-        if self.directly:
-            for point in arbiter.contact_point_set.points:
-                (ax, ay), (bx, by) = point.point_a, point.point_b
-                points.append(((0.5 * (ax + bx), 0.5 * (ay + by)), point.distance + self.margin))
-        push = abs(arbiter.total_impulse.dot(arbiter.normal)) / self.unit
-        nx, ny = arbiter.normal
-        bounce, approach = (arbiter.restitution, arbiter.friction), self._approach[frozenset(arbiter.shapes)]
-        self._touches.append(Touch(here, there, surface, (nx, ny), points, *bounce, approach, height, push))
+                height = abs(arbiter.normal.dot(met[0].point_a - here.body.position))
+        points = [
+            ((0.5 * (at.point_a.x + at.point_b.x), 0.5 * (at.point_a.y + at.point_b.y)), at.distance + self.margin)
+            for at in (met if self.directly else ())
+        ]
+        law = arbiter.restitution, arbiter.friction
+        self._touches[shapes] = Touch(here, there, surface, normal, points, *law, approach, height)
+
+    def _press(self, arbiter: pymunk.Arbiter) -> None:
+        """Note how hard two press on each other."""
+        self._touches[arbiter.shapes].push = abs(arbiter.total_impulse.dot(arbiter.normal)) / self.unit
 
 
-def _wanted(touches: Sequence[Touch]) -> tuple[list[float], list[float]]:
-    """At each point of these contacts the speed in m/s of parting by restitution, and the depth in m."""
-    partings, depths = list[float](), list[float]()
+def _closing(touches: Sequence[Touch], velocity: Callable[[Member, float, float], Vector]) -> list[float]:
+    """The closing speeds in m/s at the points of these contacts, by the velocities before or after the impulses."""
+    found = []
     for touch in touches:
         nx, ny = touch.normal
-        for (x, y), gap in touch.points:
-            (vx, vy), (ux, uy) = touch.first.velocity_at(x, y), (0.0, 0.0)
+        for (x, y), _ in touch.points:
+            (vx, vy), (ux, uy) = velocity(touch.first, x, y), (0.0, 0.0)
             if touch.second is not None:
-                ux, uy = touch.second.velocity_at(x, y)
-            partings.append(touch.restitution * max(0.0, (vx - ux) * nx + (vy - uy) * ny))
-            depths.append(-gap)
-    return partings, depths
+                ux, uy = velocity(touch.second, x, y)
+            found.append((vx - ux) * nx + (vy - uy) * ny)
+    return found
 
 
-def _speeds(arbiter: pymunk.Arbiter, here: Member, there: Member | None) -> tuple[float, float, float]:
+def _speeds(
+    here: Member, there: Member | None, normal: Vector, met: Sequence[pymunk.ContactPoint]
+) -> tuple[float, float, float]:
     """Speed of approach in m/s where two shapes meet, and speeds along, of the centres and of the surfaces."""
     if not all_round(here.ball, *([] if there is None else [there.ball])):
-        approach, slip = speeds_at(arbiter)
+        approach, slip = speeds_at(here.body, None if there is None else there.body, normal, met)
         return approach, slip, slip
-    nx, ny = arbiter.normal
+    nx, ny = normal
     (vx, vy), (ux, uy) = here.body.velocity, (0.0, 0.0) if there is None else there.body.velocity
     along = slip = (vy - uy) * nx - (vx - ux) * ny
     for member in (here, there):
