@@ -31,9 +31,9 @@ _ITERATIONS, _ALIKE = 100, 10.0
 #: a step moves what lies on others by more than its velocity; larger: overlaps of fast steps last.
 _LEFT, _LEAST_LEFT = 0.6, 1e-300
 
-#: Closing speed, in units of what forces give in a step, and gain of energy, in units of what is moving with that speed,
-#: below which Chipmunk's iterations have come to their end; and overlap, in margins, that is left as it is. A larger
-#: gain: motion is slowed; smaller: what stands still is solved directly, for rounding.
+#: Closing speed, in units of what forces give in a step, and gain of energy, in units of what has that speed, below which
+#: Chipmunk's iterations have come to their end; and overlap, in margins, that is left as it is. A larger gain: motion is
+#: slowed; smaller: what stands still is solved directly, for rounding.
 _CLOSING, _GAIN, _LEVEL = 1e-3, 1e-6, 1e-3
 
 #: Share of restitution that is left where energy would grow, and below which there is none.
@@ -165,8 +165,9 @@ class Stepper:
 
     def _solve(self, members: Sequence[Member], touches: Sequence[Touch], share: float) -> None:
         """Solve the contacts of a group, and move its members out of this share of their overlaps."""
-        wanted = zip(_closing(touches, Member.velocity_at), (touch for touch in touches for _ in touch.points), strict=True)
-        partings = [touch.restitution * max(0.0, closing) for closing, touch in wanted]
+        restitutions = (touch.restitution for touch in touches for _ in touch.points)
+        closing = _closing(touches, Member.velocity_at)
+        partings = [bounce * max(0.0, speed) for bounce, speed in zip(restitutions, closing, strict=True)]
         depths = [-gap for touch in touches for _, gap in touch.points]
         iterated = self._ratio <= _ALIKE and self._iterated(members, touches, partings)
         if iterated and max(depths) <= _LEVEL * self.margin:
