@@ -31,9 +31,9 @@ _ITERATIONS, _ALIKE = 100, 10.0
 #: a step moves what lies on others by more than its velocity; larger: overlaps of fast steps last.
 _LEFT, _LEAST_LEFT = 0.6, 1e-300
 
-#: Closing speed, in units of what forces give in a step, and gain of energy, in units of what has that speed, below which
-#: Chipmunk's iterations have come to their end; and overlap, in margins, that is left as it is. A larger gain: motion is
-#: slowed; smaller: what stands still is solved directly, for rounding.
+#: Closing speed, in units of what forces give in a step, and gain of energy, in units of what has that speed, below
+#: which Chipmunk's iterations have come to their end; and overlap, in margins, that is left as it is. A larger gain:
+#: motion is slowed; smaller: what stands still is solved directly, for rounding.
 _CLOSING, _GAIN, _LEVEL = 1e-3, 1e-6, 1e-3
 
 #: Share of restitution that is left where energy would grow, and below which there is none.
