@@ -51,6 +51,11 @@ SHALLOW = 1e-9
 #: A thousand times larger or smaller: nothing seen.
 STILL = 1e-10
 
+#: Slip in m/s, or spin in rad/s, that is rounding where a motion begins with none, and then has some before it ends.
+#: Larger: a short slide is lost, and its ball or body starts it again and again. Smaller: the start of a slide, where
+#: rounding leaves 1e-16 m/s, is taken for its end, and the run never ends.
+STARTING = 1e-14
+
 #: Speed of approach in m/s below which it is rounding and not an impact; and difference of speeds that is none.
 #: Larger: balls that lie on one another pass on slow pushes late (1e-6 m/s). Smaller: cradles exchange rounding as
 #: impacts, and their times change by 1e-7 s.

@@ -17,7 +17,7 @@ from sandbox.engine.model.accuracy import Accuracy
 from sandbox.engine.model.ball import Ball
 from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.shapes import Vector
-from sandbox.engine.model.tolerances import CLOSING, PUSH, STILL, TOUCHING_GAP
+from sandbox.engine.model.tolerances import CLOSING, PUSH, STARTING, STILL, TOUCHING_GAP
 from sandbox.engine.motion.event_kind import EventKind
 from sandbox.engine.motion.forces_on_ball import acceleration_function, force_error
 from sandbox.engine.motion.step_control import StepControl, allowed, shortest
@@ -252,7 +252,7 @@ class MovingBall:
         if edge is not None:
             ends.append((edge, EventKind.EDGE))
         if progress(arc.t1, last) < 0.0:
-            ends.append((crossing(arc, progress), EventKind.MOTION_END))
+            ends.append((crossing(arc, progress, STARTING), EventKind.MOTION_END))
         _, normal, grip_margin = held(arc.t1, last)
         if normal < 0.0:
             ends.append((crossing(arc, lambda t, state: held(t, state)[1]), EventKind.LIFT_OFF))
