@@ -314,7 +314,7 @@ def test_a_heavy_ball_on_a_light_one_is_carried_by_it():
     assert max(overlap(run, t) for t in np.linspace(0.0, run.duration, 60)) < 0.02
 
 
-def test_an_ellipse_that_loses_its_grip_for_a_moment_slides_and_rolls_on():
+def test_an_ellipse_slides_for_a_moment_and_rolls_on():
     """Its slide begins with a slip of 6e-17 m/s, by rounding, which is not its end."""
     sizes = (0.09189541639610163, 0.03786986286671355), (0.09258495762422515, 0.052231609147767484)
     masses, angles = (3.861335265054276, 0.14619016794422457), (-0.8595695687670024, -1.0017605877861686)
