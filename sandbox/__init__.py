@@ -21,9 +21,10 @@ if TYPE_CHECKING:
     from sandbox.engine.model.accuracy import Accuracy
     from sandbox.engine.model.ball import DISC, HOLLOW_SPHERE, SOLID_SPHERE, Ball, Body, Force, Torque
     from sandbox.engine.model.event import Event
+    from sandbox.engine.model.motion import Given, InTurn, Motion, Placing, Sliding, Swinging, Turning
     from sandbox.engine.model.setup import Bounds, ContactModel, ForceRegion, Setup, Touches, Until
     from sandbox.engine.model.shapes import Ellipse, Polygon, box, capsule, disc, regular
-    from sandbox.engine.model.surface import Bounce, Circle, ConstantBounce, Segment, Surface, Trap
+    from sandbox.engine.model.surface import Bounce, Circle, ConstantBounce, Moving, Segment, Surface, Trap
     from sandbox.engine.paths.run import Numerics, Run, State
     from sandbox.errors import RequestError, RunError, SandboxError
     from sandbox.lab.aim import Aim, aim
@@ -45,11 +46,14 @@ _MODULES = {
     ),
     **dict.fromkeys(("Event",), "sandbox.engine.model.event"),
     **dict.fromkeys(
+        ("Given", "InTurn", "Motion", "Placing", "Sliding", "Swinging", "Turning"), "sandbox.engine.model.motion"
+    ),
+    **dict.fromkeys(
         ("Bounds", "ContactModel", "ForceRegion", "Setup", "Touches", "Until"), "sandbox.engine.model.setup"
     ),
     **dict.fromkeys(("Ellipse", "Polygon", "box", "capsule", "disc", "regular"), "sandbox.engine.model.shapes"),
     **dict.fromkeys(
-        ("Bounce", "Circle", "ConstantBounce", "Segment", "Surface", "Trap"), "sandbox.engine.model.surface"
+        ("Bounce", "Circle", "ConstantBounce", "Moving", "Segment", "Surface", "Trap"), "sandbox.engine.model.surface"
     ),
     **dict.fromkeys(("Numerics", "Run", "State"), "sandbox.engine.paths.run"),
     **dict.fromkeys(("RequestError", "RunError", "SandboxError"), "sandbox.errors"),
@@ -84,11 +88,16 @@ __all__ = [
     "Event",
     "Force",
     "ForceRegion",
+    "Given",
     "Glide",
     "Gravity",
+    "InTurn",
     "LogWind",
     "Magnus",
+    "Motion",
+    "Moving",
     "Numerics",
+    "Placing",
     "Polygon",
     "RequestError",
     "Run",
@@ -98,13 +107,16 @@ __all__ = [
     "SceneRun",
     "Segment",
     "Setup",
+    "Sliding",
     "SpinDecay",
     "State",
     "Surface",
     "Sweep",
+    "Swinging",
     "Torque",
     "Touches",
     "Trap",
+    "Turning",
     "UniformWind",
     "Until",
     "aim",

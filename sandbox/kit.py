@@ -14,9 +14,10 @@ from typing import TYPE_CHECKING, Any
 
 from sandbox.engine.model.ball import DISC, HOLLOW_SPHERE, SOLID_SPHERE, Ball, Body, Force, Torque
 from sandbox.engine.model.event import Event
+from sandbox.engine.model.motion import Given, InTurn, Motion, Placing, Sliding, Swinging, Turning
 from sandbox.engine.model.setup import Bounds, ContactModel, ForceRegion, Setup, Touches, Until
 from sandbox.engine.model.shapes import Ellipse, Polygon, Vector, box, capsule, regular
-from sandbox.engine.model.surface import Bounce, BounceLaw, Circle, ConstantBounce, Segment, Surface, Trap
+from sandbox.engine.model.surface import Bounce, BounceLaw, Circle, ConstantBounce, Moving, Segment, Surface, Trap
 from sandbox.engine.paths.run import Run
 from sandbox.errors import RequestError
 from sandbox.parameters import (
@@ -137,18 +138,23 @@ __all__ = [
     "Flight",
     "Force",
     "ForceRegion",
+    "Given",
     "Glide",
     "Goal",
     "Gravity",
     "Group",
     "Handle",
+    "InTurn",
     "Inside",
     "Launch",
     "Magnus",
     "Moment",
+    "Motion",
+    "Moving",
     "NoForce",
     "OutdoorAir",
     "Passes",
+    "Placing",
     "Polygon",
     "Release",
     "RequestError",
@@ -157,6 +163,7 @@ __all__ = [
     "SceneRun",
     "Segment",
     "Setup",
+    "Sliding",
     "Solid",
     "Sphere",
     "Spin",
@@ -165,9 +172,11 @@ __all__ = [
     "State",
     "Strips",
     "Surface",
+    "Swinging",
     "Torque",
     "Touches",
     "Trap",
+    "Turning",
     "UniformWind",
     "Until",
     "Vector",

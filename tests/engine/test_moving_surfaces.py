@@ -30,6 +30,11 @@ G, MASS, RADIUS = 9.81, 0.6, 0.1
 PLATE = Segment((-5.0, 0.0), (5.0, 0.0))
 
 
+def to_and_fro(period: float, shift: tuple[float, float]) -> Swinging:
+    """A motion without turning, about where it is drawn."""
+    return Swinging((0.0, 0.0), 0.0, period, shift=shift)
+
+
 def run_with(
     motion: Motion,
     shape: Segment | Circle = PLATE,
@@ -54,7 +59,7 @@ def run_with(
 
 
 def test_a_rising_plate_is_met_where_two_parabolas_meet():
-    run = run_with(Sliding(y=(0.0, 0.5, 1.0)))
+    run = run_with(Sliding((0.0, (0.5, 2.0))))
     first = run.events[0]
     a, b, c = 0.5 * G + 1.0, 0.5, RADIUS - 1.0
     t = (-b + sqrt(b * b - 4.0 * a * c)) / (2.0 * a)
@@ -67,10 +72,10 @@ def test_a_rising_plate_is_met_where_two_parabolas_meet():
 def test_a_bat_of_infinite_mass_drives_a_ball():
     """At twice its speed if elastic; along it as far as friction grips: 2/7 of the speed of a bat."""
     bat = Segment((-1.0, -1.0), (-1.0, 1.0))
-    run = run_with(Sliding(x=(0.0, 20.0)), bat, position=(0.0, 0.0), restitution=1.0, gravity=0.0, duration=0.2)
+    run = run_with(Sliding((20.0, 0.0)), bat, position=(0.0, 0.0), restitution=1.0, gravity=0.0, duration=0.2)
     assert run.events[0].t == pytest.approx(0.9 / 20.0, abs=1e-11)
     assert run.state("ball", 0.1)[2:] == pytest.approx((40.0, 0.0, 0.0), abs=1e-9)
-    run = run_with(Sliding(x=(0.0, 20.0), y=(0.0, 7.0)), bat, position=(0.0, 0.0), gravity=0.0, duration=0.2)
+    run = run_with(Sliding((20.0, 7.0)), bat, position=(0.0, 0.0), gravity=0.0, duration=0.2)
     _, _, vx, vy, spin = run.state("ball", 0.1)
     assert vx == pytest.approx(1.8 * 20.0)
     assert vy == pytest.approx(2.0)
@@ -79,7 +84,9 @@ def test_a_bat_of_infinite_mass_drives_a_ball():
 
 def test_a_blade_strikes_with_the_speed_of_its_point():
     blade = Segment((0.0, 0.0), (2.0, 0.0))
-    run = run_with(Turning(3.0), blade, position=(1.2, 0.4), restitution=0.5, friction=0.0, gravity=0.0, duration=1.0)
+    run = run_with(
+        Turning((0.0, 0.0), 3.0), blade, position=(1.2, 0.4), restitution=0.5, friction=0.0, gravity=0.0, duration=1.0
+    )
     hit = run.events[0]
     angle = 3.0 * hit.t
     assert 0.4 * cos(angle) - 1.2 * sin(angle) == pytest.approx(RADIUS, abs=1e-10)
@@ -116,9 +123,11 @@ def random_case(seed: int) -> tuple[Motion, Segment | Circle]:
     draw = Random(seed).uniform
     about = (draw(-0.5, 0.5), draw(-0.5, 0.5))
     kinds = (
-        lambda: Sliding(x=(0.0, draw(-3.0, 3.0)), y=(0.0, draw(-2.0, 4.0), draw(-1.0, 1.0))),
-        lambda: Swinging(draw(0.2, 2.0), (draw(-0.5, 0.5), draw(-0.5, 0.5)), draw(-1.0, 1.0), draw(0.0, 6.0), about),
-        lambda: Turning(draw(-30.0, 30.0), about, draw(0.0, 6.0)),
+        lambda: Sliding((draw(-3.0, 3.0), (draw(-2.0, 4.0), 2.0 * draw(-1.0, 1.0)))),
+        lambda: Swinging(
+            about, draw(-1.0, 1.0), draw(0.2, 2.0), draw(0.0, 6.0), shift=(draw(-0.5, 0.5), draw(-0.5, 0.5))
+        ),
+        lambda: Turning(about, draw(-30.0, 30.0), draw(0.0, 6.0)),
         lambda: Given(Wobble(2.0 + abs(about[0])), WobbleRates(2.0 + abs(about[0]))),
     )
     a = (draw(-1.5, 1.5), draw(-1.2, 0.2))
@@ -210,7 +219,7 @@ def test_nothing_tunnels_through_a_blade_at_any_speed():
         arrives = (x - 2.0 - RADIUS) / speed
         latest = arrives + min(2.0 * pi / rate, 2.0 / speed)
         run = run_with(
-            Turning(rate, angle=draw(0.0, 6.0)),
+            Turning((0.0, 0.0), rate, draw(0.0, 6.0)),
             blade,
             position=(x, 0.0),
             velocity=(-speed, 0.0),
@@ -226,7 +235,7 @@ def test_nothing_tunnels_through_a_blade_at_any_speed():
 
 
 def test_a_lift_carries_a_ball_that_rests_on_it():
-    run = run_with(Swinging(1.0, (0.0, 0.05)), restitution=0.0)
+    run = run_with(to_and_fro(1.0, (0.0, 0.05)), restitution=0.0)
     for t in (1.0, 1.7, 2.9):
         lift = 0.05 * sin(2.0 * pi * t)
         assert run.state("ball", t)[1:4] == pytest.approx((RADIUS + lift, 0.0, 0.1 * pi * cos(2.0 * pi * t)), abs=1e-9)
@@ -234,27 +243,27 @@ def test_a_lift_carries_a_ball_that_rests_on_it():
 
 
 def test_a_ball_leaves_a_lift_that_falls_faster_than_it():
-    run = run_with(Swinging(0.3, (0.0, 0.05)), restitution=0.0, duration=0.8)
+    run = run_with(to_and_fro(0.3, (0.0, 0.05)), restitution=0.0, duration=0.8)
     leaves = next(event.t for event in run.events if event.kind == "leave")
     rate = 2.0 * pi / 0.3
     assert 0.05 * rate**2 * sin(rate * leaves) == pytest.approx(G, abs=1e-6)
 
 
 def test_a_ball_rolls_on_what_moves_along_with_2_7_of_its_speed():
-    run = run_with(Swinging(1.0, (0.1, 0.0)), position=(0.0, RADIUS), restitution=0.0)
+    run = run_with(to_and_fro(1.0, (0.1, 0.0)), position=(0.0, RADIUS), restitution=0.0)
     for t in (1.3, 2.9):  # by its angular momentum about the point of contact, also while it slid at first
         assert run.state("ball", t).vx == pytest.approx(2.0 / 7.0 * 0.2 * pi * cos(2.0 * pi * t), abs=1e-6)
 
 
 def test_rolling_resistance_holds_a_ball_until_it_is_overcome():
-    run = run_with(Swinging(1.0, (0.1, 0.0)), restitution=0.0, resistance=0.5)
+    run = run_with(to_and_fro(1.0, (0.1, 0.0)), restitution=0.0, resistance=0.5)
     assert run.state("ball", 2.9).vx == pytest.approx(0.2 * pi * cos(5.8 * pi), abs=1e-9)
-    run = run_with(Swinging(1.0, (0.1, 0.0)), restitution=0.0, resistance=0.02)
+    run = run_with(to_and_fro(1.0, (0.1, 0.0)), restitution=0.0, resistance=0.02)
     assert abs(run.state("ball", 2.9).vx) < 0.5 * 0.2 * pi
 
 
 def test_a_ball_flies_on_where_what_carries_it_stops():
-    up = InTurn([(0.0, Sliding(y=(0.0, 2.0))), (0.5, Sliding(y=(1.0,), start=0.5))])
+    up = Sliding([(0.0, (0.0, 2.0)), (0.5, (0.0, 0.0))])
     run = run_with(up, position=(0.0, RADIUS), restitution=0.0, duration=1.0)
     assert run.state("ball", 0.4).y == pytest.approx(RADIUS + 0.8, abs=1e-9)
     assert run.events[-1].kind == "impact"
@@ -262,7 +271,7 @@ def test_a_ball_flies_on_where_what_carries_it_stops():
 
 
 def test_a_plate_that_starts_strikes_the_ball_that_lies_on_it():
-    wait = InTurn([(0.0, Sliding()), (0.5, Sliding(y=(0.0, 3.0), start=0.5))])
+    wait = InTurn([(0.0, Sliding()), (0.5, Sliding((0.0, 3.0), start=0.5))])
     run = run_with(wait, position=(0.0, RADIUS), restitution=0.5, duration=0.7)
     assert run.state("ball", 0.4)[:4] == pytest.approx((0.0, RADIUS, 0.0, 0.0), abs=1e-12)
     assert run.state("ball", 0.5).vy == pytest.approx(4.5, abs=1e-9)
@@ -274,10 +283,10 @@ def test_a_plate_that_starts_strikes_the_ball_that_lies_on_it():
 @pytest.mark.parametrize(
     ("motion", "restitution"),
     [
-        (Sliding(y=(0.0, 0.5)), 0.8),
-        (Swinging(1.0, (0.0, 0.05)), 0.0),
-        (Swinging(0.5, (0.1, 0.05)), 0.5),
-        (Turning(0.5, about=(-1.0, 0.0)), 0.9),
+        (Sliding((0.0, 0.5)), 0.8),
+        (to_and_fro(1.0, (0.0, 0.05)), 0.0),
+        (to_and_fro(0.5, (0.1, 0.05)), 0.5),
+        (Turning((-1.0, 0.0), 0.5), 0.9),
     ],
 )
 def test_the_ledger_has_the_work_of_what_moves(motion: Motion, restitution: float):
@@ -292,7 +301,7 @@ def test_the_ledger_has_the_work_of_what_moves(motion: Motion, restitution: floa
 
 def test_what_jumps_is_refused_with_its_time():
     with pytest.raises(ValueError, match=r"at 0\.5 s the place jumps from \(0, 0\) m, 0 rad to \(1, 0\) m, 0 rad"):
-        InTurn([(0.0, Sliding()), (0.5, Sliding(x=(1.0,)))])
+        InTurn([(0.0, Sliding()), (0.5, Sliding(shift=(1.0, 0.0)))])
     step = Given(lambda t: Placing(0.0, float(t > 0.2), 0.0), lambda t: Placing(0.0, 0.0, 0.0))
     with pytest.raises(RunError, match=r"t = 0\.2 s: the motion of 'lift' is not smooth"):
         run_with(step)
@@ -311,19 +320,19 @@ def test_a_motion_must_have_what_motions_have():
 
 def test_staying_on_what_turns_is_refused_by_name():
     with pytest.raises(RunError, match="ball 'ball': it stays on 'lift', which turns; a ball bounces off what turns"):
-        run_with(Turning(0.2), restitution=0.0, position=(0.5, RADIUS))
+        run_with(Turning((0.0, 0.0), 0.2), restitution=0.0, position=(0.5, RADIUS))
 
 
 def test_a_ball_that_is_pressed_on_something_is_refused_by_name():
     wall = Surface("wall", Segment((1.0, -5.0), (1.0, 5.0)), 0.0, 0.3)
     slope = Segment((-5.0, 3.0), (5.0, -3.0))
     with pytest.raises(RunError, match="'lift', which moves, presses it on 'wall'"):
-        run_with(Sliding(y=(0.0, 0.1)), slope, position=(0.0, 0.5), restitution=0.0, friction=0.0, others=[wall])
+        run_with(Sliding((0.0, 0.1)), slope, position=(0.0, 0.5), restitution=0.0, friction=0.0, others=[wall])
 
 
 def test_a_body_bounces_off_what_moves_and_is_not_carried():
     crate = Body("crate", position=(0.0, 1.0), shape=box(0.2, 0.2), mass=1.0, forces=[Gravity(1.0, G)])
-    plate = Moving(Surface("lift", PLATE, 0.5, 0.3), Sliding(y=(0.0, 1.0)))
+    plate = Moving(Surface("lift", PLATE, 0.5, 0.3), Sliding((0.0, 1.0)))
     run = simulate(Setup([crate], [plate], duration=0.5), resolve(level="balanced"))
     first = run.events[0]
     assert first.t == pytest.approx((-1.0 + sqrt(1.0 + 2.0 * G * 0.9)) / G, abs=1e-9)
@@ -334,13 +343,36 @@ def test_a_body_bounces_off_what_moves_and_is_not_carried():
 
 def test_the_plain_method_refuses_what_moves():
     ball = Ball("ball", MASS, RADIUS, (0.0, 1.0))
-    setup = Setup([ball], [Moving(Surface("lift", PLATE, 0.5, 0.3), Turning(1.0))])
+    setup = Setup([ball], [Moving(Surface("lift", PLATE, 0.5, 0.3), Turning((0.0, 0.0), 1.0))])
     with pytest.raises(RequestError, match="the plain method has no surfaces that move, as 'lift' does"):
         simulate(setup, resolve(method="plain"))
 
 
 def test_a_setup_with_motions_is_data():
-    surface = Moving(Surface("gate", PLATE, 0.5, 0.3), InTurn([(0.0, Sliding()), (1.0, Swinging(2.0, phase=-pi))]))
+    surface = Moving(
+        Surface("gate", PLATE, 0.5, 0.3), InTurn([(0.0, Sliding()), (1.0, Swinging((0.0, 0.0), 0.0, 2.0, -pi))])
+    )
     assert pickle.loads(pickle.dumps(surface)) == surface
     assert surface.at(0.5).shape == PLATE
-    assert Moving(Surface("gate", PLATE, 0.5, 0.3), Turning(pi)).at(0.5).shape.b == pytest.approx((0.0, 5.0))
+    assert Moving(Surface("gate", PLATE, 0.5, 0.3), Turning((0.0, 0.0), pi)).at(0.5).shape.b == pytest.approx(
+        (0.0, 5.0)
+    )
+
+
+def test_pieces_of_a_velocity_follow_each_other_without_a_jump():
+    """x = 1 + t^2 until 1.5 s, counted from 0.5 s; then back at 1 m/s."""
+    pieces = Sliding([(0.0, ((0.0, 2.0), 0.0)), (1.0, (-1.0, 0.0))], start=0.5, shift=(1.0, 0.0))
+    assert [pieces.place(t).x for t in (0.0, 0.5, 1.0, 1.5, 2.5)] == pytest.approx([1.0, 1.0, 1.25, 2.0, 1.0])
+    assert [pieces.rates(t).x for t in (0.0, 1.0, 2.0)] == pytest.approx([0.0, 1.0, -1.0])
+    assert InTurn([(0.0, pieces), (9.0, Sliding(shift=(-5.5, 0.0)))]).rates(1.0).x == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("velocity", [3.0, (1.0,), (1.0, float("nan")), ("a", 0.0), [(0.0, (1.0, 2.0, 3.0))]])
+def test_a_velocity_that_is_none_is_refused(velocity):
+    with pytest.raises(ValueError, match=r"sliding: velocity = .* must be two finite numbers, \(vx, vy\) in m/s, or"):
+        Sliding(velocity)
+
+
+def test_pieces_must_be_in_order():
+    with pytest.raises(ValueError, match="each must begin after the one before"):
+        Sliding([(1.0, (1.0, 0.0)), (0.5, (0.0, 0.0))])

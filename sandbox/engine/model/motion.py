@@ -7,17 +7,23 @@ and it is turned about that point by the angle ``place(t)[2]``.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 from math import cos, inf, isfinite, pi, sin
-from typing import NamedTuple, Protocol, runtime_checkable
+from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 from sandbox.engine.model.shapes import Vector
-from sandbox.physics.checks import check
+from sandbox.physics.checks import check, short
 
 
 class Placing(NamedTuple):
     """Where a motion has taken its point ``about``, in m, and how far it has turned the surface, in rad; or the rates
-    of these, in m/s and rad/s."""
+    of these, in m/s and rad/s.
+
+    >>> from sandbox import Turning
+    >>> Turning((1.0, 0.0), rate=3.0).rates(0.5)
+    Placing(x=0.0, y=0.0, angle=3.0)
+    """
 
     x: float
     y: float
@@ -26,7 +32,12 @@ class Placing(NamedTuple):
 
 @runtime_checkable
 class Motion(Protocol):
-    """A motion, smooth from the start on. Your own: a frozen dataclass at the level of a module, with these three."""
+    """A motion, smooth from the start on. Your own: a frozen dataclass at the level of a module, with these three.
+
+    >>> from sandbox import Motion, Turning
+    >>> isinstance(Turning((0.0, 0.0), 1.0), Motion)
+    True
+    """
 
     @property
     def about(self) -> Vector:
@@ -41,71 +52,131 @@ class Motion(Protocol):
 
 @dataclass(frozen=True)
 class Sliding:
-    """A displacement that is a polynomial in time: ``Sliding(x=(0.0, 0.5))`` moves at 0.5 m/s, ``Sliding(y=(0, 0, 1))``
-    is accelerated at 2 m/s^2, ``Sliding()`` stays. Coefficients of the time since ``start``, from the constant up, in
-    m, m/s, m/s^2, ..."""
+    """Sliding at a ``velocity`` (vx, vy) in m/s, or in pieces [(time, velocity), ...]: each from its time in s on, and
+    at rest before the first. A component is a number, or the coefficients of a polynomial in the time since the
+    velocity began, from the constant up, in m/s, m/s^2, ... Times are since ``start``.
 
-    x: Sequence[float] = ()
-    y: Sequence[float] = ()
+    >>> from sandbox import Sliding
+    >>> Sliding((0.5, 0.0)).place(2.0)[:2]  # m
+    (1.0, 0.0)
+    >>> Sliding((0.0, (1.0, 3.0))).place(2.0)[:2]  # from 1 m/s, accelerated at 3 m/s^2
+    (0.0, 8.0)
+    >>> dive = Sliding([(0.25, (0.0, 4.0)), (0.75, (0.0, 0.0))])  # waits, goes 2 m, stays
+    >>> dive.place(0.2)[:2], dive.place(9.0)[:2]
+    ((0.0, 0.0), (0.0, 2.0))
+    """
+
+    velocity: Sequence[Any] = (0.0, 0.0)  # m/s
     start: float = 0.0  # s
+    shift: Vector = (0.0, 0.0)  # m, at the start
     about: Vector = (0.0, 0.0)  # m
     angle: float = 0.0  # rad, by which it is turned all the time
 
     def __post_init__(self) -> None:
-        check("sliding", self, lists=["x", "y"], points=["about"], finite=["start", "angle"])
-        if not all(map(isfinite, (*self.x, *self.y))):
-            raise ValueError(f"sliding: x = {self.x}, y = {self.y}: all must be finite")
+        check("sliding", self, points=["about", "shift"], finite=["start", "angle"])
+        times = [start for start, _ in self._pieces]
+        if times != sorted(set(times)):
+            raise ValueError(f"sliding: the pieces begin at {times} s: each must begin after the one before")
+
+    @cached_property
+    def _pieces(self) -> list[tuple[float, Sliding]]:
+        """Each velocity by itself, with the time in s from which it holds."""
+        try:
+            if not _in_pieces(self.velocity):
+                x, y = map(_coefficients, self.velocity)
+                if not all(map(isfinite, (*x, *y))):
+                    raise ValueError
+                return [(-inf, self)]
+            made = [(-inf, replace(self, velocity=(0.0, 0.0)))]
+            for start, velocity in self.velocity:
+                t = self.start + float(start)
+                at = made[-1][1].place(t)
+                shift = at.x - self.about[0], at.y - self.about[1]
+                made.append((t, replace(self, velocity=tuple(velocity), start=t, shift=shift)))
+        except (TypeError, ValueError):
+            wanted = "two finite numbers, (vx, vy) in m/s, or pieces, [(time, (vx, vy)), ...]"
+            raise ValueError(f"sliding: velocity = {short(self.velocity)} must be {wanted}") from None
+        return made
+
+    def piece(self, t: float) -> tuple[Motion, float]:
+        """The motion at time t, and until when it lasts, in s."""
+        return _piece(self._pieces, t)
 
     def place(self, t: float) -> Placing:
+        if len(self._pieces) > 1:
+            return self.piece(t)[0].place(t)
+        x, y = ([shift, *_integral(v)] for shift, v in zip(self.shift, self.velocity, strict=True))
         since = t - self.start
-        return Placing(
-            self.about[0] + _polynomial(self.x, since), self.about[1] + _polynomial(self.y, since), self.angle
-        )
+        return Placing(self.about[0] + _polynomial(x, since), self.about[1] + _polynomial(y, since), self.angle)
 
     def rates(self, t: float) -> Placing:
-        since = t - self.start
-        return Placing(_polynomial(_derivative(self.x), since), _polynomial(_derivative(self.y), since), 0.0)
+        if len(self._pieces) > 1:
+            return self.piece(t)[0].rates(t)
+        x, y = (_polynomial(_coefficients(v), t - self.start) for v in self.velocity)
+        return Placing(x, y, 0.0)
 
 
 @dataclass(frozen=True)
 class Swinging:
-    """To and fro, harmonically: displaced by ``amplitude`` times sin(2 pi t / period + phase), and turned by ``turn``
-    (rad) times that about a point."""
+    """To and fro, harmonically: turned about ``center`` by ``amplitude`` (rad) times sin(2 pi t / period + phase), and
+    displaced by ``shift`` (m) times that.
 
+    >>> from math import pi
+    >>> from sandbox import Swinging
+    >>> round(Swinging((0.0, 1.0), amplitude=0.5, period=2.0).place(0.5).angle, 6)  # rad, a pendulum
+    0.5
+    >>> gate = Swinging((0.0, 0.0), 0.0, period=2.0, shift=(0.0, 0.3))  # 0.3 m to either side
+    >>> round(gate.place(0.5).y, 6)  # m
+    0.3
+    """
+
+    center: Vector  # m
+    amplitude: float  # rad
     period: float  # s
-    amplitude: Vector = (0.0, 0.0)  # m
-    turn: float = 0.0  # rad
     phase: float = 0.0  # rad
-    about: Vector = (0.0, 0.0)  # m
+    shift: Vector = (0.0, 0.0)  # m
 
     def __post_init__(self) -> None:
-        check("swinging", self, positive=["period"], points=["amplitude", "about"], finite=["turn", "phase"])
+        check("swinging", self, positive=["period"], points=["center", "shift"], finite=["amplitude", "phase"])
+
+    @property
+    def about(self) -> Vector:
+        return self.center
 
     def place(self, t: float) -> Placing:
         share = sin(2.0 * pi * t / self.period + self.phase)
-        (ax, ay), (x, y) = self.amplitude, self.about
-        return Placing(x + share * ax, y + share * ay, share * self.turn)
+        (x, y), (dx, dy) = self.center, self.shift
+        return Placing(x + share * dx, y + share * dy, share * self.amplitude)
 
     def rates(self, t: float) -> Placing:
         rate = 2.0 * pi / self.period
         share = rate * cos(rate * t + self.phase)
-        return Placing(share * self.amplitude[0], share * self.amplitude[1], share * self.turn)
+        return Placing(share * self.shift[0], share * self.shift[1], share * self.amplitude)
 
 
 @dataclass(frozen=True)
 class Turning:
-    """Turning at a constant ``rate`` (rad/s, counter-clockwise) about a point, from ``angle`` (rad) at ``start``."""
+    """Turning at a constant ``rate`` (rad/s, counter-clockwise) about ``center``, from ``angle`` (rad) at ``start``.
 
+    >>> from sandbox import Turning
+    >>> Turning((0.0, 0.0), rate=2.0, angle=0.5).place(1.0).angle  # rad
+    2.5
+    """
+
+    center: Vector  # m
     rate: float  # rad/s
-    about: Vector = (0.0, 0.0)  # m
     angle: float = 0.0  # rad
     start: float = 0.0  # s
 
     def __post_init__(self) -> None:
-        check("turning", self, finite=["rate", "angle", "start"], points=["about"])
+        check("turning", self, finite=["rate", "angle", "start"], points=["center"])
+
+    @property
+    def about(self) -> Vector:
+        return self.center
 
     def place(self, t: float) -> Placing:
-        return Placing(*self.about, self.angle + self.rate * (t - self.start))
+        return Placing(*self.center, self.angle + self.rate * (t - self.start))
 
     def rates(self, t: float) -> Placing:
         return Placing(0.0, 0.0, self.rate)
@@ -114,7 +185,14 @@ class Turning:
 @dataclass(frozen=True)
 class Given:
     """A motion of your own: a function of time that returns (x, y) in m or (x, y, angle) in m and rad, and its
-    derivative. Both are called with the time in s, and must be smooth and depend on nothing else."""
+    derivative. Both are called with the time in s, and must be smooth and depend on nothing else.
+
+    >>> from math import cos, sin
+    >>> from sandbox import Given
+    >>> round_and_round = Given(lambda t: (0.2 * cos(t), 0.2 * sin(t)), lambda t: (-0.2 * sin(t), 0.2 * cos(t)))
+    >>> round_and_round.place(0.0)
+    Placing(x=0.2, y=0.0, angle=0.0)
+    """
 
     position: Callable[[float], Sequence[float]]
     velocity: Callable[[float], Sequence[float]]
@@ -133,8 +211,15 @@ _JUMP = 1e-9
 
 @dataclass(frozen=True)
 class InTurn:
-    """Motions one after another: ``InTurn([(0.0, Sliding()), (0.5, Sliding(x=(0.0, 1.0), start=0.5))])``, each from its
-    time in s on. The velocity may jump where one takes over, the place must not."""
+    """Motions one after another, each from its time in s on. The velocity may jump where one takes over, the place must
+    not.
+
+    >>> from math import pi
+    >>> from sandbox import InTurn, Sliding, Turning
+    >>> quarter = InTurn([(0.0, Turning((1.0, 0.0), pi)), (0.5, Sliding(about=(1.0, 0.0), angle=pi / 2))])
+    >>> round(quarter.place(9.0).angle / pi, 6)
+    0.5
+    """
 
     motions: Sequence[tuple[float, Motion]]
 
@@ -158,12 +243,7 @@ class InTurn:
 
     def piece(self, t: float) -> tuple[Motion, float]:
         """The motion at time t, and until when it lasts, in s."""
-        until = inf
-        for start, motion in reversed(self.motions):
-            if start <= t:
-                return motion, until
-            until = start
-        return self.motions[0][1], until if len(self.motions) == 1 else self.motions[1][0]
+        return _piece(self.motions, t)
 
     def place(self, t: float) -> Placing:
         return self.piece(t)[0].place(t)
@@ -174,7 +254,23 @@ class InTurn:
 
 def piece_of(motion: Motion, t: float) -> tuple[Motion, float]:
     """The smooth motion at time t, and until when it lasts, in s."""
-    return motion.piece(t) if isinstance(motion, InTurn) else (motion, inf)
+    if not isinstance(motion, InTurn | Sliding):
+        return motion, inf
+    piece, until = motion.piece(t)
+    if piece is motion or not isinstance(piece, InTurn | Sliding):
+        return piece, until
+    inner, ends = piece_of(piece, t)
+    return inner, min(until, ends)
+
+
+def _piece(pieces: Sequence[tuple[float, Motion]], t: float) -> tuple[Motion, float]:
+    """The piece at time t of those that begin at their times, the first at any time, and until when it lasts, in s."""
+    until = inf
+    for start, motion in reversed(pieces[1:]):
+        if start <= t:
+            return motion, until
+        until = start
+    return pieces[0][1], until
 
 
 def moved(point: Vector, motion: Motion, t: float) -> Vector:
@@ -195,5 +291,17 @@ def _polynomial(coefficients: Sequence[float], t: float) -> float:
     return value
 
 
-def _derivative(coefficients: Sequence[float]) -> list[float]:
-    return [power * coefficient for power, coefficient in enumerate(coefficients)][1:]
+def _in_pieces(velocity: Sequence[Any]) -> bool:
+    """True if it is [(time, velocity), ...]."""
+    first = velocity[0] if len(velocity) else 0.0
+    return isinstance(first, Sequence) and len(first) == 2 and isinstance(first[1], Sequence)
+
+
+def _coefficients(component: Any) -> list[float]:
+    """Those of a component of a velocity, from the constant up."""
+    return [float(c) for c in component] if isinstance(component, Sequence) else [float(component)]
+
+
+def _integral(component: Any) -> list[float]:
+    """The coefficients of its integral but for the constant."""
+    return [c / power for power, c in enumerate(_coefficients(component), 1)]

@@ -118,9 +118,17 @@ class Surface:
 
 
 def Moving(surface: Surface, motion: Motion) -> Surface:  # noqa: N802, it reads as what it makes
-    """A surface that moves as given, with infinite mass: ``Moving(Surface("gate", ...), Swinging(2.0, (0.3, 0.0)))``.
+    """A surface that moves as given, with infinite mass: stands wherever a surface stands.
 
     A motion is a ``Sliding``, ``Swinging``, ``Turning``, one ``Given`` by functions, or several ``InTurn``.
+
+    >>> from sandbox import Ball, Moving, Segment, Setup, Sliding, Surface
+    >>> import sandbox
+    >>> bat = Moving(Surface("bat", Segment((-1, -1), (-1, 1)), restitution=1.0, friction=0.0), Sliding((20.0, 0.0)))
+    >>> ball = Ball("ball", mass=0.15, radius=0.1, position=(0, 0))
+    >>> run = sandbox.simulate(Setup([ball], [bat], duration=0.1))
+    >>> round(run.events[0].t, 6), round(run.state("ball", 0.1).vx, 6)  # s, m/s
+    (0.045, 40.0)
     """
     return replace(surface, motion=motion)
 
