@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from sandbox.engine.paths.run import Numerics, Run, State
     from sandbox.errors import RequestError, RunError, SandboxError
     from sandbox.lab.aim import Aim, aim
+    from sandbox.lab.many import Runs, simulate_many
     from sandbox.lab.sweep import Sweep, sweep
     from sandbox.physics.air import LogWind, UniformWind
     from sandbox.physics.cloth import Cloth
@@ -58,6 +59,7 @@ _MODULES = {
     **dict.fromkeys(("Numerics", "Run", "State"), "sandbox.engine.paths.run"),
     **dict.fromkeys(("RequestError", "RunError", "SandboxError"), "sandbox.errors"),
     **dict.fromkeys(("Aim", "aim"), "sandbox.lab.aim"),
+    **dict.fromkeys(("Runs", "simulate_many"), "sandbox.lab.many"),
     **dict.fromkeys(("Sweep", "sweep"), "sandbox.lab.sweep"),
     **dict.fromkeys(("LogWind", "UniformWind"), "sandbox.physics.air"),
     **dict.fromkeys(("Cloth",), "sandbox.physics.cloth"),
@@ -102,6 +104,7 @@ __all__ = [
     "RequestError",
     "Run",
     "RunError",
+    "Runs",
     "SandboxError",
     "Scene",
     "SceneRun",
@@ -127,6 +130,7 @@ __all__ = [
     "load",
     "regular",
     "simulate",
+    "simulate_many",
     "sweep",
 ]
 

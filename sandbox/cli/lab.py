@@ -84,8 +84,10 @@ def aim(
     "--over",
     metavar="KEY=LO:HI:N",
     multiple=True,
-    required=True,
-    help="A parameter and its values, also as KEY=A,B,C; repeatable.",
+    help="A parameter and its values, also as KEY=A,B,C or KEY=MEAN~SD; repeatable.",
+)
+@click.option(
+    "--points", metavar="F.csv", type=Path, help="Points in a table: a column for each KEY, in place of --over."
 )
 @click.option("--out", metavar="F.csv", type=Path, required=True, help="CSV file to write, one row per point.")
 @changes_options
@@ -93,7 +95,7 @@ def aim(
     "--samples",
     metavar="N",
     type=click.IntRange(1),
-    help="Number of random points, within ranges and from lists.",
+    help="Number of random points, from ranges, normal distributions (MEAN~SD) and lists.",
 )
 @click.option("--seed", metavar="N", type=click.IntRange(0), help="Seed of the random points.  [default: 0]")
 @click.option("--check", is_flag=True, help="Rerun each point at finer accuracy and add its errors.")
@@ -107,6 +109,7 @@ def aim(
 def sweep(
     scene: str,
     over: tuple[str, ...],
+    points: Path | None,
     out: Path,
     changes: dict[str, Any],
     samples: int | None,
@@ -118,7 +121,7 @@ def sweep(
     jobs: int | None,
     scheduler: str | None,
 ) -> None:
-    """Run a scene for each point of a grid, or for random points.
+    """Run a scene for each point of a grid, for random points, or for those of a table.
 
     Writes one row per point. Ctrl-C keeps the rows that are done; the same command again resumes from there. If the
     file holds another sweep, that is kept as F.csv~. A point that fails is a row with its error.
@@ -128,16 +131,25 @@ def sweep(
       sandbox sweep basketball --over launch.speed=6:9:61 --over launch.angle=35:75:41 --out map.csv --plot map.png
       sandbox sweep golf --over launch.angle=5:40:71 --over ball.drag.model=tour-fit,usga --out carry.csv
       sandbox sweep golf --over launch.speed="160 mph:180 mph" --over air.wind[0]=-8:8 --samples 5000 --out wind.csv
+      sandbox sweep basketball --over launch.speed=7.4~0.08 --over launch.angle=52~1.0 --samples 5000 --out throws.csv
+      sandbox sweep golf --points measured-launches.csv --out carry.csv
     """
     from sandbox.files import check_file
-    from sandbox.lab.axes import parse_axis
+    from sandbox.lab.axes import parse_axis, points_in
     from sandbox.lab.plan import Plan
     from sandbox.lab.row_file import rows
     from sandbox.lab.sweep import sweep_to_file, workers, worthwhile_jobs
     from sandbox.progress import bar
 
     chosen = load(scene, changes)
-    plan = Plan(chosen, tuple(parse_axis(chosen, "--over", text) for text in over), samples or 0, seed or 0, check)
+    if points is None:
+        if not over:
+            raise RequestError("nothing to sweep over: give --over KEY=LO:HI:N, or --points F.csv")
+        plan = Plan(chosen, tuple(parse_axis(chosen, "--over", text) for text in over), samples or 0, seed or 0, check)
+    else:
+        if over or samples is not None:
+            raise RequestError(f"--points {points}: cannot be combined with --over or --samples")
+        plan = Plan(chosen, points_in(chosen, "--points", points), check=check, listed=True)
     check_file("--out", out, ".csv")
     if seed is not None and samples is None:
         raise RequestError(f"--seed {seed}: requires --samples")

@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+import csv
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from math import ceil, log10, ulp
+from functools import cached_property
+from math import ceil, inf, log10, ulp
+from pathlib import Path as FilePath
+from statistics import NormalDist
 from typing import Any
 
 import numpy as np
 
 from sandbox import parameters as declared
+from sandbox import units
 from sandbox.errors import RequestError
 from sandbox.parameters import Group, Quantity, SceneParameters, path_of, value_at
 from sandbox.scene import Scene
+from sandbox.text import shortened
 from sandbox.toml import toml_value
 
 #: Most values along one axis, and most points of a sweep: more is taken as a mistake in the request.
@@ -31,6 +37,11 @@ class Values:
     key: str
     values: tuple[Any, ...]
 
+    @property
+    def distinct(self) -> tuple[Any, ...]:
+        """The values, each once, in order."""
+        return tuple(dict.fromkeys(self.values))
+
 
 @dataclass(frozen=True)
 class Span:
@@ -41,7 +52,44 @@ class Span:
     high: float
 
 
-Axis = Values | Span
+@dataclass(frozen=True)
+class Normal:
+    """One numeric parameter that is normally distributed, within its bounds; all in its declared unit."""
+
+    key: str
+    mean: float
+    sd: float
+    bounds: tuple[float, float]
+
+    @property
+    def low(self) -> float:
+        """Three standard deviations below the mean, or its lower bound: where an axis of a chart begins."""
+        return max(self.mean - 3.0 * self.sd, self.bounds[0])
+
+    @property
+    def high(self) -> float:
+        """Three standard deviations above the mean, or its upper bound: where an axis of a chart ends."""
+        return min(self.mean + 3.0 * self.sd, self.bounds[1])
+
+    @cached_property
+    def _shares(self) -> tuple[float, float]:
+        """The shares of the whole distribution below the bounds."""
+        return self._standard(self.bounds[0]), self._standard(self.bounds[1])
+
+    def _standard(self, value: float) -> float:
+        return NormalDist().cdf((value - self.mean) / self.sd)
+
+    def value(self, share: float) -> float:
+        """The value with this share of the distribution below it."""
+        below, up_to = self._shares
+        share = min(max(below + share * (up_to - below), _LEAST_SHARE), 1.0 - _LEAST_SHARE)
+        return min(max(self.mean + self.sd * NormalDist().inv_cdf(share), self.bounds[0]), self.bounds[1])
+
+
+#: The share of a normal distribution beyond 8.2 standard deviations, where rounding ends it.
+_LEAST_SHARE = 2.0**-53
+
+Axis = Values | Span | Normal
 
 
 # ---------------------------------------------------------------------------------------------------------------------
@@ -50,10 +98,12 @@ Axis = Values | Span
 
 
 def parse_axis(scene: Scene, option: str, text: str) -> Axis:
-    """``KEY=LO:HI:N``, ``KEY=LO:HI`` or ``KEY=A,B,C``; the ends may have units. Raises RequestError."""
+    """``KEY=LO:HI:N``, ``KEY=LO:HI``, ``KEY=MEAN~SD`` or ``KEY=A,B,C``; numbers may have units. Raises RequestError."""
     key, equals, body = (part.strip() for part in text.partition("="))
     if not key or not equals or not body:
         raise RequestError(f"{option} {text}: write it as KEY=LO:HI:N, for example {option} launch.angle=10:60:51")
+    if "~" in body:
+        return _normal(scene, option, key, body)
     parts = [part.strip() for part in body.split(":")]
     if len(parts) == 1:
         values = toml_value(f"[{body}]")
@@ -84,6 +134,25 @@ def spaced(low: float, high: float, count: int) -> tuple[float, ...]:
     return tuple(short if abs(short - value) <= rounding else value for short, value in rounded)
 
 
+def _normal(scene: Scene, option: str, key: str, body: str) -> Normal:
+    """``MEAN~SD``. Raises RequestError."""
+    before, _, after = (part.strip() for part in body.partition("~"))
+    mean = checked(scene, option, key, toml_value(before))
+    if not isinstance(mean, float):
+        raise RequestError(
+            f"{option} {key}: only numbers can be normally distributed; list values, separated by commas"
+        )
+    try:
+        sd = units.parse(after, unit_of(scene, key))
+    except ValueError as error:
+        raise RequestError(f'{option} {key}={body}: the standard deviation "{after}" {error}') from None
+    if not 0.0 < sd < inf:
+        raise RequestError(f"{option} {key}={body}: the standard deviation must be more than 0, and finite")
+    known = next((it for it in declared.walk(scene.parameters) if it.key == key.partition("[")[0]), None)
+    low, high = (None, None) if known is None else (known.low, known.high)
+    return Normal(key, mean, sd, (-inf if low is None else low, inf if high is None else high))
+
+
 def parse_span(scene: Scene, option: str, text: str) -> Span:
     """``KEY=LO:HI``. Raises RequestError."""
     if text.count(":") != 1:
@@ -94,8 +163,11 @@ def parse_span(scene: Scene, option: str, text: str) -> Span:
 
 
 def as_axis(scene: Scene, key: str, given: Any, option: str = "over") -> Axis:
-    """An axis from Python: a pair as a tuple is a span, any other sequence or array is a list of values."""
+    """An axis from Python: a pair as a tuple is a span, ``"MEAN~SD"`` a normal distribution, any other sequence or
+    array a list of values."""
     given = given.tolist() if isinstance(given, np.ndarray) else given
+    if isinstance(given, str) and "~" in given:
+        return _normal(scene, option, key, given)
     if isinstance(given, str | Mapping) or not isinstance(given, Iterable):
         raise RequestError(f"{option} {key}: {given!r} is neither a list of values nor a range (low, high)")
     if isinstance(given, tuple) and len(given) == 2 and not isinstance(given[0], bool):
@@ -106,11 +178,57 @@ def as_axis(scene: Scene, key: str, given: Any, option: str = "over") -> Axis:
     values = list(given)
     if not values:
         raise RequestError(f"{option} {key}: no values")
+    return _values(scene, key, values, lambda place: option)
+
+
+def points_given(scene: Scene, given: Mapping[str, Any]) -> tuple[Values, ...]:
+    """The values of each parameter at points in order, from Python. Raises RequestError."""
+    axes: list[Values] = []
+    for key, column in given.items():
+        if isinstance(column, np.ndarray) and column.ndim != 1:
+            raise RequestError(f"{key}: an array of shape {column.shape}; its shape must be (points,)")
+        column = column.tolist() if isinstance(column, np.ndarray) else column
+        if isinstance(column, str | Mapping) or not isinstance(column, Iterable):
+            raise RequestError(f"{key} = {shortened(repr(column))}: must be an array or a list, with a value per point")
+        values = list(column)
+        if not values:
+            raise RequestError(f"{key}: no values")
+        axes.append(_values(scene, key, values, "point {},".format))
+        if len(axes[-1].values) != len(axes[0].values):
+            lengths = f"{key} has {len(axes[-1].values)} values, but {axes[0].key} has {len(axes[0].values)}"
+            raise RequestError(f"{lengths}: each needs one per point")
+    return tuple(axes)
+
+
+def points_in(scene: Scene, option: str, path: FilePath) -> tuple[Values, ...]:
+    """The values of each parameter at points in order, from a CSV file with the parameters' keys in its first line.
+    Raises RequestError."""
+    try:
+        with path.open(encoding="utf-8-sig", newline="") as file:
+            keys, *rows = [row for row in csv.reader(file, strict=True) if row] or [[]]
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise RequestError(f"{option} {path}: {getattr(error, 'strerror', None) or error}") from None
+    keys = [key.strip() for key in keys]
+    if not rows:
+        raise RequestError(f"{option} {path}: no points: the first line has keys, each line after it a point")
+    for number, row in enumerate(rows):
+        if len(row) != len(keys):
+            raise RequestError(f"{option} {path}: point {number} has {len(row)} values, but there are {len(keys)} keys")
+    columns = zip(keys, zip(*rows, strict=True), strict=True)
+    where = f"{option} {path}: point {{}},".format
+    return tuple(_values(scene, key, [toml_value(text.strip()) for text in texts], where) for key, texts in columns)
+
+
+def _values(scene: Scene, key: str, values: list[Any], where: Callable[[int], str]) -> Values:
+    """Values of a parameter in its declared unit. Raises RequestError, which says ``where`` by their places."""
     if len(values) > 2 and all(isinstance(value, int | float) and not isinstance(value, bool) for value in values):
-        low, high = (checked(scene, option, key, end) for end in (min(values), max(values)))
+        numbers = range(len(values))
+        least, most = (best(numbers, key=values.__getitem__) for best in (min, max))
+        odd = next((place for place in numbers if values[place] != values[place]), least)  # not a number
+        low, *_ = (checked(scene, where(place), key, values[place]) for place in sorted({odd, least, most}))
         if isinstance(low, float):  # both ends are within bounds, so all of it is
             return Values(key, tuple(float(value) for value in values))
-    return Values(key, tuple(checked(scene, option, key, value) for value in values))
+    return Values(key, tuple(checked(scene, where(place), key, value) for place, value in enumerate(values)))
 
 
 def span(option: str, key: str, low: float, high: float) -> Span:

@@ -84,13 +84,13 @@ def draw_sweep(plan: Plan, rows: Iterable[Row], path: Path, of: str | None = Non
         shown = _curves(axes, plan, found) if found.numbers is not None else None
         if shown is None:
             shown = list(range(len(plan.axes)))
-            (_cloud if plan.samples and len(shown) == 2 else _map)(axes, plan, found, colours)
+            (_map if plan.is_grid or len(shown) != 2 else _cloud)(axes, plan, found, colours)
         for place, side in zip(shown, ("x", "y"), strict=False):
             axis = plan.axes[place]
             axes.set(**{f"{side}label": label(plan.scene, axis.key)})
             if isinstance(axis, Values) and not has_numbers(axis):
-                axes.set(**{f"{side}ticks": range(len(axis.values))})
-                axes.set(**{f"{side}ticklabels": [cell(value) for value in axis.values]})
+                axes.set(**{f"{side}ticks": range(len(axis.distinct))})
+                axes.set(**{f"{side}ticklabels": [cell(value) for value in axis.distinct]})
         if len(shown) == 1:
             axes.set_ylabel(found.label if not found.words else "")
         own = own_place(plan)
@@ -146,7 +146,7 @@ def _column(axis: Axis, texts: Sequence[str]) -> np.ndarray:
     if has_numbers(axis):
         return np.array([float(text) for text in texts])
     assert isinstance(axis, Values)  # a span has numbers
-    order = {cell(value): place for place, value in enumerate(axis.values)}
+    order = {cell(value): place for place, value in enumerate(axis.distinct)}
     return np.array([float(order[text]) for text in texts])
 
 
@@ -172,7 +172,7 @@ def own_place(plan: Plan) -> list[float] | None:
         if isinstance(axis, Values) and not has_numbers(axis):
             if value not in axis.values:
                 return None
-            own.append(float(axis.values.index(value)))
+            own.append(float(axis.distinct.index(value)))
             continue
         ends = axis.values if isinstance(axis, Values) else (axis.low, axis.high)
         if not isinstance(value, float) or not min(ends) <= value <= max(ends):
@@ -192,7 +192,9 @@ def _curves(axes: Any, plan: Plan, found: ChartData) -> list[int] | None:
     words = [axis for axis in plan.axes if not has_numbers(axis)]
     along, names = 0, [""]
     if len(plan.axes) == 2:
-        if plan.samples or len(words) != 1 or not isinstance(words[0], Values) or len(words[0].values) > _MOST_CURVES:
+        if not plan.is_grid or len(words) != 1 or not isinstance(words[0], Values):
+            return None
+        if len(words[0].values) > _MOST_CURVES:
             return None
         along, names = 1 - plan.axes.index(words[0]), [cell(value) for value in words[0].values]
     assert found.numbers is not None
@@ -266,7 +268,7 @@ def _outline(axes: Any, corners: np.ndarray, cells: np.ndarray, ink: str) -> Non
 
 
 def _cloud(axes: Any, plan: Plan, found: ChartData, colours: Mapping[str, Any]) -> None:
-    """A dot for each random shot."""
+    """A dot for each shot."""
     size = float(np.clip(20_000 / max(len(found.axes[0]), 1), 2.0, 40.0))
     if found.numbers is not None:
         _key(axes, axes.scatter(*found.axes, c=found.numbers, s=size, cmap=_HEIGHTS), found, colours)

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from sandbox.errors import RequestError
-from sandbox.lab.axes import MOST_POINTS, Axis, Span, Values
+from sandbox.lab.axes import MOST_POINTS, Axis, Normal, Span, Values
 from sandbox.lab.provenance import Provenance, provenance
 from sandbox.lab.runs import fly_together, runs
 from sandbox.scene import Scene, compare
@@ -44,13 +44,16 @@ Record = dict[str, Any]
 
 @dataclass(frozen=True)
 class Plan:
-    """All points of a sweep: the grid of the axes' values, last axis fastest, or ``samples`` points at random."""
+    """All points of a sweep: the grid of the axes' values, last axis fastest; ``samples`` points at random; or, if the
+    points are ``listed``, the first values of all axes, the second ones, and so on."""
 
     scene: Scene
     axes: tuple[Axis, ...]
-    samples: int = 0  # 0 for a grid
+    samples: int = 0  # 0 for points that are not drawn
     seed: int = 0
     check: bool = False  # whether each run is repeated at a finer accuracy
+    listed: bool = False  # whether the axes have a value for each point, in order
+    facts: tuple[str, ...] = ()  # of each row; by default all but how a run ends
 
     def __post_init__(self) -> None:
         if not self.axes:
@@ -62,6 +65,8 @@ class Plan:
             if keys.count(key) > 1:
                 raise RequestError(f"{key} is swept over twice")
         for axis in self.axes:
+            if isinstance(axis, Normal) and not self.samples:
+                raise RequestError(f"--over {axis.key}={axis.mean:g}~{axis.sd:g}: a distribution needs --samples")
             if isinstance(axis, Span) and not self.samples:
                 raise RequestError(
                     f"--over {axis.key}={axis.low:g}:{axis.high:g}: a grid needs the number of points, "
@@ -77,10 +82,16 @@ class Plan:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Number of values along each axis; one length for random samples."""
+        """Number of values along each axis; one length for points that are no grid."""
         if self.samples:
             return (self.samples,)
-        return tuple(len(axis.values) for axis in self.axes if isinstance(axis, Values))
+        lengths = tuple(len(axis.values) for axis in self.axes if isinstance(axis, Values))
+        return lengths[:1] if self.listed else lengths
+
+    @property
+    def is_grid(self) -> bool:
+        """True if the points are a grid."""
+        return not (self.samples or self.listed)
 
     @property
     def size(self) -> int:
@@ -90,7 +101,7 @@ class Plan:
     @cached_property
     def asked(self) -> list[str]:
         """The facts of each row."""
-        return self.scene.facts_except_ended
+        return list(self.facts) or self.scene.facts_except_ended
 
     @cached_property
     def block(self) -> int:
@@ -124,6 +135,8 @@ class Plan:
         """The swept values of the points from ``start`` up to ``stop``."""
         if self.samples:
             return self._random(start, stop)
+        if self.listed:
+            return zip(*(axis.values[start:stop] for axis in self.axes if isinstance(axis, Values)), strict=True)
         return (tuple(self._on_grid(number)) for number in range(start, stop))
 
     def _on_grid(self, number: int) -> list[Any]:
@@ -157,6 +170,8 @@ class Plan:
             "samples": self.samples,
             "seed": self.seed,
             "check": self.check,
+            "listed": self.listed,
+            "facts": self.facts,
         }
         return hashlib.sha256(json.dumps(told, sort_keys=True, default=str).encode()).hexdigest()
 
@@ -164,6 +179,8 @@ class Plan:
 def _drawn(axis: Axis, share: float) -> Any:
     if isinstance(axis, Span):
         return axis.low + share * (axis.high - axis.low)
+    if isinstance(axis, Normal):
+        return axis.value(share)
     return axis.values[int(share * len(axis.values))]
 
 

@@ -19,6 +19,7 @@ import numpy as np
 from sandbox import display
 from sandbox.errors import RequestError, RunError, Stopped
 from sandbox.lab.axes import Values, as_axis
+from sandbox.lab.many import as_array
 from sandbox.lab.plan import Plan, Record, records
 from sandbox.lab.row_file import RowFile
 from sandbox.lab.runs import Progress, no_progress
@@ -97,14 +98,7 @@ class Sweep:
         return self._column(name).reshape(self.plan.shape)
 
     def _column(self, name: str) -> np.ndarray:
-        values = [record.get(name) for record in self.records]
-        if all(isinstance(value, bool) for value in values):
-            return np.array(values)
-        if all(value is None or (isinstance(value, int | float) and not isinstance(value, bool)) for value in values):
-            return np.array([np.nan if value is None else float(value) for value in values])
-        column = np.empty(len(values), dtype=object)
-        column[:] = values
-        return column
+        return as_array([record.get(name) for record in self.records])
 
 
 def sweep(
@@ -121,7 +115,9 @@ def sweep(
     """One run for each point: ``sweep("golf", {"launch.angle": np.linspace(5, 60, 56), "launch.spin": [0, 3000]})``.
 
     ``over`` gives the values of each parameter, in its declared unit or as strings with a unit; a pair such as
-    ``(60.0, 80.0)`` is a range from which ``samples`` random points are drawn, the same for the same ``seed``.
+    ``(60.0, 80.0)`` is a range from which ``samples`` random points are drawn, the same for the same ``seed``;
+    ``"70~1.5"`` is a normal distribution, with its mean and standard deviation. Points that are no grid, and not drawn
+    at random, are for ``sandbox.simulate_many``.
     ``check`` repeats each run at finer accuracy and adds estimated errors. ``jobs`` above 1 uses that many processes
     (the calling script then needs ``if __name__ == "__main__":``), ``scheduler`` the workers of a Dask scheduler.
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from sandbox.engine.model.surface import Circle, Segment
 from sandbox.errors import RequestError
-from sandbox.lab.axes import Axis, Values, label, spaced, unit_of
+from sandbox.lab.axes import Axis, Normal, Span, Values, label, spaced, unit_of
 from sandbox.lab.maps import ChartData, Row, coded, has_numbers, own_place, read
 from sandbox.lab.plan import Plan
 from sandbox.lab.row_file import cell
@@ -56,7 +56,7 @@ def page_of(plan: Plan, rows: Iterable[Row], of: str | None = None) -> str:
     if own is not None and len(plan.axes) == 1:
         own.append(float(np.interp(own[0], places[0][order], places[1][order])))  # on the drawn curve
     data = {
-        "kind": "curves" if is_curve else "dots" if plan.samples else "cells",
+        "kind": "curves" if is_curve else "cells" if plan.is_grid else "dots",
         "axes": axes,
         "places": places,
         "colours": codes,
@@ -70,7 +70,8 @@ def page_of(plan: Plan, rows: Iterable[Row], of: str | None = None) -> str:
         "radius": next((run.setup.balls[0].radius for run in done if isinstance(run, SceneRun)), 0.0),
         "fonts": fonts(),
     }
-    options = [word for axis in plan.axes for word in ("--over", f"{axis.key}={_values(axis)}")]
+    over = [word for axis in plan.axes for word in ("--over", f"{axis.key}={_values(axis)}")]
+    options = ["--points", "points.csv"] if plan.listed else over
     options += ["--samples", str(plan.samples), "--seed", str(plan.seed)] if plan.samples else []
     options += ["--check"] if plan.check else []
     options += ["--of", of] if of is not None else []
@@ -89,9 +90,10 @@ def _axis(plan: Plan, number: int) -> dict[str, Any]:
     axis = plan.axes[number]
     values: Sequence[Any] = axis.values if isinstance(axis, Values) else (axis.low, axis.high)
     if not has_numbers(axis):
-        words = [cell(value) for value in values]
+        words = [cell(value) for value in dict.fromkeys(values)]
         return {"label": axis.key, "low": -0.5, "high": len(words) - 0.5, "step": 1.0, "words": words}
-    step = float(np.ptp(values)) / max(1, len(values) - 1) if isinstance(axis, Values) else 0.0
+    in_steps = isinstance(axis, Values) and not plan.listed
+    step = float(np.ptp(values)) / max(1, len(values) - 1) if in_steps else 0.0
     edge = step / 2 or 0.02 * float(np.ptp(values))
     low, high = float(min(values)) - edge, float(max(values)) + edge
     return {"label": label(plan.scene, axis.key), "low": low, "high": high, "step": step, "words": None}
@@ -107,8 +109,10 @@ def _range(name: str, values: np.ndarray) -> dict[str, Any]:
 
 def _values(axis: Axis) -> str:
     """The values of an axis as ``--over`` takes them."""
-    if not isinstance(axis, Values):
+    if isinstance(axis, Span):
         return f"{argument(axis.low)}:{argument(axis.high)}"
+    if isinstance(axis, Normal):
+        return f"{argument(axis.mean)}~{argument(axis.sd)}"
     first, last, count = axis.values[0], axis.values[-1], len(axis.values)
     if count > 2 and has_numbers(axis) and axis.values == spaced(first, last, count):
         return f"{argument(first)}:{argument(last)}:{count}"

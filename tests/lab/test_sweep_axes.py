@@ -7,7 +7,7 @@ import pytest
 
 import sandbox
 from sandbox.errors import RequestError
-from sandbox.lab.axes import Span, Values, as_axis, parse_axis
+from sandbox.lab.axes import Normal, Span, Values, as_axis, parse_axis, points_in
 from sandbox.lab.plan import Plan
 from sandbox.lab.row_file import cell
 from sandbox.scene import load
@@ -114,3 +114,84 @@ def test_the_values_of_a_range_have_no_digits_of_rounding():
     assert axis.values[5] == 0.0
     thirds = parse_axis(sandbox.load("golf"), "--over", "launch.angle=7:8:4")
     assert thirds.values == tuple(np.linspace(7.0, 8.0, 4))
+
+
+def test_a_normal_distribution_is_read_and_drawn(falling):
+    axis = parse_axis(falling, "--over", "launch.height=2 m~10 cm")
+    assert axis == Normal("launch.height", 2.0, 0.1, axis.bounds)
+    assert as_axis(falling, "launch.height", "2~0.1") == axis
+    plan = Plan(falling, (axis, Span("launch.speed", 1.0, 2.0)), samples=3000, seed=7)
+    heights = np.array([height for height, _ in plan.points(0, 3000)])
+    assert heights[1020:1030].tolist() == [height for height, _ in plan.points(1020, 1030)]
+    within = [float((np.abs(heights - 2.0) < n * 0.1).mean()) for n in (1, 2, 3)]
+    assert within == pytest.approx([0.683, 0.954, 0.997], abs=0.02)
+    assert heights.mean() == pytest.approx(2.0, abs=0.006)
+
+
+def test_a_normal_distribution_ends_at_the_bounds(falling):
+    (low, high) = parse_axis(falling, "--over", "launch.height=2~1").bounds
+    drawn = Normal("launch.height", low, 1.0, (low, high))
+    values = [drawn.value(share) for share in (0.0, 0.25, 0.5, 0.75, 1.0 - 2**-53)]
+    assert values[0] == low
+    assert values == sorted(values)
+    assert values[2] == pytest.approx(low + 0.6745, abs=1e-3)  # half of the upper half of the distribution
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("launch.height=2~", 'the standard deviation "" is not a number with a unit'),
+        ("launch.height=2~1 kg", 'the standard deviation "1 kg"'),
+        ("launch.height=2~0", "must be more than 0, and finite"),
+        ("launch.height=2~-1", "must be more than 0, and finite"),
+        ("launch.height=2~nan", "must be more than 0, and finite"),
+        ("launch.height=~1", "launch.height"),
+        ("launch.hight=2~1", "did you mean launch.height?"),
+        ("floor.present=true~1", "only numbers can be normally distributed"),
+    ],
+)
+def test_a_wrong_normal_distribution_is_told(falling, text, told):
+    with pytest.raises(RequestError) as refused:
+        parse_axis(falling, "--over", text)
+    assert told in str(refused.value)
+    assert "\n" not in str(refused.value)
+
+
+def test_a_distribution_needs_samples(falling):
+    with pytest.raises(RequestError, match=r"launch.height=2~0.1: a distribution needs --samples"):
+        grid(falling, "launch.height=2~0.1")
+
+
+def test_points_are_read_from_a_table(falling, tmp_path):
+    table = tmp_path / "points.csv"
+    table.write_text("launch.height, ball.drag.model ,floor.present\n1.5,none,true\n20 cm,constant,false\n\n")
+    assert points_in(falling, "--points", table) == (
+        Values("launch.height", (1.5, 0.2)),
+        Values("ball.drag.model", ("none", "constant")),
+        Values("floor.present", (True, False)),
+    )
+    plan = Plan(falling, points_in(falling, "--points", table), listed=True)
+    assert list(plan.points(0, 2)) == [(1.5, "none", True), (0.2, "constant", False)]
+    assert (plan.shape, plan.size, list(plan.points(1, 2))) == ((2,), 2, [(0.2, "constant", False)])
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("", "no points"),
+        ("launch.height\n", "no points"),
+        ("launch.height,launch.speed\n1,2\n1\n", "point 1 has 1 values, but there are 2 keys"),
+        ("launch.hight\n1\n", "did you mean launch.height?"),
+        ("launch.height\n1\n2\n-3\n", "point 2, launch.height = -3: must be from"),
+        ("launch.height\n1\nnan\n3\n", "point 1, launch.height = nan: must be a finite number"),
+        ("launch.height,launch.height\n1,2\n", "launch.height is swept over twice"),
+    ],
+)
+def test_a_wrong_table_of_points_is_told(falling, tmp_path, text, told):
+    table = tmp_path / "points.csv"
+    table.write_text(text)
+    with pytest.raises(RequestError) as refused:
+        Plan(falling, points_in(falling, "--points", table), listed=True)
+    assert told in str(refused.value)
+    with pytest.raises(RequestError, match="No such file"):
+        points_in(falling, "--points", tmp_path / "none.csv")

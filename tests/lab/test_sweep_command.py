@@ -8,6 +8,7 @@ import subprocess
 import pytest
 from PIL import Image
 
+import sandbox
 from sandbox.cli import main
 from tests.lab.sweeping import own_scene, table
 from tests.own_scene import COMMAND, DROP
@@ -32,6 +33,34 @@ def test_the_command(tmp_path, capsys):
         assert picture.size[0] > 900
 
 
+def test_the_points_of_a_table(tmp_path, capsys):
+    points, out, plot, page = (tmp_path / name for name in ("points.csv", "rows.csv", "map.png", "map.html"))
+    points.write_text("launch.speed,launch.angle\n7.4,52\n16.5 mph,50\n7,45\n")
+    command = ["sweep", "basketball", "--points", str(points), "--out", str(out), "--plot", str(plot)]
+    assert main([*command, "--html", str(page)]) == 0
+    assert capsys.readouterr().out.startswith("3 points; 3 in ")
+    found = sandbox.simulate_many("basketball", {"launch.speed": [7.4, "16.5 mph", 7.0], "launch.angle": [52, 50, 45]})
+    rows = table(out)
+    assert [float(row["launch.speed"]) for row in rows] == found.points["launch.speed"].tolist()
+    assert [float(row["apex"]) for row in rows] == pytest.approx(found["apex"], abs=1e-9)
+    assert [row["made"] for row in rows] == [str(bool(made)).lower() for made in found["made"]]
+    with Image.open(plot) as picture:
+        assert picture.size[0] > 900
+    assert "sandbox sweep basketball --points points.csv" in page.read_text()
+
+
+def test_shots_that_are_normally_distributed(tmp_path, capsys):
+    out, page = tmp_path / "rows.csv", tmp_path / "map.html"
+    over = ["--over", "launch.speed=7.4~0.08", "--over", "launch.angle=52~1", "--samples", "64"]
+    assert main(["sweep", "basketball", *over, "--out", str(out), "--html", str(page)]) == 0
+    capsys.readouterr()
+    speeds = [float(row["launch.speed"]) for row in table(out)]
+    assert sum(speeds) / 64 == pytest.approx(7.4, abs=0.04)
+    assert max(speeds) - min(speeds) == pytest.approx(5 * 0.08, rel=0.4)
+    text = page.read_text()
+    assert all(word in text for word in ("launch.speed=7.4~0.08", "launch.angle=52~1", "--samples 64"))
+
+
 def test_rows_on_stdout(tmp_path):
     command = [*COMMAND, "sweep", str(DROP), "--over", "launch.height=1:2:3", "--jobs", "1", "--out", "/dev/stdout"]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
@@ -54,7 +83,13 @@ ROWS = ("--over", "launch.speed=1:2:3", "--out", "x.csv")
         ([*ROWS, "--samples", "0"], "'--samples': 0 is not in the range x>=1"),
         ([*ROWS, "--seed", "2"], "--seed 2: requires --samples"),
         ([*ROWS, "--plot", "x.png", "--of", "xyz"], "refined_steps\n"),
-        (["--out", "x.csv"], "--over"),
+        (["--out", "x.csv"], "nothing to sweep over: give --over KEY=LO:HI:N, or --points F.csv"),
+        (
+            ["--over", "launch.speed=7.4~0.08", "--out", "x.csv"],
+            "launch.speed=7.4~0.08: a distribution needs --samples",
+        ),
+        ([*ROWS, "--points", "p.csv"], "--points p.csv: cannot be combined with --over or --samples"),
+        (["--points", "p.csv", "--out", "x.csv"], "--points p.csv: No such file"),
         (["--over", "launch.speed=1:2:3"], "--out"),
     ],
 )

@@ -1,0 +1,123 @@
+"""Runs of one scene at any points: those of arrays, computed together."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from sandbox.errors import RequestError
+from sandbox.lab.axes import Values, points_given
+from sandbox.lab.plan import Plan
+from sandbox.lab.runs import Progress, no_progress, runs
+from sandbox.scene import Scene, as_scene
+from sandbox.scene.scene_run import SceneRun
+from sandbox.text import check_mapping, no_such_result
+from sandbox.tracebacks import one_line_error
+
+
+@dataclass(frozen=True)
+class Runs:
+    """The results of ``simulate_many``, in the order of the points.
+
+    ``found["carry"]`` is an array of that fact, in its unit. What did not happen, or could not be computed, is NaN
+    among numbers, else None; ``errors`` says why by the place of the point. ``runs`` has the runs, if they were kept.
+
+    >>> import sandbox
+    >>> found = sandbox.simulate_many("golf", {"launch.speed": [60.0, 70.0]}, facts=("carry",))
+    >>> found["carry"].shape, found.errors
+    ((2,), {})
+    """
+
+    scene: Scene
+    points: Mapping[str, np.ndarray]  # the values of each parameter, in its declared unit
+    facts: Mapping[str, np.ndarray]  # each in its unit, as in ``scene.units``
+    errors: Mapping[int, str]  # one line for each point that failed
+    runs: Sequence[SceneRun | None]  # None for one that failed; empty if they were not kept
+
+    def __len__(self) -> int:
+        return len(next(iter(self.points.values())))
+
+    def __getitem__(self, fact: str) -> np.ndarray:
+        """The values of a fact. Raises RequestError if it was not asked for."""
+        if fact not in self.facts:
+            raise RequestError(f"{fact!r}: {no_such_result(str(fact), list(self.facts))}")
+        return self.facts[fact]
+
+    def __repr__(self) -> str:
+        failed = f", {len(self.errors):,} failed" if self.errors else ""
+        return f"<Runs of {self.scene.title}: {len(self):,} points over {', '.join(self.points)}{failed}>"
+
+
+def simulate_many(
+    scene: Scene | str | Path,
+    points: Mapping[str, Any],
+    facts: Sequence[str] = (),
+    *,
+    paths: bool = False,
+    progress: Progress = no_progress,
+) -> Runs:
+    """Run a scene at each of many points: ``simulate_many("golf", {"launch.speed": speeds, "launch.angle": angles})``.
+
+    ``points`` gives the values of each parameter, one per point, in its declared unit or as strings with a unit: the
+    first values of all are the first point. Similar shots are computed together, as arrays, with the results of
+    ``simulate`` to rounding; the same points give the same digits.
+
+    Only the ``facts`` that are named are read, by default all but how a run ends, and each run ends when these are
+    final. ``paths`` keeps every run, to its end and with all facts, in ``runs``. ``progress`` is called with the number
+    of points that are done, and of all.
+
+    Raises RequestError for a value that a parameter cannot have, with the place of the point. A point that fails later
+    is in ``errors``, and the others are computed.
+
+    >>> import sandbox
+    >>> found = sandbox.simulate_many(
+    ...     "basketball", {"launch.speed": [7.0, 7.4, 9.0], "launch.angle": [50.0, 52.0, 45.0]}, facts=("made", "apex")
+    ... )
+    >>> found["made"].dtype, found["apex"].shape
+    (dtype('bool'), (3,))
+    """
+    chosen = as_scene(scene)
+    check_mapping("points", points, '{"launch.angle": [10, 20, 30]}')
+    wanted = _facts(chosen, facts)
+    plan = Plan(chosen, points_given(chosen, points), listed=True, facts=wanted)
+    rows: list[Mapping[str, Any]] = []
+    kept: list[SceneRun | None] = []
+    errors: dict[int, str] = {}
+    for start in range(0, plan.size, plan.block):
+        progress(start, plan.size)
+        some = list(plan.points(start, start + plan.block))
+        for run in runs(chosen, plan.keys, some, asked=() if paths else plan.asked):
+            done = None if isinstance(run, Exception) else run
+            if isinstance(run, Exception):
+                errors[len(rows)] = one_line_error(run)
+            rows.append({} if done is None else done.result)
+            if paths:
+                kept.append(done)
+    progress(plan.size, plan.size)
+    columns = {axis.key: as_array(axis.values) for axis in plan.axes if isinstance(axis, Values)}
+    return Runs(chosen, columns, {key: as_array([row.get(key) for row in rows]) for key in plan.asked}, errors, kept)
+
+
+def _facts(scene: Scene, facts: Sequence[str]) -> tuple[str, ...]:
+    """The facts that are asked for. Raises RequestError if the scene does not have one."""
+    if isinstance(facts, str):
+        raise RequestError(f'facts = {facts!r}: must be a tuple of names; write ("{facts}",)')
+    for name in facts:
+        if name not in scene.facts:
+            raise RequestError(f"facts, {name!r}: {no_such_result(str(name), list(scene.facts))}")
+    return tuple(dict.fromkeys(facts))
+
+
+def as_array(values: Sequence[Any]) -> np.ndarray:
+    """Values as an array: of numbers, with NaN for None; of true and false; or of objects."""
+    if all(isinstance(value, bool) for value in values):
+        return np.array(values, dtype=bool)
+    if all(value is None or (isinstance(value, int | float) and not isinstance(value, bool)) for value in values):
+        return np.array([np.nan if value is None else float(value) for value in values])
+    column = np.empty(len(values), dtype=object)
+    column[:] = values
+    return column
