@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from sandbox.physics.ice import CurlingIce, Glide
     from sandbox.scene import Check, Scene, check, load, simulate
     from sandbox.scene.scene_run import SceneRun
+    from sandbox.scene.world import World
 
 __version__ = "0.1.0"
 
@@ -67,6 +68,7 @@ _MODULES = {
     **dict.fromkeys(("CurlingIce", "Glide"), "sandbox.physics.ice"),
     **dict.fromkeys(("Check", "Scene", "check", "load", "simulate"), "sandbox.scene"),
     **dict.fromkeys(("SceneRun",), "sandbox.scene.scene_run"),
+    **dict.fromkeys(("World",), "sandbox.scene.world"),
 }
 
 __all__ = [
@@ -122,6 +124,7 @@ __all__ = [
     "Turning",
     "UniformWind",
     "Until",
+    "World",
     "aim",
     "box",
     "capsule",

@@ -32,9 +32,9 @@ def simulate(setup: Setup, accuracy: Accuracy, progress: Callable[[float, float]
             from sandbox.engine.plain import PlainSimulation
 
             return PlainSimulation(setup, accuracy, progress).run()
-        from sandbox.engine.simulation import Simulation
+        from sandbox.engine.live import LiveSimulation
 
-        return Simulation(setup, accuracy).run()
+        return LiveSimulation(setup, accuracy).run()
 
 
 def simulate_many(setups: Sequence[Setup], accuracy: Accuracy) -> Iterator[Run | Exception]:

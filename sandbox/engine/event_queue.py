@@ -5,6 +5,7 @@ from __future__ import annotations
 import heapq
 from collections.abc import Sequence
 from itertools import count
+from math import inf
 from typing import NamedTuple
 
 from sandbox.engine.motion.event_kind import EventKind
@@ -45,13 +46,26 @@ class EventQueue:
         event = QueuedEvent(t, next(self._order), kind, ball, self._movers[ball].version, other, other_version)
         heapq.heappush(self._heap, event)
 
-    def pop(self) -> QueuedEvent | None:
-        """Remove and return the earliest event that is not out of date; None if there is none."""
-        while self._heap:
+    def pop(self, until: float = inf) -> QueuedEvent | None:
+        """Remove and return the earliest event up to ``until`` (s) that is not out of date; None if there is none."""
+        while self._heap and self._heap[0].t <= until:
             event = heapq.heappop(self._heap)
-            _, _, _, ball, version, other, other_version = event
-            if self._movers[ball].version == version and (
-                other == NO_BALL or self._movers[other].version == other_version
-            ):
+            if self._holds(event):
                 return event
         return None
+
+    def pending(self) -> list[QueuedEvent]:
+        """Return the events that are not out of date, in order."""
+        return sorted(event for event in self._heap if self._holds(event))
+
+    def restore(self, pending: Sequence[QueuedEvent]) -> None:
+        """Have these events, in order, and no others."""
+        self._heap = list(pending)
+        self._order = count(1 + max((event.order for event in pending), default=-1))
+
+    def _holds(self, event: QueuedEvent) -> bool:
+        """Return True if the balls of an event are still on the arcs for which it was predicted."""
+        _, _, _, ball, version, other, other_version = event
+        return self._movers[ball].version == version and (
+            other == NO_BALL or self._movers[other].version == other_version
+        )

@@ -13,10 +13,12 @@ from itertools import pairwise
 from sandbox.engine.contact.driven import MovingObstacle
 from sandbox.engine.contact.touch import Outline
 from sandbox.engine.model.ball import Ball, kinetic
+from sandbox.engine.model.setup import Setup
 from sandbox.engine.motion.forces_on_ball import acceleration_function, by_cause
 from sandbox.engine.motion.moving_ball import InCluster, InHeap
 from sandbox.engine.motion.sustained_contact import SustainedContact
 from sandbox.engine.paths.arc import Arc
+from sandbox.engine.paths.phase import SetByHand
 from sandbox.engine.paths.run import Run
 from sandbox.physics.integrators import INTEGRATORS, State
 
@@ -33,9 +35,11 @@ _LOST = 0.03
 class Ledger:
     """Energies in J: ``start`` and the sums of ``work``, ``impacts``, ``contacts`` and ``residue`` make up ``end``."""
 
-    start: float  # kinetic, of all balls, including rotation
+    start: float  # kinetic, of all balls where they come in, including rotation
     end: float
-    work: dict[str, float]  # by force or torque; by "lost mass", what that takes away; "driven by" a surface that moves
+    #: By force or torque; by "lost mass", what that takes away; "driven by" a surface that moves; and "set by hand",
+    #: what changes of a ball's motion from outside add.
+    work: dict[str, float]
     impacts: dict[str, float]  # by the partner; an impact of two balls under both names
     #: By the surface slid or rolled on, including bounces too low to simulate; by "heap" where balls press on one
     #: another, and "position correction", what moving them apart there adds.
@@ -55,12 +59,13 @@ def ledger(run: Run) -> Ledger:
         start += kinetic(ball, arcs[0].start)
         end += kinetic(ball, arcs[-1].state(arcs[-1].t1), arcs[-1].t1)
         for arc in arcs:
+            setup, ball = _at(run, arc.t0, ball)
             gain = kinetic(ball, arc.state(arc.t1), arc.t1) - kinetic(ball, arc.start, arc.t0)
             if isinstance(arc.contact, InCluster):
                 impacts[met.partner(ball.name, *arc.contact) or ""] += gain
                 continue
-            if run.setup.plane is not None:
-                contacts[run.setup.plane_of(ball.name).name] += gain
+            if setup.plane is not None:
+                contacts[setup.plane_of(ball.name).name] += gain
             elif isinstance(arc.contact, InHeap):
                 lifted = -_work_of_forces(ball, arc, arc.contact)
                 contacts["position correction"] += lifted
@@ -71,7 +76,9 @@ def ledger(run: Run) -> Ledger:
             jump = kinetic(ball, after.start, after.t0) - kinetic(ball, before.state(before.t1), after.t0)
             hit = met.partner(ball.name, after.t0, after.t0)
             lasting = after.contact or before.contact
-            if hit is not None:
+            if isinstance(after.contact, SetByHand):
+                work["set by hand"] += jump
+            elif hit is not None:
                 driven = _driven_in_impact(run, ball, hit, before.state(before.t1), after)
                 if driven:
                     work[f"driven by {hit}"] += driven
@@ -103,6 +110,14 @@ def warnings(run: Run) -> list[str]:
         f"{abs(found.residue):.3g} J {how} by the error of {accuracy.integrator} with steps of {accuracy.step:.3g} s "
         f"(largest energy during the run: {most:.3g} J); lower accuracy.step, or use an integrator with error control"
     ]
+
+
+def _at(run: Run, t: float, ball: Ball) -> tuple[Setup, Ball]:
+    """The setup that is valid from t on, and a ball in it."""
+    if not run.eras:
+        return run.setup, ball
+    setup = run.eras[bisect_right(run.eras, t, key=lambda era: era[0]) - 1][1]
+    return setup, next(each for each in setup.balls if each.name == ball.name)
 
 
 class _Impacts:

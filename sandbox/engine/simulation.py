@@ -14,28 +14,22 @@ from math import inf
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from sandbox.engine.contact.driven import DrivenPath, MovingObstacle
 from sandbox.engine.contact.manifold import all_round
-from sandbox.engine.contact.touch import Obstacle
 from sandbox.engine.event_queue import EventQueue, QueuedEvent
 from sandbox.engine.impact.impacts import Hit, Impacts, Outcome
 from sandbox.engine.model.accuracy import Accuracy
-from sandbox.engine.model.ball import Ball
 from sandbox.engine.model.event import Event
 from sandbox.engine.model.setup import Setup, Until
 from sandbox.engine.model.setup_errors import failed
-from sandbox.engine.model.surface import Surface
-from sandbox.engine.motion.carried_ball import CarriedBall
 from sandbox.engine.motion.event_kind import EventKind
 from sandbox.engine.motion.moving_ball import MovingBall
-from sandbox.engine.motion.moving_body import MovingBody
-from sandbox.engine.motion.on_plane import OnPlane, slowest_hop
+from sandbox.engine.motion.on_plane import slowest_hop
+from sandbox.engine.movers import movers_at_start
 from sandbox.engine.paths.arc import resting_arc
 from sandbox.engine.paths.path import Path
 from sandbox.engine.paths.phase import Phase
 from sandbox.engine.paths.run import Numerics, Run
 from sandbox.engine.prediction import Prediction
-from sandbox.engine.start import starts
 from sandbox.errors import RunError
 from sandbox.physics.integrators import State
 
@@ -60,21 +54,34 @@ _GO_ON = {EventKind.ARC_END, EventKind.HEAP_STEP, EventKind.CLUSTER_END}
 class Simulation:
     """One run of a setup. Raises RunError with the time, the ball and the quantity if it cannot be completed."""
 
-    def __init__(self, setup: Setup, accuracy: Accuracy, numerics: Numerics | None = None) -> None:
-        """``numerics`` is the cost so far of a run that is continued here."""
-        self._setup = setup
+    def __init__(
+        self,
+        setup: Setup,
+        accuracy: Accuracy,
+        numerics: Numerics | None = None,
+        movers: Sequence[MovingBall] | None = None,
+    ) -> None:
+        """``numerics`` is the cost so far of a run that is continued here, ``movers`` are its balls."""
         self._accuracy = accuracy
         self._numerics = Numerics() if numerics is None else numerics
         self._events: list[Event] = []
-        self._over = False
-        self._movers = self._make_movers()
+        self._t = 0.0  # s, of the last event
+        self._over = False  # as the setup's ``until`` says
+        self._ended = ""  # how, once the run is over
+        self._movers = movers_at_start(setup, accuracy, self._numerics) if movers is None else [*movers]
         self._moving = {*range(len(self._movers))}  # the balls that neither rest nor are caught
         self._queue = EventQueue(self._movers)
-        self._prediction = Prediction(self._movers, self._queue, self._numerics, accuracy.skin)
-        slowest = 0.0 if setup.plane is None else slowest_hop(setup, accuracy.hop)
+        self._moment, self._in_place = 0.0, 0  # s, since when time stands still, and events since
+        self._cost_before = Numerics()  # of what the limits on steps and impacts do not count
+        self._set_up(setup)
+
+    def _set_up(self, setup: Setup) -> None:
+        """Make what follows from a setup."""
+        self._setup = setup
+        self._prediction = Prediction(self._movers, self._queue, self._numerics, self._accuracy.skin)
+        slowest = 0.0 if setup.plane is None else slowest_hop(setup, self._accuracy.hop)
         self._impacts = Impacts(setup, self._movers, self._numerics, slowest)
         self._all_round = all_round(*setup.balls)
-        self._moment, self._in_place = 0.0, 0  # s, since when time stands still, and events since
 
     @cached_property
     def _clusters(self) -> ClusterSearch:
@@ -100,78 +107,64 @@ class Simulation:
         yield
         self._numerics.wall_s -= perf_counter() - started
 
-    def _make_movers(self) -> list[MovingBall]:
-        setup = self._setup
-        obstacles: dict[float, list[Obstacle]] = {}
-        skin = self._accuracy.skin
-        driven = {id(each): DrivenPath(each) for each in setup.surfaces if each.motion is not None}
-        traps = [(each, Obstacle(Surface(each.name, each.shape, 0.0, 0.0), 0.0, skin)) for each in setup.traps]
-        for radius in {ball.radius for ball in setup.balls}:
-            obstacles[radius] = [
-                Obstacle(surface, radius, skin)
-                if surface.motion is None
-                else MovingObstacle(surface, driven[id(surface)], radius, skin)
-                for surface in setup.surfaces
-            ]
-        movers: list[MovingBall] = []
-        for ball, (x, y) in zip(setup.balls, starts(setup.balls, obstacles), strict=True):
-            state: State = (x, y, *map(float, setup.start_of(ball)[2:]))
-            kind = self._kind_of_mover(ball, bool(driven))
-            near = [place for trap, place in traps if trap.takes(ball.name)]
-            movers.append(kind(ball, state, obstacles[ball.radius], near, setup, self._accuracy, self._numerics))
-        return movers
-
-    def _kind_of_mover(self, ball: Ball, among_moving: bool) -> type[MovingBall]:
-        if self._setup.plane is not None:
-            return OnPlane
-        if ball.rotates:
-            return MovingBody
-        return CarriedBall if among_moving else MovingBall
-
     # ------------------------------------------------------------------ the algorithm
 
     def run(self) -> Run:
         """Run from start to end."""
         started = perf_counter()
+        self.begin()
+        return self._finish(started)
+
+    def begin(self) -> None:
+        """Resolve the contacts at the start, which come first."""
         for index, mover in enumerate(self._movers):
             if mover.version == 0:
-                self._collide(0.0, [index])  # contacts at the start come first
-        return self._finish(0.0, started)
+                self._collide(0.0, [index])
 
-    def _finish(self, t: float, started: float) -> Run:
-        """Go on from t to the end of the run; ``started`` is the clock time of its start."""
-        t, ended = self._loop(t)
-        for mover in self._movers:
+    def _finish(self, started: float) -> Run:
+        """Go on to the end of the run; ``started`` is the clock time of its start."""
+        self._loop()
+        self._numerics.wall_s += perf_counter() - started
+        return self._run_until(self._t, self._movers)
+
+    def _run_until(self, t: float, movers: Sequence[MovingBall]) -> Run:
+        """Return the run up to t in s, in which these balls take part."""
+        for mover in movers:
             if not mover.caught:
                 mover.finish(t)
-        self._numerics.wall_s += perf_counter() - started
-        self._events.sort(key=lambda event: event.t)  # a contact with a duration is noted at its start
-        arcs = {mover.ball.name: Path(mover.path) for mover in self._movers}
-        return Run(self._setup, self._accuracy, arcs, self._events, self._numerics, t, ended)
+        events = sorted(self._events, key=lambda event: event.t)  # a contact with a duration is noted at its start
+        arcs = {mover.ball.name: Path(mover.path) for mover in movers}
+        ended = self._ended or ("until" if self._over else "rest")
+        return Run(self._setup, self._accuracy, arcs, events, self._numerics, t, ended)
 
-    def _loop(self, t: float) -> tuple[float, str]:
-        """Resolve one event after another, from t. Returns when and how the run ends."""
-        while self._moving and not self._over and (event := self._queue.pop()):
-            t, kind = event.t, event.kind
+    def _loop(self, until: float = inf) -> None:
+        """Resolve one event after another, up to ``until`` in s or to the end of the run."""
+        while self._moving and not self._over and not self._ended and (event := self._queue.pop(until)):
+            self._t = event.t
             self._refuse_endless(event)
-            if kind in _GO_ON and t >= self._setup.duration:
-                return self._setup.duration, "duration"
-            match kind:
-                case EventKind.ARC_END:
-                    self._next_arc(t, event.ball)
-                case EventKind.TOUCH:
-                    self._touch(t, event.balls)
-                case EventKind.SPIN_END:
-                    self._end_spin(t, event.ball)
-                case EventKind.TRAP:
-                    self._catch(t, event.ball)
-                case EventKind.CLUSTER_END:
-                    self._collide(t, [event.ball])  # with the walls it has entered during the contact
-                case EventKind.HEAP_STEP:
-                    self._step_heap(t, ())
-                case _:
-                    self._change_contact(t, event.ball, kind)
-        return t, "until" if self._over else "rest"
+            if event.kind in _GO_ON and event.t >= self._setup.duration:
+                self._t, self._ended = self._setup.duration, "duration"
+            else:
+                self._resolve(event)
+
+    def _resolve(self, event: QueuedEvent) -> None:
+        """Resolve an event, the earliest."""
+        t, kind = event.t, event.kind
+        match kind:
+            case EventKind.ARC_END:
+                self._next_arc(t, event.ball)
+            case EventKind.TOUCH:
+                self._touch(t, event.balls)
+            case EventKind.SPIN_END:
+                self._end_spin(t, event.ball)
+            case EventKind.TRAP:
+                self._catch(t, event.ball)
+            case EventKind.CLUSTER_END:
+                self._collide(t, [event.ball])  # with the walls it has entered during the contact
+            case EventKind.HEAP_STEP:
+                self._step_heap(t, ())
+            case _:
+                self._change_contact(t, event.ball, kind)
 
     def _next_arc(self, t: float, index: int) -> None:
         """Move a ball to the end of its arc, and plan the next: it goes on as before."""
@@ -357,9 +350,9 @@ class Simulation:
         if event.t > self._moment + _STANDSTILL:
             self._moment, self._in_place = event.t, 0
         self._in_place += 1
-        if self._in_place > _MOST_EVENTS_IN_PLACE or self._numerics.impacts > _MOST_IMPACTS:
+        if self._in_place > _MOST_EVENTS_IN_PLACE or self._numerics.impacts - self._cost_before.impacts > _MOST_IMPACTS:
             raise self._stalled(event.t, event.ball)
-        if self._numerics.steps > MOST_STEPS:
+        if self._numerics.steps - self._cost_before.steps > MOST_STEPS:
             remedy = "its forces are very stiff: raise accuracy.tolerance, or shorten the duration"
             name = self._movers[event.ball].ball.name
             raise failed(event.t, name, f"{MOST_STEPS:,} steps and still not finished; {remedy}")

@@ -14,7 +14,7 @@ from sandbox.physics.integrators import State
 
 #: Deepest overlap that is corrected, as a fraction of the radius; deeper is an error in the scene. And the most
 #: attempts, as one correction may cause another overlap.
-_SLIGHT, _MOST_PUSHES = 0.02, 200
+SLIGHT, _MOST_PUSHES = 0.02, 200
 
 
 def starts(balls: Sequence[Ball], obstacles: Mapping[float, Sequence[Obstacle]]) -> list[list[float]]:
@@ -28,7 +28,7 @@ def starts(balls: Sequence[Ball], obstacles: Mapping[float, Sequence[Obstacle]])
         name = ""
         for i, j, what, reach, depth, nx, ny in _overlaps(balls, places, obstacles):
             ball = name = balls[i].name
-            if depth > _SLIGHT * reach:
+            if depth > SLIGHT * reach:
                 x, y = places[i]
                 raise RequestError(
                     f"ball {ball!r} at ({x:.4g}, {y:.4g}) m overlaps {what!r} at the start by {depth:.3g} m: "

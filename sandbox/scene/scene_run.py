@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import dataclasses
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn, Unpack
 
+from sandbox.engine.model.change import Changes, changes_between
 from sandbox.engine.paths.run import Run
 
 if TYPE_CHECKING:
@@ -46,13 +49,26 @@ class SceneRun(Run):
     @classmethod
     def of(cls, run: Run, scene: Scene, result: dict[str, Any]) -> SceneRun:
         """The run of a scene's setup with what its facts say of it."""
-        return cls(run.setup, run.accuracy, run.arcs, run.events, run.numerics, run.duration, run.ended, scene, result)
+        fields = {each.name: getattr(run, each.name) for each in dataclasses.fields(Run)}
+        return cls(**fields, scene=scene, result=result)
 
     @property
     def data(self) -> Run:
         """The run without its scene."""
-        return Run(self.setup, self.accuracy, self.arcs, self.events, self.numerics, self.duration, self.ended)
+        return Run(**{each.name: getattr(self, each.name) for each in dataclasses.fields(Run)})
 
     def __repr__(self) -> str:
         what = f"{self.duration:.2f} s, {len(self.events)} events, ended by {self.ended}"
         return f"<Run of {self.scene.title}: {what}>"
+
+    def fork(self, t: float, parameters: Mapping[str, Any] | None = None, /, **changes: Unpack[Changes]) -> SceneRun:
+        """Return the run that goes on from time t in s with what is given changed, as ``Run.fork`` does; and with other
+        ``parameters`` of the scene from then on: ``run.fork(0.5, {"air.wind": [-8, 0]})`` is a gust.
+
+        Raises RequestError for parameters of what is over then, such as the launch.
+        """
+        scene = self.scene if parameters is None else self.scene.changed(parameters, "fork")
+        given = Changes() if parameters is None else changes_between(self.scene.build(), scene.build())
+        given.update(changes)
+        run = super().fork(t, **given)
+        return SceneRun.of(run, scene, scene.result(run))

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, KeysView, Mapping, Sequence
 from math import hypot, inf
+from typing import Any, NamedTuple
 
 from sandbox.engine.contact.manifold import (
     ContactManifold,
@@ -29,7 +30,7 @@ from sandbox.engine.contact.manifold import (
 from sandbox.engine.contact.surfaces import press
 from sandbox.engine.contact.touch import Obstacle
 from sandbox.engine.heap.member import Member
-from sandbox.engine.heap.stepping import Group, Stepper, Touch
+from sandbox.engine.heap.stepping import Accounts, Group, Stepper, Touch
 from sandbox.engine.model.accuracy import Accuracy
 from sandbox.engine.model.ball import Ball, outline_of
 from sandbox.engine.model.setup import Setup
@@ -75,6 +76,16 @@ _DEEP = 1e-3
 _APART = 1e-2
 
 
+class HeapState(NamedTuple):
+    """The state of a heap between two steps; plain data."""
+
+    members: dict[int, dict[str, Any]]  # by index, in the order in which they are stepped
+    pressed: dict[frozenset[int], float]
+    resting: dict[int, set[int]]
+    numbers: tuple[float, float, float, float]
+    accounts: Accounts
+
+
 class Heap:
     """All balls of a run that press on one another, in one heap or in several; they are stepped together."""
 
@@ -96,6 +107,23 @@ class Heap:
         self.margin = _MARGIN * min(ball.radius for ball in setup.balls)  # m, gap up to which shapes touch
         # Chipmunk's correction of overlaps is per unit of its time
         self._stepper = Stepper(setup, self.margin, self._lasting(1.0, _COMMON))
+
+    def state(self) -> HeapState:
+        """Return all that its next steps depend on, apart from the balls themselves and its Space."""
+        members = {index: member.state() for index, member in self._members.items()}
+        numbers = self._forced, self._fastest, self._span, self._t
+        return HeapState(members, dict(self._pressed), dict(self._resting), numbers, self._stepper.accounts())
+
+    def restore(self, state: HeapState) -> None:
+        """Go on from this state, in a new Space."""
+        self._forced, self._fastest, self._span, self._t = state.numbers
+        self._pressed, self._resting = dict(state.pressed), dict(state.resting)
+        self._stepper.restore(state.accounts)
+        for index, values in state.members.items():
+            member = Member(index, self._movers[index], self._stepper.world, self._stepper.unit, 0.0)
+            member.restore(values)
+            self._members[index] = member
+            self._stepper.add(member)
 
     @property
     def members(self) -> KeysView[int]:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from math import hypot
+from typing import Any
 
 import pymunk
 
@@ -13,6 +15,9 @@ from sandbox.engine.model.surface import Surface
 from sandbox.engine.motion.moving_ball import InHeap, MovingBall
 from sandbox.engine.paths.arc import Arc
 from sandbox.physics.integrators import Acceleration, State
+
+#: The attributes of a member that outlast a step.
+_KEPT = ("since", "slow_for", "resistance", "start", "end", "applied")
 
 
 class Member:
@@ -38,6 +43,15 @@ class Member:
         self.brake = pymunk.SimpleMotor(self.body, world.space.static_body, 0.0)  # rolling resistance
         self._unit, self._h = unit, 0.0  # s
         world.space.add(self.brake)
+
+    def state(self) -> dict[str, Any]:
+        """Return what its next step depends on, apart from its mover and what it touches, which is found again."""
+        return {name: getattr(self, name) for name in _KEPT}
+
+    def restore(self, state: Mapping[str, Any]) -> None:
+        """Go on from such a state."""
+        for name, value in state.items():
+            setattr(self, name, value)
 
     def place(self, t: float, h: float, state: State) -> None:
         """Begin a step of h s at t: Chipmunk will move it from here to the middle."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import pymunk
 
@@ -64,6 +64,13 @@ class Touch:
 Group = tuple[list[Member], list[Touch]]
 
 
+class Accounts(NamedTuple):
+    """The energies of the steps of a heap so far."""
+
+    gained: float  # J, negative, as contacts take energy
+    most: dict[int, float]  # J, of kinetic energy, by index
+
+
 class Stepper:
     """Steps the balls and bodies of a heap.
 
@@ -104,6 +111,14 @@ class Stepper:
         """Step it no more."""
         del self._of_disc[member.disc]
         self.world.space.remove(member.body, member.disc, member.brake)
+
+    def accounts(self) -> Accounts:
+        """Return the energies of its steps so far."""
+        return Accounts(self._gained, dict(self._most))
+
+    def restore(self, accounts: Accounts) -> None:
+        """Go on with these accounts."""
+        self._gained, self._most = accounts.gained, dict(accounts.most)
 
     def step(self, h: float, span: float, pressed_speed: float, impact_speed: float) -> list[Group]:
         """Do a step of h s from where the members are placed; returns those that touch one another, in groups.

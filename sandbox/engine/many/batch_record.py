@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from sandbox.engine.live import Record
 from sandbox.engine.many.arc_rows import Paths, arc_of, columns_of
 from sandbox.engine.many.continuation import ENDED, BatchExit, Continuation
 from sandbox.engine.many.stacking import Stack
@@ -66,13 +67,16 @@ class BatchRecord:
         steps, refined, impacts, queries = self.counts[:, shot].tolist()
         evaluations = (self._evaluations + 1) * steps
         numerics = Numerics(evaluations, steps, refined, impacts, impacts, queries, seconds)
+        record = Record(setup, self._accuracy)
         if left.reason in ENDED:
-            return Run(setup, self._accuracy, {}, events, numerics, left.t, ENDED[left.reason])
+            ended = ENDED[left.reason]
+            return Run(setup, self._accuracy, {}, events, numerics, left.t, ended, record=record)
         try:
             with setup_errors_named():
                 run = Continuation(setup, self._accuracy, numerics).resume(left, events)
         except Exception as error:
             return error
+        run.record = record
         arcs = list(run.arcs[setup.balls[0].name])[len(left.arcs) :]
         contacts = range(len(self.contacts), len(self.contacts) + len(arcs))
         self.contacts += [arc.contact for arc in arcs]

@@ -69,7 +69,7 @@ class Continuation(Simulation):
             return self.run()
         started = perf_counter()
         t, reason, state, step, contact, arcs = left
-        mover = self._movers[0]
+        mover, self._t = self._movers[0], t
         if contact is not None:
             surface = contact.obstacle.surface
             contact = contact._replace(obstacle=next(each for each in mover.obstacles if each.surface is surface))
@@ -84,4 +84,4 @@ class Continuation(Simulation):
             self._collide(t, [0])
         else:
             self._resume(0, t)
-        return self._finish(t, started)
+        return self._finish(started)

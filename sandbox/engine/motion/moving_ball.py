@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import hypot
-from typing import NamedTuple
+from typing import Any, NamedTuple, Self
 
 from sandbox.engine.contact.driven import MovingObstacle
 from sandbox.engine.contact.surfaces import press, takeoff_speed
@@ -106,12 +106,46 @@ class MovingBall:
         self._setup = setup
         self._accuracy = accuracy
         self._numerics = numerics
-        self._acceleration_at = acceleration_function(ball)
         self._control = StepControl(accuracy)
-        self._step = self._control.integrator.step_of(self._acceleration_at, ball.rotates)
+        self._prepare()
         self._known: tuple[State, Acceleration] = ((), (0.0, 0.0, 0.0))  # the end of the last step: the next start
         self._slips = False  # it has just lost its grip
         self.next_step = self._control.first  # s, to try
+
+    def _prepare(self) -> None:
+        """Make the functions of its forces."""
+        self._acceleration_at = acceleration_function(self.ball)
+        self._step = self._control.integrator.step_of(self._acceleration_at, self.ball.rotates)
+
+    # ------------------------------------------------------------------ copies and changes
+
+    def copy(self, path: list[Arc], numerics: Numerics) -> Self:
+        """Return one that goes on as this one would, with this path behind it; its cost counts there."""
+        other = object.__new__(type(self))
+        other.__dict__.update(self.__dict__)
+        other.path, other._numerics = path, numerics
+        return other
+
+    def change(self, ball: Ball, setup: Setup) -> None:
+        """Be this ball from now on, in this setup."""
+        self.ball, self._setup = ball, setup
+        self._known = (), (0.0, 0.0, 0.0)
+        self._prepare()
+
+    def place(self, t: float, state: State) -> None:
+        """Be in this state from t on, without an arc yet: what was predicted for it no longer holds."""
+        self.state, self.arc = state, resting_arc(t, t, state)
+        self.version += 1
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return what is written to a file: all but functions, which are made again."""
+        made = ("_acceleration_at", "_control", "_step")
+        return {name: value for name, value in self.__dict__.items() if name not in made}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        self._control = StepControl(self._accuracy)
+        self._prepare()
 
     # ------------------------------------------------------------------ its path
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from enum import Enum
 from typing import Protocol
 
@@ -52,3 +53,24 @@ class ArcContact(Protocol):
     @property
     def drift(self) -> Vector:
         """The velocity in m/s by position correction in a heap, which is no part of the ball's own."""
+
+
+@dataclass(frozen=True, slots=True)
+class SetByHand:
+    """Value of ``Arc.contact`` at an instant in which a ball's state is changed from outside."""
+
+    @property
+    def phase(self) -> Phase:
+        return Phase.FREE
+
+    @property
+    def surface(self) -> None:
+        return None
+
+    @property
+    def span(self) -> None:
+        return None
+
+    @property
+    def drift(self) -> Vector:
+        return 0.0, 0.0

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import dist, inf, nan
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Protocol, Unpack
 
 from sandbox.display import Drawable
 from sandbox.engine.model.event import Event
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
     from sandbox.engine.model.accuracy import Accuracy
     from sandbox.engine.model.ball import Ball
+    from sandbox.engine.model.change import Changes
     from sandbox.engine.model.setup import Setup
     from sandbox.engine.model.shapes import Vector
 
@@ -65,6 +66,13 @@ class State(NamedTuple):
     spin: float  # rad/s, counter-clockwise
 
 
+class Resumable(Protocol):
+    """The record of how a run came about, from which it can be computed again from any time on."""
+
+    def fork(self, t: float, changes: Mapping[str, Any]) -> Run:
+        """Return the run that goes on from t in s with what is given changed."""
+
+
 @dataclass
 class Run(Drawable):
     """One simulated run, from ``t = 0`` to ``duration``: paths, events, and what they cost.
@@ -89,6 +97,10 @@ class Run(Drawable):
     numerics: Numerics
     duration: float  # s
     ended: str  # "rest", "until" or "duration"
+    #: The setups of a run that was changed on its way, each with the time in s from which it was valid; ``setup`` is
+    #: the last.
+    eras: Sequence[tuple[float, Setup]] = field(default=(), kw_only=True)
+    record: Resumable | None = field(default=None, kw_only=True, compare=False, repr=False)
 
     def __repr__(self) -> str:
         return f"<Run: {self.duration:.2f} s, {len(self.events)} events, ended by {self.ended}>"
@@ -133,6 +145,33 @@ class Run(Drawable):
         span = f"from {start:.12g} to {self.duration:.12g} s"
         raise RequestError(f'ball {ball!r}, t = {t:.12g} s: the run is {span}; outside="nan" gives NaN')
 
+    def fork(self, t: float, **changes: Unpack[Changes]) -> Run:
+        """Return the run that goes on from time t in s with what is given changed, and is the same before.
+
+        What is not given continues as it was, contacts included: without any change it is this run again, to the last
+        bit. What is given of balls is a mapping by name, or the value itself where there is only one ball:
+
+        - ``forces``, ``torques``: in place of the ball's own;
+        - ``velocity`` (m/s), ``spin`` (rad/s), ``position`` (m), ``impulse`` (N s);
+        - ``add``: balls or bodies that come in, as they are at this time; ``remove``: names of those taken out;
+        - ``duration``, ``until``, ``surfaces`` and the other fields of the setup.
+
+        >>> import sandbox
+        >>> run = sandbox.simulate("golf")
+        >>> struck = run.fork(1.5, velocity=(20.0, 5.0))
+        >>> struck.state("ball", 1.0) == run.state("ball", 1.0)
+        True
+
+        Only what comes after t is computed, and some events before it: a few dozen, or all since a heap began. Balls
+        that are then in a simulated contact with others (some 0.1 ms) go through it first. Raises RequestError for a
+        time outside the run, or what cannot be changed so.
+        """
+        if self.record is None:
+            raise RequestError("this run cannot be forked: it was read from a file, or computed by the plain method")
+        if not (isinstance(t, int | float) and 0.0 <= t <= self.duration):
+            raise RequestError(f"fork at t = {t} s: the run is from 0 to {self.duration:.12g} s")
+        return self.record.fork(t, changes)
+
     # ------------------------------------------------------------------ along the paths
 
     def _ball(self, name: str) -> Ball:
@@ -154,8 +193,9 @@ class Run(Drawable):
         return wx, wy
 
     def caught_at(self, ball: str) -> float | None:
-        """The time in s at which a ball was caught, or None."""
-        return next((event.t for event in self.events if event.kind == "caught" and event.ball == ball), None)
+        """The time in s at which a ball was caught or taken out, or None."""
+        gone = ("caught", "removed")
+        return next((event.t for event in self.events if event.kind in gone and event.ball == ball), None)
 
     def before(self, ball: str, t: float) -> State:
         """The state of a ball just before time t; differs from ``state`` if there is an impact at t."""
