@@ -23,6 +23,9 @@ OWN, EVENNESS = 0.6, 0.3
 FROM_REST = 0.1
 #: What one press of a key changes: the angle in deg, the speed as a share of a full pull; a tenth with Shift.
 TURN, PUSH = 1.0, 0.01
+#: With Shift only this share of a move of the mouse counts: a px turns a shot by 0.04 deg instead of 0.4, and a stone
+#: must be aimed to 0.15.
+FINE = 0.1
 
 
 class Speeds(NamedTuple):
@@ -64,6 +67,15 @@ class Pull:
     height: float  # of the stage, px
     stretch: float  # vertical scale over horizontal scale
     vector: tuple[float, float] = (0.0, 0.0)  # px, y down
+
+    def __post_init__(self) -> None:
+        self._mouse = self.start
+
+    def move(self, to: tuple[int, int], fine: bool) -> None:
+        """Pull on as the mouse moves to a place in px; where ``fine``, by the share ``FINE`` of that."""
+        share = FINE if fine else 1.0
+        across, down = (share * (px - before) for px, before in zip(to, self._mouse, strict=True))
+        self.vector, self._mouse = (self.vector[0] + across, self.vector[1] + down), to
 
     @property
     def length(self) -> float:

@@ -72,7 +72,7 @@ class Cards:
         """What can be done now, or how the shot is watched."""
         game, playback = self.game, self.game.watching.playback
         if game.grasp.pull is not None:
-            return ["let go to shoot, Esc to cancel"]
+            return ["let go to shoot, Esc to cancel", "Shift aims finely"]
         if game.grasp.grip is not None:
             return ["Shift goes in steps, Esc to cancel"]
         if playback is None:
@@ -129,7 +129,7 @@ class Cards:
         reads = self.targets.on_picture and not pygame.mouse.get_pressed()[2]
         if not reads or shown.follows or shown.overlay is not None or self.game.grasp.holds:
             return
-        read = reading(shot, camera, mouse, NEAR * sheet.unit, shown.until(shot))
+        read = reading(shot, stage.pixels, mouse, NEAR * sheet.unit, shown.until(shot))
         if read is not None:
             picture, (x, y, *_) = stage.picture, shot.run.state(read.ball, read.t)
             others = [("x", metres(x)), ("y", metres(y)), *picture.moving(read.ball, read.t)]

@@ -408,7 +408,7 @@ def _text_size(view: View, by: float) -> None:
 # fmt: off
 #: Every command; keys, help, lists and the hints of the bar are made from it.
 TABLE: tuple[Command, ...] = (
-    Command("go", ("space",), "shoot; pause, resume", "Play", _go, mouse="pull back and let go"),
+    Command("go", ("space",), "shoot; pause, resume", "Play", _go, mouse="pull back (Shift: finely), let go"),
     Command("again", ("return",), "aim again (billiards: next shot)", "Play",
             lambda view, by: view.game.aiming.again(from_rest=True)),
     Command("turn", ("left", "right"), "turn the shot (Shift: finely)", "Play",

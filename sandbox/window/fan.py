@@ -89,6 +89,7 @@ class Fan:
         self.flown: list[FanShot | None] = []  # None where it could not be computed
         self._drawn: tuple[Any, list[int], np.ndarray] = None, [0, 0], np.empty(0)  # how, how many, and their densities
         self._scene = scene
+        self._first: Shot | None = None  # whose picture says where points of a path are drawn
         self._runs = runs(scene, list(spread), points[::-1] if backwards else points, asked=asked)
 
     def is_of(self, scene: Scene, *how: Any) -> bool:
@@ -103,6 +104,7 @@ class Fan:
             if len(shots) >= fewest and process_time() - started > seconds:
                 break
         self.left -= len(shots)
+        self._first = self._first or next(filter(None, shots), None)
         paths = iter(points([(shot.run, shot.ball) for shot in shots if shot]) if any(shots) else ())
         self.flown += [FanShot(next(paths)[:, 1:], shot.scored, shot.run.result) if shot else None for shot in shots]
 
@@ -113,11 +115,14 @@ class Fan:
         if how != (camera, size) or len(others) < counts[1]:
             counts, sums = [0, 0], np.zeros((2, *size[::-1]))
             self._drawn = (camera, size), counts, sums
+        if self._first is None:
+            return sums
+        picture = self._first.run.scene.picture(self._first.run, size)
         for source, shots in enumerate((self.flown, others)):
             new = [shot for shot in shots[counts[source] :] if shot is not None]
             counts[source] = len(shots)
             for rest in (False, True):
-                paths = [camera.pixels(shot.path) for shot in new if shot.scored != rest]
+                paths = [picture.spots(camera, shot.path, 0.0) for shot in new if shot.scored != rest]
                 if paths:
                     sums[int(rest)] += density([np.clip(path, -FAR, max(size) + FAR) for path in paths], size)
         return sums

@@ -26,11 +26,11 @@ class Grasp:
         self._begin()
         self.pull = Pull(at, speeds(self.aiming.session), window, height, stretch)
 
-    def pull_to(self, at: tuple[int, int]) -> None:
-        """The mouse pulls as far as a place (px)."""
+    def pull_to(self, at: tuple[int, int], fine: bool = False) -> None:
+        """The mouse pulls on to a place (px), or ``fine`` a tenth of the way."""
         if self.pull is None:
             return
-        self.pull.vector = float(at[0] - self.pull.start[0]), float(at[1] - self.pull.start[1])
+        self.pull.move(at, fine)
         values = self.pull.changes(self.aiming.session)
         if values is not None:
             self.aiming.change(values)

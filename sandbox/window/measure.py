@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import hypot
 
@@ -32,8 +32,15 @@ class Reading:
     at: tuple[float, float]
 
 
-def reading(shot: Shot, camera: Camera, mouse: tuple[int, int], near: float, until: float | None) -> Reading | None:
-    """The point of a trace nearest to the mouse, no farther than ``near`` px; up to the time ``until`` in s."""
+def reading(
+    shot: Shot,
+    pixels: Callable[[np.ndarray], np.ndarray],
+    mouse: tuple[int, int],
+    near: float,
+    until: float | None,
+) -> Reading | None:
+    """The point of a trace nearest to the mouse, no farther than ``near`` px; up to the time ``until`` in s. ``pixels``
+    gives the places in px of points in m, both of shape (n, 2)."""
     best: Reading | None = None
     for ball in shot.movers:
         track = shot.track(ball)
@@ -41,10 +48,11 @@ def reading(shot: Shot, camera: Camera, mouse: tuple[int, int], near: float, unt
             track = track[track[:, 0] <= until]
         if len(track) < 2:
             continue
-        away, i, share = away_from(camera.pixels(track[:, 1:]), mouse)
+        away, i, share = away_from(pixels(track[:, 1:]), mouse)
         if away <= near:
             t = float(track[i, 0] + share * (track[i + 1, 0] - track[i, 0]))
-            near, best = away, Reading(ball, t, camera.pixel(*shot.run.state(ball, t)[:2]))
+            ((x, y),) = pixels(np.array([shot.run.state(ball, t)[:2]])).tolist()
+            near, best = away, Reading(ball, t, (x, y))
     return best
 
 

@@ -164,7 +164,7 @@ class Pointer:
         view = self.view
         stretch = view.stages.latest.camera.stretch if view.stages.latest is not None else 1.0
         view.game.grasp.begin_pull(at, view.screen.canvas.get_size(), view.screen.area.height, stretch)
-        return view.game.grasp.pull_to
+        return lambda to: view.game.grasp.pull_to(to, fine=bool(pygame.key.get_mods() & pygame.KMOD_SHIFT))
 
     def _perhaps_pull(self, start: Place, to: Place) -> None:
         """A pull ends the watching of a shot that is over; a click does not."""

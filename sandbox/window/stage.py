@@ -93,12 +93,18 @@ class Stage:
 
     def holds(self, shot: Shot) -> bool:
         """True if the path of another shot stays in sight."""
-        shares = self.camera.pixels(shot.track(shot.ball)[:, 1:]) / self.size
+        shares = self.pixels(shot.track(shot.ball)[:, 1:]) / self.size
         return shot.run is self.shot.run or bool((shares >= EDGE).all() and (shares <= 1 - EDGE).all())
 
     def ball_at(self, shot: Shot, t: float = 0.0) -> tuple[float, float]:
         """The place of the ball that is played, in px."""
-        return self.camera.pixel(*shot.run.state(shot.ball, t)[:2])
+        ((x, y),) = self.pixels(np.array([shot.run.state(shot.ball, t)[:2]])).tolist()
+        return x, y
+
+    def pixels(self, points: np.ndarray) -> np.ndarray:
+        """The places in px where the picture draws points of a path (m), both of shape (n, 2): in a view from the side
+        higher than its camera has them, where balls are drawn larger than they are."""
+        return self.picture.spots(self.camera, points, 0.0)
 
     def draw_ghosts(self, sheet: Canvas, ghosts: Sequence[Shot]) -> None:
         """The paths of earlier shots."""
@@ -204,14 +210,14 @@ class Stage:
         return self._drawn(np.vstack([track, (until, *shot.run.state(ball, until)[:2])]))
 
     def _drawn(self, track: np.ndarray) -> np.ndarray:
-        return simplify(np.clip(self.picture.spots(self.camera, track[:, 1:], 0.0), -4000, 8000))
+        return simplify(np.clip(self.pixels(track[:, 1:]), -4000, 8000))
 
     def _contacts(self, sheet: Canvas, shot: Shot, until: float | None) -> None:
         marked: list[tuple[float, float]] = []
         for event in shot.run.events:
             if event.kind != "impact" or event.ball != shot.ball or (until is not None and event.t > until):
                 continue
-            x, y = self.picture.spots(self.camera, np.array([[event.x, event.y]]), 0.0)[0].tolist()
+            x, y = self.pixels(np.array([[event.x, event.y]]))[0].tolist()
             if all(dist((x, y), other) >= NEAR * sheet.unit for other in marked):
                 marked.append((x, y))
         for at in marked[:MOST_CONTACTS]:

@@ -72,6 +72,39 @@ def test_letting_go_shoots_what_was_shown(player):
     assert again.result == shot.run.result
 
 
+def test_with_shift_a_pull_aims_ten_times_as_finely(player, monkeypatch):
+    player = player("curling")
+    session, (x, y) = player.game.session, (600, 300)
+
+    def aim():
+        return session.value("launch.angle"), session.value("launch.speed")
+
+    def pulled(by, modifiers):
+        """The changes of angle and speed by one more move of the mouse."""
+        (angle, speed), (across, down) = aim(), by
+        monkeypatch.setattr(pygame.key, "get_mods", lambda: modifiers)
+        player.move((x - 150 + across, y + down))
+        now = aim()
+        player.move((x - 150, y))
+        assert aim() == (angle, speed)  # on its way back, the same
+        return now[0] - angle, now[1] - speed
+
+    player.press((x, y))
+    player.move((x - 150, y))
+    usual, fine = pulled((0, 10), pygame.KMOD_NONE), pulled((0, 10), pygame.KMOD_SHIFT)
+    assert usual[0] == pytest.approx(np.degrees(np.arctan2(10, 150)), abs=0.01)
+    assert fine[0] == pytest.approx(np.degrees(np.arctan2(1, 150)), abs=0.01)
+    usual, fine = pulled((-10, 0), pygame.KMOD_NONE), pulled((-10, 0), pygame.KMOD_SHIFT)
+    assert 0.05 * usual[1] < fine[1] < 0.15 * usual[1]
+    player.move((x - 150, y + 10))
+    monkeypatch.setattr(pygame.key, "get_mods", lambda: pygame.KMOD_NONE)
+    before = aim()
+    player.move((x - 150, y + 10))
+    assert aim() == before  # nothing jumps when Shift is released
+    player.release((x - 150, y + 10))
+    assert player.game.shots.paths[-1].scene.parameters.launch.angle == before[0]
+
+
 def test_a_longer_pull_is_stronger_and_escape_leaves_it(player):
     player = player("golf")
     speeds = []

@@ -1,11 +1,11 @@
-"""What is shown beside the shot: fans, readings, charts, arrows, the tape, the energy; and the lists of commands."""
+"""Fans, readings, charts, arrows, the tape and the energy beside the shot; and the lists of commands."""
 
 from __future__ import annotations
 
 import re
 from concurrent.futures import Future
 from itertools import combinations
-from math import hypot
+from math import hypot, inf
 from time import perf_counter, sleep
 from unittest import mock
 
@@ -24,11 +24,12 @@ from sandbox.window.canvas import Canvas
 from sandbox.window.charts import Charts
 from sandbox.window.commands import GROUPS, HINTS, TABLE
 from sandbox.window.fan import FEWEST, SHOTS, cloud, density, short, shots_from_end, spread_of
-from sandbox.window.measure import reading
+from sandbox.window.measure import away_from, reading
 from sandbox.window.path import LONG
 from sandbox.window.score_map import COARSE, FINER, SCORED, score_map
 from sandbox.window.session import Session
 from sandbox.window.shown import AHEAD
+from sandbox.window.stage import Stage
 from sandbox.window.stages import AT_REST
 from sandbox.workers import Processes
 
@@ -112,8 +113,10 @@ class TestTheFan:
         monkeypatch.setattr("sandbox.window.fan._begun", {})
         monkeypatch.setattr("sandbox.window.fan.runs", some_fail)
         asked = session.scene, 1.0, camera, False, "", (640, 360), ((0, 255, 0), (255, 255, 255))
+        monkeypatch.setattr("sandbox.window.fan.QUICK", inf)
         alone = cloud(*asked)
         assert 0 < alone.shots < 12
+        assert alone.left == 0
         monkeypatch.setattr("sandbox.window.fan._begun", {})
         monkeypatch.setattr("sandbox.window.fan.QUICK", 0.0)
         assert cloud(*asked).left == 12 - FEWEST
@@ -176,6 +179,15 @@ class TestTheFan:
         drawn = pixels[pixels[..., 3] > 60].astype(int)
         assert len(drawn) > 100
         assert np.mean(drawn[:, 1] > drawn[:, 0] + 40) == int(made)
+
+    @pytest.mark.parametrize("source", ["golf", "tennis", "bowling"])
+    def test_its_shots_are_where_the_path_is_drawn(self, source, shot_of):
+        shot = shot_of(Session(source))
+        stage = Stage(shot, (640, 360))
+        found = cloud(shot.scene, 1e-9, stage.camera, False, "", stage.size, ((0, 200, 0), (250, 250, 250)))
+        rows, columns = np.nonzero(np.frombuffer(found.pixels, np.uint8).reshape(*found.size[::-1], 4)[..., 3] > 128)
+        drawn = np.column_stack([columns, rows])[:: max(1, len(rows) // 50)] + found.at + 0.5
+        assert max(away_from(stage.line(shot), at)[0] for at in drawn.tolist()) < 2.2  # px; a fan's ends are 3 px wide
 
     def test_lines_are_where_they_are_and_smooth(self):
         line = np.array([[10.0, 10.0], [90.0, 40.0]])
@@ -313,25 +325,28 @@ class TestReading:
         player = player("golf")
         game, view = player.game, player.view
         t = 0.4 * game.shot.run.duration
-        at = view.stages.latest.camera.pixel(*game.shot.run.state("ball", t)[:2])
+        stage = view.stages.latest
+        at = stage.ball_at(game.shot, t)
         mouse = round(at[0]), round(at[1]) - 3
-        read = reading(game.shot, view.stages.latest.camera, mouse, 12.0, None)
+        read = reading(game.shot, stage.pixels, mouse, 12.0, None)
         assert read.t == pytest.approx(t, rel=0.02)
         assert hypot(read.at[0] - mouse[0], read.at[1] - mouse[1]) < 5
+        assert away_from(stage.line(game.shot), read.at)[0] < 1.0  # a picture draws the path of a small ball higher
         plain = picture(player)
         player.move(mouse)
         assert differ(picture(player), plain) > 0.01
 
         for away, until in (((600, 20), None), (mouse, 0.5 * t)):  # or where it has not flown yet
-            assert reading(game.shot, view.stages.latest.camera, away, 12.0, until) is None
+            assert reading(game.shot, stage.pixels, away, 12.0, until) is None
 
     def test_of_many_balls_the_nearest_is_read(self, player):
         player = player("billiards")
         game, view = player.game, player.view
         run, ball = game.shot.run, "5"  # which leaves the axis that the cue ball stays on
         x, y, *_ = run.state(ball, run.duration)
-        at = view.stages.latest.camera.pixel(x, y)
-        assert reading(game.shot, view.stages.latest.camera, (round(at[0]), round(at[1])), 12.0, None).ball == ball
+        stage = view.stages.latest
+        at = stage.camera.pixel(x, y)
+        assert reading(game.shot, stage.pixels, (round(at[0]), round(at[1])), 12.0, None).ball == ball
 
 
 def test_the_player_may_have_to_predict_what_happens(player):
