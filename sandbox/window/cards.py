@@ -1,4 +1,4 @@
-"""What is said of the shot over its picture: headline and numbers, fan, map, charts, cost, hints, and readings."""
+"""Texts and cards over the picture of a shot: headline and numbers, fan, map, charts, cost, hints, and readings."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ class Cards:
             sheet.numbers([*entries, *forces])
 
     def _notes(self, shot: Shot) -> list[str]:
-        """What can be done now, or how the shot is watched."""
+        """Notes on what can be done now, or on how the shot is watched."""
         game, playback = self.game, self.game.watching.playback
         if game.grasp.pull is not None:
             return ["let go to shoot, Esc to cancel", "Shift aims finely"]

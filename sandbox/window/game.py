@@ -1,4 +1,4 @@
-"""What is played, without drawing: its parts, and how time passes in them.
+"""The game without its drawing: its parts, and how time passes in them.
 
 While aiming, ``shot`` is the path for the current parameters, computed by the worker as they change; otherwise a shot
 is watched, paused, or replayed from a recording. ``advance`` passes time and never waits for a run.

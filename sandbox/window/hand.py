@@ -40,7 +40,7 @@ class Spot(NamedTuple):
     unit: float  # px on 720 rows
 
     def step(self, snap: bool) -> float:
-        """In which steps, in m or m/s, it is dragged."""
+        """The size of the steps in which it is dragged, in m or m/s."""
         return round_number_above((SNAPS * self.unit if snap else FINE) / self.camera.scale)
 
     def dragged(self, before: Place, to: Place) -> Place:

@@ -11,6 +11,8 @@ from typing import Any
 
 import numpy as np
 
+# A replay restores each arc with its contact, so that it is drawn and read like the run that was recorded: the surface
+# that is touched and where, the direction of the motion along it, and the spin rate. Those are types of the engine.
 from sandbox.engine.contact.touch import Obstacle, Touching
 from sandbox.engine.model.accuracy import Accuracy
 from sandbox.engine.model.ball import Ball

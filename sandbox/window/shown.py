@@ -1,4 +1,4 @@
-"""What the player has chosen to see: switches, how much of the path while aiming, the tape, and an overlay."""
+"""The player's choices of what is seen: switches, how much of the path while aiming, the tape, and an overlay."""
 
 from __future__ import annotations
 

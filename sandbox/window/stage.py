@@ -147,7 +147,7 @@ class Stage:
         return labels
 
     def kept_clear(self, shot: Shot, t: float) -> list[pygame.Rect]:
-        """What nothing may cover at time t in s: balls, what is aimed at, and the texts of the place."""
+        """The parts in px that nothing may cover at time t in s: balls, what is aimed at, the texts of the place."""
         return [*self.clear_of(shot, t), *self.texts]
 
     def clear_of(self, shot: Shot, t: float) -> list[pygame.Rect]:
@@ -226,8 +226,8 @@ class Stage:
 
 
 def story_of(shot: Shot, told: float) -> float:
-    """When in s a shot's story ends in the window, which goes on after the verdict is in, at the time ``told``: with
-    the next impact of the ball that is played."""
+    """The time in s at which a shot's story ends in the window: with the next impact of the ball that is played after
+    the verdict is in, at the time ``told``."""
     impacts = (e.t for e in shot.run.events if e.kind == "impact" and e.ball == shot.ball and e.t > told)
     return min(impacts, default=shot.run.duration)
 
@@ -260,7 +260,7 @@ def draw_line(surface: pygame.Surface, points: np.ndarray, width: float, colour:
 
 
 def headline(sheet: Canvas, text: str, notes: Sequence[str], colour: Colour) -> list[Form]:
-    """What happens, large on a dark card, and a line below it with as many notes as there is room for; then smaller,
+    """The headline, large on a dark card, and a line below it with as many notes as there is room for; then smaller,
     and with fewer notes."""
     room = sheet.frame.width - 4 * sheet.gap - WIND * sheet.unit
     rooms = [("large", 0.66 * sheet.size[0]), ("medium", room), ("small", room), ("small", 0.5 * room)]

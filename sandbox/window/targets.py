@@ -1,4 +1,4 @@
-"""What the mouse can take hold of in the picture: handles, cards that can be clicked, the ball to set spin on."""
+"""The parts of the picture that the mouse can take hold of: handles, cards to click, the ball to set spin on."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From where the shot is seen: all of it, a part that the player has chosen, or near the ball that is followed."""
+"""The camera of a shot: it shows all of it, a part that the player has chosen, or near the ball that is followed."""
 
 from __future__ import annotations
 

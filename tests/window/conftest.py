@@ -26,7 +26,7 @@ FRAME = 1 / 60  # s
 
 
 class Player:
-    """Does with a window what a person would: every call is one event, and one frame."""
+    """A person at a window: every call is one event, and one frame."""
 
     def __init__(self, worker: Processes, source: str, size: tuple[int, int] = (1280, 720)) -> None:
         pygame.display.init()
@@ -92,7 +92,7 @@ class Player:
 
     @property
     def sheet(self) -> Canvas:
-        """What the picture is drawn on."""
+        """The surface that the picture is drawn on."""
         return Canvas(self.view.screen.canvas.subsurface(self.view.screen.area))
 
     def button(self, command: str) -> None:

@@ -37,7 +37,7 @@ def lab(light: np.ndarray) -> np.ndarray:
 
 
 def contrast(a, b) -> float:
-    """Of WCAG 2."""
+    """The contrast of two colours by WCAG 2."""
     low, high = sorted(float(XYZ[1] @ linear(colour)) for colour in (a, b))
     return (high + 0.05) / (low + 0.05)
 

@@ -1,4 +1,4 @@
-"""What the window writes: replays, scene files, pictures, command lines; and the sound."""
+"""Files that the window writes: replays, scene files, pictures, command lines; and the sound."""
 
 from __future__ import annotations
 

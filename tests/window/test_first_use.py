@@ -1,4 +1,4 @@
-"""What a new user sees: hints that go when followed, thumbnails and descriptions in the menu, recent files."""
+"""The window of a new user: hints that go when followed, thumbnails and descriptions in the menu, recent files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a scene declares can be dragged: through real events, in all scenes."""
+"""Handles that a scene declares, dragged: through real events, in all scenes."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ WIND_KEYS = (WIND.x, WIND.y)
 
 
 def spot(player, key: str):
-    """Where the handle of a parameter is, in px."""
+    """The place of the handle of a parameter, in px."""
     return next(tuple(map(round, spot.at)) for spot in player.view.targets.spots if key in spot.grip.keys)
 
 

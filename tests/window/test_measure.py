@@ -1,4 +1,4 @@
-"""What is measured on the picture: distances from lines, and the point of a trace that is nearest."""
+"""Measuring on the picture: distances from lines, and the point of a trace that is nearest."""
 
 from __future__ import annotations
 

@@ -94,7 +94,7 @@ def test_long_numbers_end_where_their_room_does(player, written, pull):
         assert player.view.screen.area.contains(rect)
 
 
-@pytest.mark.parametrize("size", [(480, 400), (480, 920), (640, 400), (960, 1000), (1200, 400), (1280, 720)])
+@pytest.mark.parametrize("size", [(480, 400), (480, 920), (1200, 400)])  # small, narrow, low
 @pytest.mark.parametrize("name", ["menu", "help"])
 def test_every_scene_and_every_key_can_be_seen(player, size, written, name):
     player = player(PUTT, size)
@@ -120,7 +120,7 @@ def test_every_scene_and_every_key_can_be_seen(player, size, written, name):
     assert said >= every
 
 
-@pytest.mark.parametrize("size", [(480, 400), (640, 400), (960, 1080), (1280, 720), (2560, 1440)])
+@pytest.mark.parametrize("size", [(480, 400), (960, 1080), (1280, 720)])
 def test_nothing_of_the_panel_overlaps_and_texts_have_room(player, size, written):
     player = player("golf", size)
     player.key(pygame.K_TAB)

@@ -29,7 +29,7 @@ def row(player, key: str):
 
 
 def place(player, key: str, part: str) -> pygame.Rect:
-    """Where a part of a parameter's row is."""
+    """The place of a part of a parameter's row."""
     parts = {what: rect for rect, what in player.view.panel.places if isinstance(what, tuple)}
     return next(rect for (row, name), rect in parts.items() if row.key == key and name == part)
 
