@@ -22,6 +22,9 @@ from sandbox.text import csv_text
 if TYPE_CHECKING:
     from sandbox.lab.plan import Plan
 
+#: A value as JSON, on one line.
+_as_json = json.JSONEncoder(ensure_ascii=False, default=str).encode
+
 #: The last column of a sweep, and all columns of a path that ``run --trajectory`` writes.
 _LAST, _TRAJECTORY = "error", b"t,ball,x,y,vx,vy,spin"
 
@@ -83,9 +86,9 @@ class RowFile:
         with writing("--out", self.path):
             if not self.done:
                 self._file.write(self._first_line)
-            lines = csv.writer(self._file, lineterminator="\n")
+            lines, columns = csv.writer(self._file, lineterminator="\n"), self._plan.columns
             for record in records:
-                lines.writerow([cell(record.get(name)) for name in self._plan.columns])
+                lines.writerow([cell(record.get(name)) for name in columns])
                 self.done += 1
             self._file.flush()
 
@@ -223,16 +226,21 @@ def is_of_a_sweep(path: Path) -> bool:
 
 def cell(value: Any) -> str:
     """A value in CSV: empty for None and NaN, true and false, numbers in full precision, lists as JSON; one line."""
-    if type(value) is float:  # by far the most common
+    kind = type(value)
+    if kind is float:  # by far the most common
         return "" if value != value else repr(value)
+    if kind is int:
+        return repr(value)
+    if kind is str:
+        return csv_text(value)
     if value is None:
         return ""
-    if hasattr(value, "tolist"):
-        return cell(value.tolist())  # numpy's numbers and arrays
     if isinstance(value, bool):
         return "true" if value else "false"
+    if hasattr(value, "tolist"):
+        return cell(value.tolist())  # numpy's numbers and arrays
     if isinstance(value, list | tuple | dict):
-        value = json.dumps(json_ready(value), ensure_ascii=False, default=str)
+        value = _as_json(json_ready(value))
     return csv_text(value) if isinstance(value, str) else str(value)
 
 

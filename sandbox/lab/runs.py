@@ -131,10 +131,11 @@ class _AllFinal(Until):
     def over(self, events: Sequence[Event]) -> bool:
         if is_over(self.until, events):
             return True
-        if not any(condition.over(events) for condition in self.conditions):
+        others = [condition for condition in self.conditions if not condition.over(events)]
+        if len(others) == len(self.conditions):
             return False
-        so_far = [events[:count] for count in range(len(events), 0, -1)]
-        return all(any(map(condition.over, so_far)) for condition in self.conditions)
+        before = [events[:count] for count in range(len(events) - 1, 0, -1)] if others else []
+        return all(any(map(condition.over, before)) for condition in others)
 
     def passed(self, start: State, end: State) -> Any:
         own = self.until.passed(start, end) if isinstance(self.until, Until) else False

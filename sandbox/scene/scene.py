@@ -34,6 +34,8 @@ if TYPE_CHECKING:
 REQUIRED = ("Parameters", "build")
 #: Types of facts that cards, JSON and tables can always show.
 _PLAIN = {bool, float, type(None)}
+#: Types of facts that hold others.
+_CONTAINERS = (Mapping, list, tuple)
 #: Most characters of a fact or a verdict, for which cards and pictures have room.
 LONGEST_TEXT = 400
 _REPORTABLE = f"a number, a text of at most {LONGEST_TEXT} characters, true or false, or a list of those"
@@ -147,15 +149,24 @@ class Scene:
             with sys_exit_as_error():
                 result = {key: compute(run, parameters) for key, compute in computed}
             for key, value in result.items():
-                if hasattr(value, "tolist"):  # numpy's numbers and arrays
-                    value = result[key] = value.tolist()
-                if isinstance(value, float) and not isfinite(value):
-                    result[key] = None
-                elif type(value) not in _PLAIN and not _is_reportable(value):
-                    raise self._wrong(f"the fact {key}", _REPORTABLE, value)
+                if type(value) is float:
+                    if not isfinite(value):
+                        result[key] = None
+                elif type(value) not in _PLAIN:
+                    result[key] = self._reported(key, value)
             return result
 
         return read
+
+    def _reported(self, key: str, value: Any) -> Any:
+        """The value of a fact as a result has it. Raises RunError if it cannot be shown."""
+        if hasattr(value, "tolist"):  # numpy's numbers and arrays
+            value = value.tolist()
+        if isinstance(value, float) and not isfinite(value):
+            return None
+        if not _is_reportable(value):
+            raise self._wrong(f"the fact {key}", _REPORTABLE, value)
+        return value
 
     def final_when(self, asked: Collection[str]) -> frozenset[FinalWhen] | None:
         """The conditions that must hold for all these facts to be final; None if one is not until the end."""
@@ -219,13 +230,13 @@ def _as_text(value: Any) -> str:
 
 def _is_reportable(value: Any, deepest: int = 9) -> bool:
     """True if cards, JSON and tables can show a value; one that contains itself has no end."""
-    if isinstance(value, Mapping | list | tuple):
+    if isinstance(value, str):
+        return len(value) <= LONGEST_TEXT
+    if isinstance(value, _CONTAINERS):
         inside = [*value, *value.values()] if isinstance(value, Mapping) else value
         return deepest > 0 and all(_is_reportable(item, deepest - 1) for item in inside)
     if isinstance(value, int) and not isinstance(value, bool):
         return value.bit_length() < 1000  # a float holds it
-    if isinstance(value, str):
-        return len(value) <= LONGEST_TEXT
     return value is None or isinstance(value, bool | float) or hasattr(value, "tolist")  # numpy's
 
 

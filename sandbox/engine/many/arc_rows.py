@@ -3,6 +3,7 @@ all shots ask of their paths is computed once for all."""
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 from itertools import chain
@@ -17,6 +18,7 @@ from sandbox.engine.paths.arc import Arc
 from sandbox.engine.paths.bernstein import downward_crossings, elevate
 from sandbox.engine.paths.path import Curve, Passage, Path, climb, height
 from sandbox.engine.paths.phase import ArcContact
+from sandbox.physics.integrators import State
 
 #: Positions of an arc's parts in its row: times, state at the start, curves, state at the end, number of the contact.
 T0, T1 = 0, 1
@@ -46,6 +48,27 @@ class Paths:
     def __getitem__(self, number: int) -> ArcRows:
         return ArcRows(self, number, *self._bounds[number : number + 2])
 
+    @cached_property
+    def stops(self) -> list[float]:
+        """The time in s at which each arc of all paths ends."""
+        times: list[float] = self.rows[:, T1].tolist()
+        return times
+
+    @cached_property
+    def tops(self) -> list[list[Passage]]:
+        """Time and state at the start of each path, and at the highest end of its arcs."""
+        found: list[list[Passage]] = [[] for _ in self._bounds[1:]]
+        lengths = np.diff(self._bounds)
+        numbers = np.flatnonzero(lengths)  # of the paths that have arcs
+        first, y = np.array(self._bounds)[numbers], self.rows[:, END.start + 1]
+        highest = np.flatnonzero(y == np.repeat(np.maximum.reduceat(y, first), lengths[numbers]))
+        top = highest[np.searchsorted(highest, first)]  # the first of equal ones
+        for rows, t, state in ((first, T0, START), (top, T1, END)):
+            passages = zip(self.rows[rows, t].tolist(), map(tuple, self.rows[rows, state].tolist()), strict=True)
+            for number, passage in zip(numbers.tolist(), passages, strict=True):
+                found[number].append(passage)
+        return found
+
     def passages(self, path: ArcRows, curve: Curve) -> list[Passage]:
         """Each time and state at which a curve becomes negative along a path. All paths are computed together as soon
         as a second one is asked for the same curve."""
@@ -64,8 +87,8 @@ class Paths:
         rows = self.rows[first:last]
         values, places = np.array(curve(arc_of(rows.T))), np.arange(len(rows))
         numbers = np.searchsorted(self._bounds, first + places, side="right") - 1
-        signs, signed = np.sign(values), values.any(axis=0)
-        starts, ends = (some[(some != 0.0).argmax(axis=0), places] for some in (signs, signs[::-1]))
+        starts, ends = _first_signs(values), _first_signs(values[::-1])
+        signed = starts != 0.0
         latest = np.append(-1, np.maximum.accumulate(np.where(signed, places, -1)))[:-1]  # arc before that is not zero
         turned = (starts < 0.0) & (latest >= 0) & (ends[latest] > 0.0) & (numbers[latest] == numbers)
         some = np.flatnonzero((values.min(axis=0) <= 0.0) & (values.max(axis=0) > 0.0))
@@ -111,8 +134,14 @@ class ArcRows(Path):
     @cached_property
     def stops(self) -> Sequence[float]:
         """The time in s at which each arc ends."""
-        times: list[float] = self._rows[:, T1].tolist()
-        return times
+        return self.paths.stops[self.first : self.last]
+
+    def state_before(self, t: float) -> State:
+        """The state just before t; where an arc ends, as its row has it."""
+        index = bisect_left(self.stops, t)
+        if index < len(self) and self.stops[index] == t:
+            return tuple(self._rows[index, END].tolist())
+        return super().state_before(t)
 
     def pieces(self) -> Iterator[tuple[float, float, list[float], list[float]]]:
         """Return the same as in Path, without the arcs."""
@@ -124,6 +153,8 @@ class ArcRows(Path):
 
     def highest(self, until: float = inf) -> Passage:
         """Time and state where it is highest, up to a time at which it is not."""
+        if until == inf:
+            return max((*self.paths.tops[self.number], *self.passages(climb)), key=height)
         rows = self._rows
         at = int(np.where(rows[:, T1] <= until, rows[:, END.start + 1], -inf).argmax())  # of the ends
         ends = [(float(rows[at, T1]), tuple(rows[at, END].tolist()))]
@@ -133,6 +164,16 @@ class ArcRows(Path):
     def passages(self, curve: Curve) -> list[Passage]:
         """Each time and state at which a curve becomes negative."""
         return self.paths.passages(self, curve)
+
+
+def _first_signs(values: np.ndarray) -> np.ndarray:
+    """The sign of the first value in each column that is not zero."""
+    signs: np.ndarray = np.sign(values[0])
+    zero = np.flatnonzero(signs == 0.0)
+    if len(zero):
+        some = np.sign(values[:, zero])
+        signs[zero] = some[(some != 0.0).argmax(axis=0), np.arange(len(zero))]
+    return signs
 
 
 def cut(rows: np.ndarray, t: np.ndarray, u: np.ndarray) -> np.ndarray:

@@ -78,6 +78,10 @@ class Path:
         index = bisect_left(self.stops, t)
         return self[index] if index < len(self) and self.stops[index] == t else self.at(t)
 
+    def state_before(self, t: float) -> State:
+        """The state just before t."""
+        return self.before(t).state(t)[:5]
+
     def pieces(self) -> Iterable[tuple[float, float, Sequence[float], Sequence[float]]]:
         """Begin and end in s of each arc, and its curves of x and y."""
         return ((arc.t0, arc.t1, arc.x, arc.y) for arc in self)

@@ -201,7 +201,7 @@ class Run(Drawable):
         """The state of a ball just before time t; differs from ``state`` if there is an impact at t."""
         path = self._path(ball)
         self._within(path, ball, t, "error")
-        return State(*path.before(t).state(t)[:5])
+        return State(*path.state_before(t))
 
     def closing_speed(self, event: Event) -> float:
         """Speed in m/s at which the two of an impact came together, along the surface included.

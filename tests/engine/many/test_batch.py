@@ -526,7 +526,7 @@ def test_an_impact_is_the_same_in_any_lane_and_place(motions: list[tuple[float, 
             (-away[i], slips[i], 0.0),
             (5.0 - ball.radius * nx, 3.0 - ball.radius * ny),
         )
-        placed, (impulse,) = after_contacts_at_once([ball], {0: before}, [contact], [bounce])
+        placed, (impulse,), _ = after_contacts_at_once([ball], {0: before}, [contact], [bounce])
         alone = after_impulse(before[2:], nx, ny, radius, factor, (push, rub, 0.0))
         assert (*alone[:2], radius * alone[2]) == pytest.approx(
             (*placed[0][2:4], radius * placed[0][4]), abs=1e-9 * size
