@@ -20,8 +20,6 @@ from sandbox.engine.paths.run import Run
 from sandbox.physics.forces import Gravity
 
 G = 9.81  # m/s^2
-
-
 OUTLINES = {
     "box": box(0.4, 0.3),
     "rounded box": box(0.4, 0.3, 0.05),

@@ -28,6 +28,11 @@ def stone(velocity, spin=1.5, position=(0.0, 0.0), name="stone"):
     return Ball(name, M, R, position, velocity, spin, inertia_factor=DISC)
 
 
+def end_of(run, name="stone"):
+    """The state at the end of a run."""
+    return run.state(name, run.duration)
+
+
 def slid(ball, plane, level="balanced", **more):
     return simulate(Setup([ball], plane=plane, duration=200.0, **more), resolve(level))
 
@@ -75,15 +80,15 @@ def test_a_stone_whose_spin_ends_goes_straight_from_then_on():
 
 
 def test_no_spin_goes_straight_and_mirrored_spin_mirrors():
-    assert abs(slid(stone((2.0, 0.0), spin=0.0), ICE).state("stone", 99.0)[1]) == 0.0
-    left, right = (slid(stone((1.5, side * 0.3), spin=side), ICE).state("stone", 99.0) for side in (1.0, -1.0))
+    assert abs(end_of(slid(stone((2.0, 0.0), spin=0.0), ICE))[1]) == 0.0
+    left, right = (end_of(slid(stone((1.5, side * 0.3), spin=side), ICE)) for side in (1.0, -1.0))
     assert left[:2] == pytest.approx((right[0], -right[1]), abs=1e-12)
 
 
 @pytest.mark.parametrize("angle", [1.0, 2.5, 4.0])
 def test_no_direction_on_the_ice_is_special(angle):
-    straight = slid(stone((2.0, 0.0)), ICE).state("stone", 99.0)
-    turned = slid(stone((2.0 * cos(angle), 2.0 * sin(angle))), ICE).state("stone", 99.0)
+    straight = end_of(slid(stone((2.0, 0.0)), ICE))
+    turned = end_of(slid(stone((2.0 * cos(angle), 2.0 * sin(angle))), ICE))
     x, y = straight[:2]
     assert turned[:2] == pytest.approx((x * cos(angle) - y * sin(angle), x * sin(angle) + y * cos(angle)), abs=1e-8)
 
@@ -96,7 +101,7 @@ def test_a_swept_stretch_slows_less_and_the_rest_as_before():
     end = run.state("stone", run.duration)[0]
     for law, fast, slow, way in zip((ICE, swept, ICE), speeds, speeds[1:], (8.0, 7.0, end - 15.0), strict=False):
         assert quad(lambda v, law=law: v / law.deceleration(v), slow, fast)[0] == pytest.approx(way, abs=1e-7)
-    assert end > 1.05 * slid(stone((2.2, 0.0), spin=0.0), ICE).state("stone", 99.0)[0]
+    assert end > 1.05 * end_of(slid(stone((2.2, 0.0), spin=0.0), ICE))[0]
 
 
 def test_a_puck_slides_evenly_and_its_spin_decays_apart():
@@ -179,9 +184,9 @@ def test_a_gutter_takes_what_it_is_for(method):
 def test_the_plain_method_converges_to_exact(plane):
     wall = Surface("wall", Segment((6.0, -5.0), (6.0, 5.0)), 1.0, 0.0)
     setup = Setup([stone((1.0, 0.4), 1.0)], [wall], plane=plane, duration=8.0)
-    exact = simulate(setup, resolve()).state("stone", 8.0)[:2]
+    exact = end_of(simulate(setup, resolve()))[:2]
     off = [
-        hypot(*np.subtract(simulate(setup, resolve(method="plain", step=step)).state("stone", 8.0)[:2], exact))
+        hypot(*np.subtract(end_of(simulate(setup, resolve(method="plain", step=step)))[:2], exact))
         for step in (4e-3, 1e-3)
     ]
     assert off[1] < 0.4 * off[0] < 0.02
@@ -190,9 +195,9 @@ def test_the_plain_method_converges_to_exact(plane):
 def test_levels_agree_and_two_runs_are_the_same():
     stones = [stone((2.2, 0.05)), *(stone((0.0, 0.0), 0.0, (20.0 + 0.5 * i, 0.1 * i), str(i)) for i in range(4))]
     setup = Setup(stones, plane=ICE, duration=100.0, between_balls=lambda normal, slip: Bounce(0.9, 0.2))
-    ends = {level: simulate(setup, LEVELS[level]).state("stone", 100.0) for level in LEVELS}
+    ends = {level: end_of(simulate(setup, LEVELS[level])) for level in LEVELS}
     assert ends["fast"] == pytest.approx(ends["precise"], abs=1e-4)
-    assert simulate(setup, resolve()).state("stone", 100.0) == ends["balanced"]
+    assert end_of(simulate(setup, resolve())) == ends["balanced"]
 
 
 def test_energy_never_grows_on_ice():
@@ -246,7 +251,7 @@ def test_strips_of_one_law_are_that_law(law, seed):
         for plane in (law, Strips(edges, [law] * 4))
     )
     for name in "abc":
-        assert one.state(name, 3.0)[:2] == pytest.approx(other.state(name, 3.0)[:2], abs=1e-6)
+        assert end_of(one, name)[:2] == pytest.approx(end_of(other, name)[:2], abs=1e-6)
     book = ledger(other)
     changes = sum(book.impacts.values()) + sum(book.contacts.values()) + book.residue
     assert book.start + changes == pytest.approx(book.end, abs=1e-9)

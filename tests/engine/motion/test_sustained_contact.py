@@ -25,7 +25,7 @@ def test_an_ellipse_rocks_to_rest_where_rolling_is_resisted():
     start: dict[str, Any] = {"position": (0.0, 0.2), "velocity": (-0.8, 0.0), "spin": 4.0}
     surface = Surface("floor", LEVEL, 0.0, 2.0, rolling_resistance=0.05)
     run = run_of([thrown(Ellipse(0.3, 0.2), **start)], 20.0, [surface])
-    turn = run.angle("body", 20.0)
+    turn = run.angle("body", run.duration)
     h = math.sqrt((0.3 * math.sin(turn)) ** 2 + (0.2 * math.cos(turn)) ** 2)
     lever = abs(0.05 * math.sin(turn) * math.cos(turn)) / h
     assert run.ended == "rest"

@@ -1,8 +1,6 @@
-"""What a setup says of balls and surfaces by their names: which pair answers how, and what ends the run when."""
+"""What a setup says by the names of balls and surfaces: the law of a pair, and what ends the run."""
 
 from __future__ import annotations
-
-from dataclasses import replace
 
 import pytest
 
@@ -43,14 +41,3 @@ def test_a_run_ends_at_the_touch_that_was_asked_for(method: str, times: int):
     fall = (2.0 * h / g) ** 0.5
     assert run.ended == "until"
     assert run.duration == pytest.approx(fall * (1.0 + 2.0 * sum(e**n for n in range(1, times))), abs=2e-3)
-
-
-def test_closing_speed_is_that_of_the_two_in_any_direction():
-    """It slides at 3 m/s and falls at 4 m/s onto a floor; it meets another ball that comes at 2 m/s."""
-    ball = Ball("ball", 1.0, 0.1, (0.0, 4.1), (3.0, -4.0))
-    run = simulate(Setup([ball], [FLOOR], duration=1.5), resolve())
-    assert run.closing_speed(run.events[0]) == pytest.approx(5.0)
-    assert run.events[0].speed == pytest.approx(4.0)
-    coming = Ball("other", 1.0, 0.1, (5.0, 0.0), (-2.0, 0.0))
-    run = simulate(Setup([replace(ball, position=(0.0, 0.0), velocity=(3.0, 0.0)), coming]), resolve())
-    assert run.closing_speed(run.events[0]) == pytest.approx(5.0)
