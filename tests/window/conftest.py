@@ -61,11 +61,12 @@ class Player:
         self.send(pygame.KEYUP, key=key, mod=modifiers, unicode="", scancode=0)
 
     def press_named(self, name: str) -> None:
-        """Press a key that is named as in the table of commands."""
+        """Press and release a key that is named as in the table of commands, within one frame."""
         held, _, plain = name.partition(" ") if name.startswith(("ctrl ", "alt ")) else ("", "", name)
         modifiers = {"": 0, "ctrl": pygame.KMOD_CTRL, "alt": pygame.KMOD_ALT}[held]
-        self.send(pygame.KEYDOWN, key=pygame.key.key_code(plain), mod=modifiers, unicode="", scancode=0)
-        self.send(pygame.KEYUP, key=pygame.key.key_code(plain), mod=modifiers, unicode="", scancode=0)
+        pressed = {"key": pygame.key.key_code(plain), "mod": modifiers, "unicode": "", "scancode": 0}
+        pygame.event.post(pygame.event.Event(pygame.KEYDOWN, **pressed))
+        self.send(pygame.KEYUP, **pressed)
 
     def move(self, at: tuple[int, int]) -> None:
         self.send(pygame.MOUSEMOTION, pos=at, rel=(0, 0), buttons=(0, 0, 0), touch=False)
