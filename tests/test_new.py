@@ -17,7 +17,7 @@ import sandbox
 from tests.own_scene import change
 from tests.picture.legible import assert_legible
 
-NAME, ABOVE = "beachvolley", "minigolf"
+NAME, ABOVE = "beachvolley", "putting"
 
 
 @pytest.fixture(autouse=True)

@@ -150,7 +150,7 @@ class LiveSimulation(Simulation):
     @property
     def ended(self) -> str:
         """How the run has ended: "until" or "duration", "rest" while nothing moves, "" while something does."""
-        return self._ended or ("until" if self._over else "" if self._moving else "rest")
+        return self._ended or ("until" if self._over else "" if self._goes_on else "rest")
 
     @property
     def end(self) -> float:

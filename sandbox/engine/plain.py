@@ -188,7 +188,8 @@ class PlainSimulation:
         """Remove a ball that is in a pocket; noticed at the next recording, so up to one interval late."""
         x, y = tracked.body.position
         for trap in self._setup.traps:
-            if trap.takes(tracked.ball.name) and Outline.of(trap.shape, 0.0).near(x, y).gap <= 0.0:
+            inside = trap.takes(tracked.ball.name) and Outline.of(trap.shape, 0.0).near(x, y).gap <= 0.0
+            if inside and trap.holds(tracked.state()):
                 tracked.caught = True
                 self._real.space.remove(tracked.body, *tracked.body.shapes)
                 speed = tracked.body.velocity.length

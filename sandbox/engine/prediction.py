@@ -35,7 +35,7 @@ class Prediction:
         touch = self.first_touch(index, arc, mover.obstacles, at, in_contact)
         if touch is not None:
             at, kind = touch, EventKind.TOUCH
-        if mover.traps and (caught := self.first_touch(index, arc, mover.traps, at)) is not None:
+        if mover.traps and (caught := self.first_touch(index, arc, mover.open_traps, at)) is not None:
             at, kind = caught, EventKind.TRAP
         self._queue.push(at, kind, index)
         if mover.arc.t1 < at:

@@ -139,13 +139,21 @@ class Simulation:
 
     def _loop(self, until: float = inf) -> None:
         """Resolve one event after another, up to ``until`` in s or to the end of the run."""
-        while self._moving and not self._over and not self._ended and (event := self._queue.pop(until)):
+        while not self._over and not self._ended and self._goes_on and (event := self._queue.pop(until)):
             self._t = event.t
             self._refuse_endless(event)
             if event.kind in _GO_ON and event.t >= self._setup.duration:
                 self._t, self._ended = self._setup.duration, "duration"
             else:
                 self._resolve(event)
+
+    @property
+    def _goes_on(self) -> bool:
+        """True if a ball moves, or one at rest will be struck: only by a surface that moves."""
+        return bool(self._moving) or (
+            any(surface.motion is not None for surface in self._setup.surfaces)
+            and any(event.kind is EventKind.TOUCH for event in self._queue.pending())
+        )
 
     def _resolve(self, event: QueuedEvent) -> None:
         """Resolve an event, the earliest."""
@@ -197,15 +205,26 @@ class Simulation:
             self._collide(t, balls)
 
     def _catch(self, t: float, index: int) -> None:
-        """Remove a ball that is caught."""
+        """Remove a ball that is caught; one that is too fast goes on."""
         mover = self._movers[index]
+        x, y = mover.arc.state(t)[:2]
+        nearest = min(mover.open_traps, key=lambda trap: trap.near(x, y).gap)
+        if not self._holds(nearest, mover.arc.state(t)):
+            mover.passed = (*mover.passed, nearest)
+            self._next_arc(t, index)
+            return
         mover.finish(t)
         x, y, vx, vy = mover.path[-1].state(t)[:4]
         mover.version += 1
         mover.caught = True
         self._moving.discard(index)
-        nearest = min(mover.traps, key=lambda trap: trap.near(x, y).gap)
         self._note(t, "caught", mover, nearest.surface.name, (x, y), (vx * vx + vy * vy) ** 0.5)
+
+    def _holds(self, place: Obstacle, state: State) -> bool:
+        """True if a ball in this state is slow enough for a trap."""
+        surface = place.surface
+        traps = [trap for trap in self._setup.traps if trap.name == surface.name and trap.shape == surface.shape]
+        return all(trap.holds(state) for trap in traps)
 
     def _passes(self, t: float, index: int) -> bool:
         """True if the run ends with a ball's arc up to t, without an event."""
@@ -231,6 +250,7 @@ class Simulation:
             return
         for index, state in outcome.states.items():
             self._movers[index].arrive(t, state)
+            self._movers[index].passed = ()
         held: Collection[int] = ()
         if self._heap and self._heap.belongs_in_heap(t, outcome.states, group.pairs):
             held = self._step_heap(t, outcome.states.keys())
@@ -257,7 +277,7 @@ class Simulation:
             mover = self._movers[index]
             mover.append_contact(t, arcs)
             self._queue.push(parted.t, EventKind.CLUSTER_END, index)
-            caught = (self._prediction.first_touch(index, arc, mover.traps, arc.t1) for arc in arcs)
+            caught = (self._prediction.first_touch(index, arc, mover.open_traps, arc.t1) for arc in arcs)
             at = next((at for at in caught if at is not None), inf)
             if at < self._setup.duration:
                 self._queue.push(at, EventKind.TRAP, index)

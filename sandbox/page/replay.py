@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from PIL import Image
 
+from sandbox.engine.model.surface import Circle, Surface
 from sandbox.engine.paths.arc import Arc
 from sandbox.engine.paths.path import Path
 from sandbox.engine.paths.phase import Phase
@@ -18,7 +19,7 @@ from sandbox.parameters import Group, walk
 from sandbox.picture import ball as balls
 from sandbox.picture.above import AboveView
 from sandbox.picture.frames import to_image
-from sandbox.picture.moving import NOT_WORTH_NOTING
+from sandbox.picture.moving import NOT_WORTH_NOTING, THINNEST
 from sandbox.picture.palette import palette
 from sandbox.picture.path import instants
 from sandbox.picture.sheet import CARD, DENSITY
@@ -40,6 +41,8 @@ LAYOUTS = (((1600, 900), 1.0), ((801, 1001), 1.78))
 POSTER = (640, 640)
 #: The forces are sampled at so many even times, and at each impact.
 SAMPLES = 240
+#: The poses a second of surfaces that move.
+POSES_A_SECOND = 120
 #: The ground's height is sampled at so many places.
 GROUND = 400
 #: Units of the numbers that the page itself writes.
@@ -209,6 +212,8 @@ def _static(view: View[Any], run: SceneRun) -> dict[str, Any]:
         ],
         "strings": [[names.index(name), *at] for name, at in view.strings],
         "string": css(view.STRING_COLOUR),
+        "driven": _driven(view, run),
+        "shown": view.driven_moment,
         "ground": _ground(view),
         "forces": _forces(view, run),
         "arrows": dict(zip(("fastest", "strongest"), view.vectors.longest, strict=True))
@@ -262,6 +267,22 @@ def _turned(view: View[Any], name: str, until: float) -> dict[str, Any] | None:
     times = np.linspace(0.0, until, SAMPLES)
     turns = [view.turn(name, float(t)) for t in times]
     return {"times": times, "angles": np.unwrap([atan2(turn[1, 0], turn[0, 0]) for turn in turns])}
+
+
+def _driven(view: View[Any], run: SceneRun) -> dict[str, Any]:
+    """The surfaces that move, at even times often enough for straight lines between them: the ends of each in m, or
+    twice its middle."""
+    times = np.linspace(0.0, run.duration, max(2, round(run.duration * POSES_A_SECOND)))
+
+    def ends(surface: Surface, t: float) -> list[float]:
+        shape = surface.at(t).shape
+        return [*shape.center, *shape.center] if isinstance(shape, Circle) else [*shape.a, *shape.b]
+
+    surfaces = [
+        {"radius": each.shape.radius, "ends": [[round(x, 6) for x in ends(each, float(t))] for t in times]}
+        for each in view.driven
+    ]
+    return {"step": times[1], "surfaces": surfaces, "colour": css(view.DRIVEN), "thinnest": THINNEST}
 
 
 def _look(look: balls.Look, view: View[Any]) -> dict[str, Any]:

@@ -319,6 +319,7 @@ class Player {
     const density = this.canvas.width / view.size[0];
     context.setTransform(density, 0, 0, density, 0, 0);
     context.drawImage(view.place, 0, 0);
+    this.driven(whole ? data.shown : t);
     for (const [ball, x, y] of data.strings) {
       const path = data.balls[ball].path.state(t);
       context.beginPath();
@@ -343,6 +344,20 @@ class Player {
     context.drawImage(view.over, 0, 0);
     if (this.pointed) this.point();
     this.now();
+  }
+
+  /** The surfaces that move, where they are at time t. */
+  driven(t) {
+    const { context, view } = this, { step, surfaces, colour, thinnest } = this.data.driven;
+    for (const { radius, ends } of surfaces) {
+      const place = Math.min(t / (step || 1), ends.length - 1), i = Math.min(Math.floor(place), ends.length - 2);
+      const [ax, ay, bx, by] = ends[i].map((value, k) => value + (place - i) * (ends[i + 1][k] - value));
+      context.beginPath();
+      context.moveTo(...this.pixel(ax, ay));
+      context.lineTo(...this.pixel(bx, by));
+      Object.assign(context, { lineCap: "round", lineWidth: 2 * Math.max(radius * view.scale, thinnest * view.unit), strokeStyle: colour });
+      context.stroke();
+    }
   }
 
   ball(ball, t) {

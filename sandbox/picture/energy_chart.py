@@ -43,8 +43,13 @@ def bands_of(energy: Course) -> tuple[list[Curve], list[Curve]]:
     ]
     there += [Curve(name, times, values, mix(colours[name], CHART["ground"], LOST)) for name, values in shown]
     there += [Curve("other", times, rest, CHART["other"])]
-    put_in = [Curve(f"put in by {name}", times, values, colours[name]) for name, values in energy.put_in.items()]
+    put_in = [Curve(_put_in_by(name), times, values, colours[name]) for name, values in energy.put_in.items()]
     return list(_stacked(there, 0.0, least)), list(_stacked(put_in, energy.start, least))
+
+
+def _put_in_by(cause: str) -> str:
+    """The name of the energy that a cause put in; a surface that moves says by itself that it drives."""
+    return cause if cause.startswith("driven by ") else f"put in by {cause}"
 
 
 def _stacked(bands: Sequence[Curve], lowest: float, least: float) -> Iterator[Curve]:

@@ -9,12 +9,13 @@ import numpy as np
 import pygame
 
 from sandbox.engine.model.ball import Body
+from sandbox.engine.model.surface import Circle, Segment, Surface
 from sandbox.picture.ball import Flat, Look, Orientation, Silhouette, mark_radius, turned
 from sandbox.picture.camera import Camera
 from sandbox.picture.marks import Ghost, draw_trace, is_under
 from sandbox.picture.options import P, SceneOptions
 from sandbox.picture.painter import Painter, Point
-from sandbox.picture.palette import palette
+from sandbox.picture.palette import Colour, palette
 from sandbox.picture.path import FINEST, DrawnPath, ImpactMark, apart, slow_motion
 from sandbox.picture.sheet import Sheet
 from sandbox.picture.vectors import Vectors
@@ -34,6 +35,22 @@ BALLS = 14
 BEAD, LARGEST_BEAD = 0.5, 3.0
 #: Width of a string, px on 720 rows.
 STRING = 1.5
+#: Half the least width of a surface, px on 720 rows.
+THINNEST = 1.5
+#: The faint trace of a surface that moves on a poster: poses, s between them, and how opaque the latest is.
+SWEEP, SWEEP_EVERY, SWEEP_OPACITY = 5, 0.05, 0.25
+
+
+def draw_shape(
+    painter: Painter, camera: Camera, shape: Segment | Circle, colour: Colour, unit: float, opacity: float = 1.0
+) -> None:
+    """Draw a surface as a line or a disc; ``unit`` is that of the picture."""
+    thick = max(shape.radius * camera.scale, THINNEST * unit)
+    near = pygame.FRect(painter.surface.get_rect()).inflate(100, 100)
+    if isinstance(shape, Circle):
+        painter.disc(camera.pixel(*shape.center), thick, colour, opacity)
+    elif seen := near.clipline(camera.pixel(*shape.a), camera.pixel(*shape.b)):
+        painter.line(seen, 2 * thick, colour, opacity)
 
 
 class BallDrawing(SceneOptions[P]):
@@ -227,6 +244,24 @@ class BallDrawing(SceneOptions[P]):
         for name, (x, y) in self.strings:
             ends = [camera.pixel(x, y), camera.pixel(*self.run.state(name, t)[:2])]
             painter.line(ends, STRING * self.unit, self.STRING_COLOUR)
+
+    @cached_property
+    def driven(self) -> list[Surface]:
+        """The surfaces that move."""
+        return [surface for surface in self.run.setup.surfaces if surface.motion is not None]
+
+    def draw_driven(self, painter: Painter, camera: Camera, t: float, opacity: float = 1.0) -> None:
+        """Draw the surfaces that move where they are at time t in s."""
+        for surface in self.driven:
+            draw_shape(painter, camera, surface.at(t).shape, self.DRIVEN, self.unit, opacity)
+
+    def _sweep(self, painter: Painter, camera: Camera) -> None:
+        """Draw the surfaces that move as the poster has them, over a faint trace of where they were just before."""
+        for i in range(SWEEP, 0, -1):
+            before = self.driven_moment - i * SWEEP_EVERY
+            if before >= 0.0:
+                self.draw_driven(painter, camera, before, SWEEP_OPACITY * (1.0 - i / (SWEEP + 1)))
+        self.draw_driven(painter, camera, self.driven_moment)
 
     def _trails(self, sheet: Sheet, camera: Camera, t: float) -> None:
         """Draw where the balls have been: a thin line, and a thick one of late; and where those of other runs are. All

@@ -87,6 +87,8 @@ class SceneOptions(Generic[P]):
     STRETCHED: ClassVar[str] = "heights"
     #: The colour of strings.
     STRING_COLOUR: ClassVar[Colour] = CARD["quiet"]
+    #: The colour of surfaces that move.
+    DRIVEN: ClassVar[Colour] = PLAIN["surface"]
     #: True if text stands on dark ground, where the scene does not decide by the shot.
     ON_DARK: ClassVar[bool] = True
 
@@ -141,6 +143,13 @@ class SceneOptions(Generic[P]):
     def moment(self) -> float:
         """The time in s at which the poster shows what moves besides the balls."""
         return 0.0
+
+    @cached_property
+    def driven_moment(self) -> float:
+        """The time in s at which the poster shows surfaces that move: when the last of them is met, or at the end."""
+        moving = {surface.name for surface in self.run.setup.surfaces if surface.motion is not None}
+        met = [event.t for event in self.run.events if event.partner in moving and event.t <= self.story_end]
+        return met[-1] if met else self.story_end
 
     @property
     def datum(self) -> tuple[tuple[float, float], str]:

@@ -99,7 +99,7 @@ class DrawnPath:
                 yield self._mark(event, other)
 
     def _mark(self, event: Event, other: str) -> ImpactMark:
-        surfaces = [s.shape for s in self.run.setup.surfaces if s.name == other]
+        surfaces = [s.at(event.t).shape for s in self.run.setup.surfaces if s.name == other]
         others = [(fixed_outline(shape).shape, Pose(0.0, 0.0, 0.0)) for shape in surfaces] or [
             self._outline(other, event.t)
         ]

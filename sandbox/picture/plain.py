@@ -10,6 +10,7 @@ from sandbox.parameters import Group
 from sandbox.picture.above import AboveView
 from sandbox.picture.ball import Look, seams
 from sandbox.picture.camera import Camera
+from sandbox.picture.moving import THINNEST, draw_shape
 from sandbox.picture.painter import Painter, Point, gradient
 from sandbox.picture.palette import palette
 from sandbox.picture.sheet import Sheet
@@ -41,19 +42,13 @@ class Picture(AboveView[Group]):
         return self.LOOK if len(self.balls) == 1 else SEVERAL[self.balls.index(name) % len(SEVERAL)]
 
     def backdrop(self, painter: Painter, camera: Camera) -> None:
-        """A light ground, and as a line or a disc every surface and, paler, what takes balls."""
+        """A light ground, and as a line or a disc every surface at rest and, paler, what takes balls."""
         painter.surface.blit(gradient(self.size, COLOURS["ground"]), (0, 0))
-        near = pygame.FRect((0, 0), self.size).inflate(100, 100)
-        setup = self.run.setup
-        for shape, colour in (
-            *((trap.shape, COLOURS["catch"]) for trap in setup.traps),
-            *((surface.shape, COLOURS["surface"]) for surface in setup.surfaces),
-        ):
-            thick = max(shape.radius * camera.scale, 1.5 * self.unit)
-            if isinstance(shape, Circle):
-                painter.disc(camera.pixel(*shape.center), thick, colour)
-            elif seen := near.clipline(camera.pixel(*shape.a), camera.pixel(*shape.b)):
-                painter.line(seen, 2 * thick, colour)
+        for trap in self.run.setup.traps:
+            draw_shape(painter, camera, trap.shape, COLOURS["catch"], self.unit)
+        for surface in self.run.setup.surfaces:
+            if surface.motion is None:
+                draw_shape(painter, camera, surface.shape, COLOURS["surface"], self.unit)
 
     def shadow(self, painter: Painter, camera: Camera, name: str, t: float, at: Point, radius: float) -> None:
         """On the plane that balls roll on; from the side there is none."""
@@ -62,7 +57,7 @@ class Picture(AboveView[Group]):
 
     def landmarks(self, sheet: Sheet, camera: Camera) -> None:
         """The names of the surfaces, where there are few."""
-        named = {surface.name: surface.shape for surface in self.run.setup.surfaces}
+        named = {surface.name: surface.at(self.driven_moment).shape for surface in self.run.setup.surfaces}
         if len(named) > MOST_NAMED:
             return
         room = pygame.FRect(0, sheet.top_row, self.size[0], self.card_row - sheet.top_row)
@@ -71,7 +66,7 @@ class Picture(AboveView[Group]):
 
     def _spots(self, shape: Segment | Circle, camera: Camera, room: pygame.FRect) -> list[tuple[float, float, str]]:
         """Where the name of a surface may stand, beside the part of it that is in sight, in px."""
-        off = max(shape.radius * camera.scale, 1.5 * self.unit) + 4 * self.unit
+        off = max(shape.radius * camera.scale, THINNEST * self.unit) + 4 * self.unit
         ends = (shape.center, shape.center) if isinstance(shape, Circle) else (shape.a, shape.b)
         a, b = (camera.pixel(*end) for end in ends)
         seen = (a, b) if a == b else room.clipline(a, b)

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pygame
 
-from sandbox.engine.model.surface import Segment
+from sandbox.engine.model.surface import Circle, Segment, Surface
 from sandbox.errors import RequestError
 from sandbox.picture.camera import Camera
 from sandbox.picture.marks import Ghost, mark_impacts
@@ -26,6 +26,8 @@ from sandbox.sport.amounts import times
 
 #: Surfaces are around a path that reach no farther beyond it than it is long, or than so many radii of the ball.
 NEAR = 12.0
+#: The reach of a surface that moves is judged at so many times.
+POSES = 48
 
 
 class Heading(NamedTuple):
@@ -108,13 +110,18 @@ class View(BallDrawing[P]):
         radius = max(self.radii.values())
         low, high = self.points.min(axis=0) - radius, self.points.max(axis=0) + radius
         reach, middle = max(NEAR * radius, *(high - low)), (low + high) / 2
-        for shape in (surface.shape for surface in self.run.setup.surfaces):
+        for shape in (shape for surface in self.run.setup.surfaces for shape in self._seen_of(surface)):
             a, b = map(np.array, (shape.a, shape.b) if isinstance(shape, Segment) else (shape.center, shape.center))
             next_to = a + np.clip((middle - a) @ (b - a) / max((b - a) @ (b - a), 1e-99), 0.0, 1.0) * (b - a)
             for seen in (np.array([np.minimum(a, b) - shape.radius, np.maximum(a, b) + shape.radius]), next_to[None]):
                 if np.all(seen > low - reach) and np.all(seen < high + reach):
                     low, high = np.minimum(low, seen.min(axis=0)), np.maximum(high, seen.max(axis=0))
         return np.array([low, high])
+
+    def _seen_of(self, surface: Surface) -> list[Segment | Circle]:
+        """The shapes of a surface; of one that moves, at some times of the run."""
+        times = [0.0] if surface.motion is None else np.linspace(0.0, self.story_end, POSES).tolist()
+        return [surface.at(t).shape for t in times]
 
     # Poster and frames
 
@@ -139,6 +146,7 @@ class View(BallDrawing[P]):
         placed = self._placed(camera, self.story_end)
         self.behind(painter, camera, self.moment)
         yield "place"
+        self._sweep(painter, camera)
         self._strings(painter, camera, self.story_end)
         for name, spot in placed.items():
             self.shadow(painter, camera, name, self.story_end, *spot)
@@ -168,6 +176,7 @@ class View(BallDrawing[P]):
         painter = sheet.painter
         placed = self._placed(camera, t, in_frame=True)
         self.behind(painter, camera, t)
+        self.draw_driven(painter, camera, t)
         self._strings(painter, camera, t)
         for name, spot in placed.items():
             self.shadow(painter, camera, name, t, *spot)
@@ -226,6 +235,7 @@ class View(BallDrawing[P]):
         """All that moves, at time t in s, on the stage that the camera sees; paths in a lens until ``ahead`` in s."""
         self.ahead = ahead
         self.behind(painter, camera, t)
+        self.draw_driven(painter, camera, t)
         self._strings(painter, camera, t)
         self.place_balls(painter, camera, t)
         self.before(painter, camera, t)

@@ -6,7 +6,7 @@ from __future__ import annotations
 import pickle
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import cos, pi, sin, sqrt
+from math import asin, cos, pi, sin, sqrt
 from random import Random
 
 import numpy as np
@@ -24,6 +24,7 @@ from sandbox.engine.model.surface import Circle, Moving, Segment, Surface
 from sandbox.engine.paths.phase import Phase
 from sandbox.engine.paths.run import Run
 from sandbox.errors import RequestError, RunError
+from sandbox.physics.cloth import Cloth
 from sandbox.physics.forces import Gravity
 
 G, MASS, RADIUS = 9.81, 0.6, 0.1
@@ -376,3 +377,29 @@ def test_a_velocity_that_is_none_is_refused(velocity):
 def test_pieces_must_be_in_order():
     with pytest.raises(ValueError, match="each must begin after the one before"):
         Sliding([(1.0, (1.0, 0.0)), (0.5, (0.0, 0.0))])
+
+
+def test_a_ball_at_rest_is_struck_by_what_comes_to_it():
+    """A blade that turns at 1 rad/s reaches a ball that waits at 90 degrees, less the angle that both cover."""
+    blade = Moving(Surface("blade", Segment((0.0, 0.0), (1.0, 0.0)), 0.5, 0.0), Turning((0.0, 0.0), 1.0))
+    ball = Ball("ball", MASS, RADIUS, (0.0, 0.5))
+    run = simulate(Setup([ball], [blade], duration=2.0, plane=Cloth()), resolve(level="balanced"))
+    assert run.events[0].t == pytest.approx(0.5 * pi - asin(RADIUS / 0.5), abs=1e-9)
+    assert run.state("ball", 1.5).x < -0.02
+
+
+def test_balls_that_nothing_reaches_end_the_run():
+    blade = Moving(Surface("blade", Segment((0.0, 0.0), (1.0, 0.0)), 0.5, 0.0), Turning((0.0, 0.0), 1.0))
+    ball = Ball("ball", MASS, RADIUS, (0.0, 1.5), (1.0, 0.0))
+    run = simulate(Setup([ball], [blade], duration=99.0, plane=Cloth()), resolve(level="balanced"))
+    assert run.ended == "rest"
+    assert run.duration < 99.0
+
+
+def test_a_ball_that_spins_in_its_path_meets_what_moves():
+    """Its spin about the vertical ends before it stops: the path beyond that is predicted at once."""
+    gate = Moving(Surface("gate", Segment((1.0, -0.2), (1.0, 0.2)), 0.5, 0.2), to_and_fro(2.0, (0.0, 0.1)))
+    ball = Ball("ball", MASS, RADIUS, (0.0, 0.0), (2.0, 0.0), spin=1.0, rolling_spin=(0.0, 2.0 / RADIUS))
+    run = simulate(Setup([ball], [gate], duration=9.0, plane=Cloth()), resolve(level="balanced"))
+    assert run.events[0].partner == "gate"
+    assert run.state("ball", run.events[0].t).x == pytest.approx(1.0 - RADIUS, abs=1e-9)

@@ -157,6 +157,11 @@ class Trap:
     """A place that removes a ball once its centre is closer than ``radius``: a pocket; or a gutter, from ``center`` to
     ``end``. It removes those named in ``only``, if any are.
 
+    A hole lets a ball run over it that is faster than ``fastest`` on its way over the middle, or so that
+    ``v > fastest (1 - (d / radius)^2)`` on a straight way that passes the middle at the distance d: the limit of a golf
+    ball on a level green, with 1.63 m/s (Holmes 1991, Am. J. Phys. 59:129; Penner 2002, Can. J. Phys. 80:83;
+    second-hand). It is judged where the ball enters; the ball then keeps its motion, until it hits something.
+
     >>> from sandbox import Ball, Setup, Trap
     >>> ball = Ball("ball", mass=0.17, radius=0.0286, position=(0, 0), velocity=(1, 0))
     >>> setup = Setup([ball], traps=[Trap("pocket", center=(1, 0), radius=0.06)], duration=2.0)
@@ -170,9 +175,12 @@ class Trap:
     radius: float  # m
     end: Vector | None = None  # m
     only: Sequence[str] = ()
+    fastest: float | None = None  # m/s
 
     def __post_init__(self) -> None:
         check(f"trap {self.name!r}", self, points=["center"])
+        if self.fastest is not None:
+            check(f"trap {self.name!r}", self, positive=["fastest"])
 
     @property
     def shape(self) -> Segment | Circle:
@@ -181,3 +189,12 @@ class Trap:
     def takes(self, ball: str) -> bool:
         """Return True if it removes the ball of this name."""
         return not self.only or ball in self.only
+
+    def holds(self, state: Sequence[float]) -> bool:
+        """Return True if a ball that enters it in this state, (x, y, vx, vy, ...), is slow enough for it."""
+        x, y, vx, vy = state[:4]
+        speed = hypot(vx, vy)
+        if self.fastest is None or speed == 0.0:
+            return True
+        aside = ((x - self.center[0]) * vy - (y - self.center[1]) * vx) / speed
+        return speed <= self.fastest * (1.0 - (aside / self.radius) ** 2)

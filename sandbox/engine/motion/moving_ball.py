@@ -96,6 +96,7 @@ class MovingBall:
         self.ball = ball
         self.obstacles = obstacles
         self.traps = traps
+        self.passed: Sequence[Obstacle] = ()  # traps that it was too fast for, since it last hit something
         self._moves = any(obstacle.moves for obstacle in obstacles)
         self.state = state
         self.contact: SustainedContact | None = None
@@ -148,6 +149,11 @@ class MovingBall:
         self._prepare()
 
     # ------------------------------------------------------------------ its path
+
+    @property
+    def open_traps(self) -> Sequence[Obstacle]:
+        """The traps that may catch it."""
+        return [trap for trap in self.traps if trap not in self.passed] if self.passed else self.traps
 
     def first_touch(self, obstacle: Obstacle, arc: Arc) -> float | None:
         """The time in s at which it starts to touch on this arc, or None."""

@@ -92,7 +92,7 @@ class OnPlane(MovingBall):
         x, y, vx, vy, *_ = self.state
         ux, uy = vx + h * phase.ax, vy + h * phase.ay
         places = (x, x + 0.5 * h * vx, x + 0.5 * h * (vx + ux)), (y, y + 0.5 * h * vy, y + 0.5 * h * (vy + uy))
-        self._past_spin = self.version, Arc(t, t + h, self.state, (*places, (vx, ux), (vy, uy)))
+        self._past_spin = self.version, Arc(t, t + h, self.state, (*places, (vx, ux), (vy, uy), (0.0,)))
 
     def end_spin(self, t: float) -> None:
         """Go on along the predicted path without spin."""
