@@ -16,6 +16,7 @@ from typing import Any, ClassVar, Generic, TypeVar
 import numpy as np
 import pygame
 
+from sandbox.engine.contact.touch import Outline
 from sandbox.errors import RequestError, RunError
 from sandbox.parameters import Group
 from sandbox.picture.ball import SMALLEST, Look, least_radius, seams
@@ -34,6 +35,9 @@ TRACES = palette("trace")["colours"]
 
 #: A run that is shorter, in s, is told in ms.
 INSTANT = 0.1
+
+#: The times at which the distance of a ball to surfaces that move is compared.
+NEAREST = 200
 
 P = TypeVar("P", bound=Group)
 
@@ -146,10 +150,18 @@ class SceneOptions(Generic[P]):
 
     @cached_property
     def driven_moment(self) -> float:
-        """The time in s at which the poster shows surfaces that move: when the last of them is met, or at the end."""
-        moving = {surface.name for surface in self.run.setup.surfaces if surface.motion is not None}
-        met = [event.t for event in self.run.events if event.partner in moving and event.t <= self.story_end]
-        return met[-1] if met else self.story_end
+        """The time in s at which the poster shows surfaces that move: when the ball last hits one, or is nearest."""
+        driven = [surface for surface in self.run.setup.surfaces if surface.motion is not None]
+        names = {surface.name for surface in driven}
+        met = [event.t for event in self.run.events if event.partner in names and event.t <= self.story_end]
+        if met or not driven:
+            return met[-1] if met else self.story_end
+
+        def gap(t: float) -> float:
+            x, y = self.run.state(self.ball, t)[:2]
+            return min(Outline.of(surface.at(t).shape, 0.0).near(x, y).gap for surface in driven)
+
+        return min(np.linspace(0.0, self.story_end, NEAREST).tolist(), key=gap)
 
     @property
     def datum(self) -> tuple[tuple[float, float], str]:
