@@ -15,6 +15,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 from sandbox.engine.contact.manifold import all_round
+from sandbox.engine.contact.touch import Obstacle
 from sandbox.engine.event_queue import EventQueue, QueuedEvent
 from sandbox.engine.impact.impacts import Hit, Impacts, Outcome
 from sandbox.engine.model.accuracy import Accuracy
