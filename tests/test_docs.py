@@ -33,8 +33,8 @@ from sandbox.record import diverges
 ROOT = Path(__file__).resolve().parent.parent
 PHYSICS = (ROOT / "docs" / "physics.md").read_text("utf-8")
 
-#: Arithmetic for floats and arrays alike, and a method of INTEGRATORS written by hand: nothing physical.
-NOT_MODELS = {"elementwise", "checks", "dormand_prince"}
+#: Arithmetic for floats and arrays alike, a method of INTEGRATORS written by hand, arguments of forces: no physics.
+NOT_MODELS = {"elementwise", "checks", "dormand_prince", "of_ball"}
 
 
 # Physics ------------------------------------------------------------------------------------------------------------

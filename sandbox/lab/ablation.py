@@ -20,7 +20,8 @@ from sandbox.lab.timing import Timed, repeat
 from sandbox.lab.verdicts import verdict
 from sandbox.physics.air import UniformWind
 from sandbox.physics.coefficients import Constant, spin_ratio_lift
-from sandbox.physics.forces import Drag, Magnus, SpinDecay, on_ball
+from sandbox.physics.forces import Drag, Magnus, SpinDecay
+from sandbox.physics.of_ball import on_ball
 from sandbox.physics.plane import without
 from sandbox.scene import compare
 from sandbox.scene.running import simulate_at

@@ -11,11 +11,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from math import pi
-from typing import Any, NoReturn, Protocol
+from typing import Any, Protocol
 
 from sandbox.physics.air import DENSITY, VISCOSITY, density_share
 from sandbox.physics.coefficients import Coefficient, Constant, spin_ratio_lift
 from sandbox.physics.elementwise import clip
+from sandbox.physics.of_ball import OfBall, on_ball
 
 Wind = Callable[[float, Any], tuple[Any, Any]]
 Force = Callable[[float, Any, Any, Any], tuple[Any, Any]]
@@ -32,31 +33,9 @@ class MassLoss(Protocol):
     def rate(self, t: Any) -> Any: ...
 
 
-class OfBall:
-    """A force or torque that takes what it is not given, such as a mass, from the ball in whose list it is."""
-
-    def on(self, ball: Any) -> Any:
-        """Return the same with what it needs of this ball or body."""
-        raise NotImplementedError
-
-    def __getattr__(self, name: str) -> NoReturn:
-        """Raise ValueError where it is called in no ball's list, without what it needs; nothing else comes here."""
-        if name in getattr(type(self), "__dataclass_fields__", ()):
-            what = type(self).__name__
-            raise ValueError(
-                f"{what} is in no ball's list of forces or torques: give it the mass or radius that it needs"
-            )
-        raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
-
-
 def _computed() -> Any:
     """A field that follows from the others, and from the ball."""
     return field(init=False, repr=False, compare=False)
-
-
-def on_ball(term: Any, ball: Any) -> Any:
-    """Return a force or torque as it acts on this ball or body."""
-    return term.on(ball) if isinstance(term, OfBall) else term
 
 
 @dataclass(frozen=True)

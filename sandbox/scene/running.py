@@ -88,7 +88,9 @@ def simulate(
     from sandbox.engine.model.setup import Setup
 
     if accuracy is not None and not isinstance(accuracy, Accuracy | str):
-        raise RequestError(f"accuracy = {shortened(repr(accuracy))}: must be the name of a level, or an Accuracy")
+        remedy = "; parameters go into sandbox.load(scene, parameters)" if isinstance(accuracy, Mapping) else ""
+        said = shortened(repr(accuracy))
+        raise RequestError(f"accuracy = {said}: must be the name of a level, or an Accuracy{remedy}")
     if isinstance(setup_or_scene, Setup):
         from sandbox.engine import simulate as run_setup
 

@@ -106,7 +106,7 @@ def test_cushions_lie_between_their_jaws(source, jaws):
 
 
 def test_a_table_is_drawn_once_for_all_pictures_of_it():
-    runs, size = [sandbox.simulate("billiards", {"cue.speed": 0.0}) for _ in range(2)], (320, 180)
+    runs, size = [sandbox.simulate(sandbox.load("billiards", {"cue.speed": 0.0})) for _ in range(2)], (320, 180)
     plans = [run.scene.picture(run).plan for run in runs]
     camera = Camera((0.0, 0.0), (160.0, 90.0), 90.0)
     assert plan.drawn(plans[0], camera, size) is plan.drawn(plans[1], camera, size)

@@ -10,7 +10,7 @@ from sandbox.engine.model.nearest import Pose, nearest
 from sandbox.engine.model.shapes import Shape, Vector, disc
 from sandbox.engine.model.tolerances import ROUNDING
 from sandbox.physics.checks import check
-from sandbox.physics.forces import on_ball
+from sandbox.physics.of_ball import on_ball
 from sandbox.renamed import with_old_fields_named
 
 if TYPE_CHECKING:
