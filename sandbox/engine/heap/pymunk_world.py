@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 import pymunk
@@ -77,6 +77,13 @@ class PymunkWorld:
                     self._raised = error
 
         return call
+
+    def forget(self, shapes: Iterable[pymunk.Shape]) -> None:
+        """Forget the impulses of these shapes' contacts. Chipmunk begins a step with those of the one before, scaled to
+        its length, but counts them in full: after a step of another length it would not undo what is too much."""
+        for shape in shapes:
+            self.space.remove(shape)
+            self.space.add(shape)
 
     def passed(self, start: Vector, end: Vector) -> int | None:
         """Which surface a point goes through on its straight way, by index, or None."""

@@ -17,6 +17,7 @@ from sandbox.engine.model.ball import Ball, kinetic
 from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.shapes import Vector
 from sandbox.engine.model.surface import Bounce, Surface
+from sandbox.engine.model.tolerances import ROUNDING
 from sandbox.errors import RunError
 from sandbox.physics.integrators import State
 
@@ -126,6 +127,8 @@ class Stepper:
         ``span`` is the length in s of a step that nothing cuts. What approaches no faster than ``pressed_speed`` (m/s)
         does not bounce; what does so faster than ``impact_speed`` is left to an impact of its own.
         """
+        if self.directly and abs(h - self._h) > ROUNDING * h:
+            self.world.forget(self._of_disc)
         self._h, self._pressed_speed, self._impact_speed = h, pressed_speed, impact_speed
         space = self.world.space
         space.collision_bias = 1.0 if self.directly else max(_LEFT ** (self.unit / span), _LEAST_LEFT)
