@@ -725,3 +725,18 @@ def test_rows_are_the_arcs_they_were_made_from():
 def test_python_may_fly_many_too():
     swept = sandbox.sweep("basketball", {"launch.angle": np.linspace(45.0, 60.0, 40)})
     assert swept["made"].shape == (40,)
+
+
+def test_the_highest_point_may_be_the_end_or_the_start():
+    """Balls that still rise at the end, have fallen from the start, or turn between: each as when it flies alone."""
+    speeds = np.linspace(-4.0, 8.0, 30).tolist()
+    setups = [
+        Setup([Ball("ball", 1.0, 0.1, (0.0, 5.0), (1.0, speed), forces=[Gravity(9.81)])], duration=0.5)
+        for speed in speeds
+    ]
+    together = list(simulate_many(setups, resolve("balanced")))
+    found = [run.highest("ball") for run in together if isinstance(run, Run)]
+    alone = [simulate(setup, resolve("balanced")).highest("ball") for setup in setups]
+    assert [t for t, _ in found] == pytest.approx([t for t, _ in alone], abs=1e-9)
+    assert [state[1] for _, state in found] == pytest.approx([state[1] for _, state in alone], abs=1e-9)
+    assert {t for t, _ in found} >= {0.0, 0.5}
