@@ -187,7 +187,7 @@ def _overlap(run: Run) -> tuple[float, bool, str]:
     found, through = [(0.0, 0.0), *_overlaps_of_balls(run)], ""
     for ball in run.setup.balls:
         times, x, y = run.trajectory(ball.name, max(run.duration, 1e-9) / _SAMPLES, ends=True)[:, :3].T
-        for surface in run.setup.surfaces:
+        for surface in (each for each in run.setup.surfaces if each.motion is None):
             outline = Outline.of(surface.shape, np.full_like(x, ball.radius))
             fixed = fixed_outline(surface.shape).shape
             for t, gap in [(t, gap) for t, gap in zip(times, outline.near(x, y).gap, strict=True) if gap < 0.0]:
