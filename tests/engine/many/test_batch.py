@@ -21,7 +21,7 @@ from sandbox.engine import simulate, simulate_many
 from sandbox.engine.contact.touch import Obstacle
 from sandbox.engine.impact.impulses import Contact, DiscOnGround, after_contacts_at_once
 from sandbox.engine.many import batch
-from sandbox.engine.many.arc_rows import Paths
+from sandbox.engine.many.arc_rows import ArcRows, Paths
 from sandbox.engine.many.continuation import BatchExit, Continuation, ExitReason
 from sandbox.engine.many.impulse_lanes import MANY, Lanes
 from sandbox.engine.many.outlines import BatchSurfaces
@@ -729,14 +729,19 @@ def test_python_may_fly_many_too():
 
 def test_the_highest_point_may_be_the_end_or_the_start():
     """Balls that still rise at the end, have fallen from the start, or turn between: each as when it flies alone."""
+    forces = [Gravity(9.81), lambda t, position, velocity, spin: (0.0, 9.0 * np.sin(40.0 * t))]  # in several arcs
+    floor = Surface("floor", Segment((-50.0, -50.0), (50.0, -50.0)), restitution=0.5, friction=0.2)
     speeds = np.linspace(-4.0, 8.0, 30).tolist()
     setups = [
-        Setup([Ball("ball", 1.0, 0.1, (0.0, 5.0), (1.0, speed), forces=[Gravity(9.81)])], duration=0.5)
+        Setup([Ball("ball", 1.0, 0.1, (0.0, 5.0), (1.0, speed), forces=forces)], [floor], duration=0.5)
         for speed in speeds
     ]
     together = list(simulate_many(setups, resolve("balanced")))
     found = [run.highest("ball") for run in together if isinstance(run, Run)]
     alone = [simulate(setup, resolve("balanced")).highest("ball") for setup in setups]
+    assert all(
+        isinstance(run.arcs["ball"], ArcRows) and len(run.arcs["ball"]) > 3 for run in together if isinstance(run, Run)
+    )
     assert [t for t, _ in found] == pytest.approx([t for t, _ in alone], abs=1e-9)
     assert [state[1] for _, state in found] == pytest.approx([state[1] for _, state in alone], abs=1e-9)
     assert {t for t, _ in found} >= {0.0, 0.5}
