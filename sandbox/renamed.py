@@ -35,7 +35,6 @@ NAMES: dict[str, dict[str, str]] = {
             ("Body", "Force", "Torque", "SOLID_SPHERE", "HOLLOW_SPHERE", "DISC", "kinetic", "outline_of"),
             "in engine.model.ball",
         ),
-        **dict.fromkeys(("Segment", "Circle"), "in engine.model.surface"),
         "Vector": "in engine.model.shapes",
         "Catch": "engine.model.surface.Trap",
         "Always": "engine.model.surface.ConstantBounce",

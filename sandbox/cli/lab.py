@@ -121,7 +121,7 @@ def sweep(
     jobs: int | None,
     scheduler: str | None,
 ) -> None:
-    """Run a scene for each point of a grid, for random points, or for those of a table.
+    """Run a scene at many points: a grid, random, or a table.
 
     Writes one row per point. Ctrl-C keeps the rows that are done; the same command again resumes from there. If the
     file holds another sweep, that is kept as F.csv~. A point that fails is a row with its error.

@@ -41,13 +41,13 @@ class World:
     """A setup or a scene that is simulated from frame to frame.
 
     >>> from sandbox import Ball, Gravity, Segment, Setup, Surface, World
-    >>> ball = Ball("ball", mass=0.6, radius=0.12, position=(0, 2), forces=[Gravity(0.6)])
+    >>> ball = Ball("ball", mass=0.6, radius=0.12, position=(0, 2), forces=[Gravity(9.81)])
     >>> floor = Surface("floor", Segment((-5, 0), (5, 0)), restitution=0.8, friction=0.4)
     >>> world = World(Setup([ball], [floor], duration=600.0))
     >>> while not world.events:
     ...     world.step(1 / 60)
     >>> world.events[0].partner, round(world.events[0].t, 6)  # s, exact, though frames are 17 ms apart
-    ('floor', 0.619195)
+    ('floor', 0.619098)
     >>> world.apply(impulse=(0.0, 1.5))  # N s
     >>> world.state["ball"].vy > 7.0  # m/s
     True

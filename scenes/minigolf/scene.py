@@ -231,7 +231,7 @@ def _over_hole(run: Run, parameters: Parameters) -> float | None:
 FACTS = (
     Fact("to_hole", "to the hole", "m", _to_hole),
     Fact("bounces", "off boards", "", lambda run, _: _hits(run, "board")),
-    Fact("struck", "struck by blades and gates", "", lambda run, _: _hits(run, "blade", "gate")),
+    Fact("struck", "struck by blades", "", lambda run, _: _hits(run, "blade", "gate")),
     Fact("speed_at_hole", "speed at the hole", "m/s", _over_hole),
     Fact("putts", "putts", "", lambda run, it: it.putt, "start"),
     Fact("time", "time", "s", lambda run, _: run.duration),

@@ -188,17 +188,17 @@ def heap_of_three():
 def test_a_heap_falls_in_when_one_below_is_taken_out():
     run = heap_of_three()
     assert run.arcs["top"][-1].phase is Phase.HEAP
-    fallen = run.fork(0.7, remove="left", duration=1.2)
-    assert fallen.state("top", 1.2).y < run.state("top", 0.7).y - 0.05
-    assert fallen.caught_at("left") == 0.7
-    assert_same(fallen, fallen.fork(0.75))
+    fallen = run.fork(0.35, remove="left", duration=0.85)
+    assert fallen.state("top", 0.85).y < run.state("top", 0.35).y - 0.05
+    assert fallen.caught_at("left") == 0.35
+    assert_same(fallen, fallen.fork(0.4))
 
 
 def test_a_ball_of_a_heap_can_be_struck():
     run = heap_of_three()
-    kicked = run.fork(0.6, impulse={"top": (0.0, 1.2)})
-    assert kicked.state("top", 0.8).y == pytest.approx(run.state("top", 0.6).y + 0.2 * 2.0 - 0.5 * G * 0.04, abs=1e-4)
-    assert kicked.state("left", 0.6)[:2] == pytest.approx(run.state("left", 0.6)[:2], abs=1e-12)
+    kicked = run.fork(0.35, impulse={"top": (0.0, 1.2)})
+    assert kicked.state("top", 0.55).y == pytest.approx(run.state("top", 0.35).y + 0.2 * 2.0 - 0.5 * G * 0.04, abs=1e-4)
+    assert kicked.state("left", 0.35)[:2] == pytest.approx(run.state("left", 0.35)[:2], abs=1e-12)
 
 
 def test_a_body_goes_on_turning_when_pushed():

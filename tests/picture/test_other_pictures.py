@@ -9,13 +9,13 @@ from sandbox.picture.graph import graph
 from sandbox.picture.strip import film_strip
 from tests.scenes.play import run_of
 
-SIZE, SMALL = (960, 540), (480, 270)
+SIZE, SMALL, SMALLEST = (640, 360), (480, 270), (240, 135)
 
 
 @pytest.mark.parametrize("name", ["basketball/rattle", "bowling/straight"])
 def test_a_strip(golden, name: str):
     run = run_of(name)
-    golden.check(f"strip-{name.replace('/', '-')}", film_strip(run.scene.picture(run, SMALL), run))
+    golden.check(f"strip-{name.replace('/', '-')}", film_strip(run.scene.picture(run, SMALLEST), run))
 
 
 def test_graphs(golden):
@@ -34,7 +34,7 @@ OTHERS = {"soccer": "soccer/dipping-free-kick", "soccer-curl": "soccer-curl/beck
 @pytest.mark.parametrize("name", OTHERS)
 def test_a_comparison(golden, name: str):
     run = run_of(name)
-    golden.check(f"compare-{name}", run.scene.picture(run, SIZE, {"other": run_of(OTHERS[name])}).poster())
+    golden.check(f"compare-{name}", run.scene.picture(run, SMALL, {"other": run_of(OTHERS[name])}).poster())
 
 
 #: Scenes with a time in s at which much is to be seen.
