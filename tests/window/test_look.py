@@ -97,7 +97,7 @@ def test_what_a_key_shows(player, golden, name: str):
 
 
 def test_a_fan(player, golden):
-    player = player("golf", (560, 350))
+    player = player("bowling", SIZE)
     player.press_named("f")
     player.settle()
     player.view.changed = True
