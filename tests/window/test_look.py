@@ -97,7 +97,7 @@ def test_what_a_key_shows(player, golden, name: str):
 
 
 def test_a_fan(player, golden):
-    player = player("bowling", SIZE)
+    player = player("soccer-curl", SIZE)
     player.press_named("f")
     player.settle()
     player.view.changed = True
