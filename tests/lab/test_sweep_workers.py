@@ -67,6 +67,7 @@ def test_ctrl_c_keeps_what_is_done_and_the_same_command_resumes(tmp_path, jobs):
         assert time.monotonic() < deadline, process.poll()
         time.sleep(0.02)
     process.send_signal(signal.SIGINT)  # as timeout does, which then tells the group
+    time.sleep(0.1)  # one that comes before Python has seen the first ends the program
     os.killpg(process.pid, signal.SIGINT)  # a terminal tells all processes
     out, err = process.communicate(timeout=30)
     assert (process.returncode, out) == (130, "")
