@@ -30,7 +30,7 @@ _ROUNDS, _SAME = 40, 1e-4
 _ATTEMPTS, _MOST = 8, 400
 
 
-class Moving(NamedTuple):
+class SolverBody(NamedTuple):
     """A ball or body in a heap, in the middle of a step."""
 
     x: float  # m
@@ -58,7 +58,7 @@ Motions = list[list[float]]
 class Contacts:
     """The contacts of some bodies that touch one another, directly or through others."""
 
-    def __init__(self, bodies: Sequence[Moving], points: Sequence[Point]) -> None:
+    def __init__(self, bodies: Sequence[SolverBody], points: Sequence[Point]) -> None:
         self._count = len(points)
         self._brakes = np.array([body.brake for body in bodies])
         self._friction = np.array([point.friction for point in points])

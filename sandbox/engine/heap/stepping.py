@@ -223,11 +223,11 @@ class Stepper:
     def _contacts(self, members: Sequence[Member], touches: Sequence[Touch]) -> Contacts:
         """The contacts of a group."""
         # here, not above: it brings numpy, which balls that are alike do not need
-        from sandbox.engine.heap.contact_solver import Contacts, Moving, Point
+        from sandbox.engine.heap.contact_solver import Contacts, Point, SolverBody
 
         number = {member.index: place for place, member in enumerate(members)}
         bodies = [
-            Moving(
+            SolverBody(
                 *each.body.position,
                 1.0 / each.ball.mass,
                 1.0 / each.ball.inertia,
