@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING, Any, NoReturn, Unpack
 
 from sandbox.engine.model.change import Changes, changes_between
@@ -12,6 +11,10 @@ from sandbox.engine.paths.run import Run
 
 if TYPE_CHECKING:
     from sandbox.scene.scene import Scene
+
+
+#: The names of what a run has, looked up once and not for every shot of a sweep.
+_FIELDS = tuple(each.name for each in fields(Run))
 
 
 class UnknownFact(KeyError):
@@ -49,13 +52,12 @@ class SceneRun(Run):
     @classmethod
     def of(cls, run: Run, scene: Scene, result: dict[str, Any]) -> SceneRun:
         """The run of a scene's setup with what its facts say of it."""
-        fields = {each.name: getattr(run, each.name) for each in dataclasses.fields(Run)}
-        return cls(**fields, scene=scene, result=result)
+        return cls(**{name: getattr(run, name) for name in _FIELDS}, scene=scene, result=result)
 
     @property
     def data(self) -> Run:
         """The run without its scene."""
-        return Run(**{each.name: getattr(self, each.name) for each in dataclasses.fields(Run)})
+        return Run(**{name: getattr(self, name) for name in _FIELDS})
 
     def __repr__(self) -> str:
         what = f"{self.duration:.2f} s, {len(self.events)} events, ended by {self.ended}"
