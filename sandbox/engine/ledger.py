@@ -45,6 +45,8 @@ class Ledger:
     #: another, and "position correction", what moving them apart there adds.
     contacts: dict[str, float]
     residue: float  # kinetic energy gained along the path that no cause accounts for: the numerical error
+    #: What impacts and contacts add at the times at which all balls together gain, beyond what drives a surface.
+    jumped: float
 
 
 def ledger(run: Run) -> Ledger:
@@ -52,6 +54,7 @@ def ledger(run: Run) -> Ledger:
     work: dict[str, float] = defaultdict(float)
     impacts: dict[str, float] = defaultdict(float)
     contacts: dict[str, float] = defaultdict(float)
+    jumps: dict[float, float] = defaultdict(float)
     start = end = residue = 0.0
     met = _Impacts(run)
     for ball in run.setup.balls:
@@ -78,22 +81,23 @@ def ledger(run: Run) -> Ledger:
             lasting = after.contact or before.contact
             if isinstance(after.contact, SetByHand):
                 work["set by hand"] += jump
-            elif hit is not None:
-                driven = _driven_in_impact(run, ball, hit, before.state(before.t1), after)
-                if driven:
-                    work[f"driven by {hit}"] += driven
-                impacts[hit] += jump - driven
+                continue
+            by = lasting.obstacle.surface.name if hit is None and isinstance(lasting, SustainedContact) else hit
+            driven = _driven_in_impact(run, ball, by, before.state(before.t1), after) if by else 0.0
+            if driven:
+                work[f"driven by {by}"] += driven
+            jump -= driven
+            jumps[after.t0] += jump
+            if hit is not None:
+                impacts[hit] += jump
             elif isinstance(lasting, InHeap):
                 contacts["heap"] += jump
-            elif isinstance(lasting, SustainedContact):
-                surface = lasting.obstacle.surface
-                driven = _driven_in_impact(run, ball, surface.name, before.state(before.t1), after)
-                if driven:
-                    work[f"driven by {surface.name}"] += driven
-                contacts[surface.name] += jump - driven
+            elif by is not None:
+                contacts[by] += jump
             else:
                 residue += jump
-    return Ledger(start, end, dict(work), dict(impacts), dict(contacts), residue)
+    jumped = sum(jump for jump in jumps.values() if jump > 0.0)
+    return Ledger(start, end, dict(work), dict(impacts), dict(contacts), residue, jumped)
 
 
 def warnings(run: Run) -> list[str]:

@@ -11,7 +11,7 @@ from bisect import bisect_left
 from collections import defaultdict
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise, takewhile
+from itertools import takewhile
 from math import inf, isfinite
 from time import perf_counter, process_time
 from typing import Any
@@ -24,6 +24,7 @@ from sandbox.engine.contact.touch import Outline
 from sandbox.engine.ledger import ledger
 from sandbox.engine.model.accuracy import LEVELS, Accuracy
 from sandbox.engine.model.ball import Ball, kinetic, outline_of
+from sandbox.engine.model.motion import Motion
 from sandbox.engine.model.nearest import Pose, nearest
 from sandbox.engine.model.shapes import Shape
 from sandbox.engine.paths.phase import Phase
@@ -169,16 +170,11 @@ def _energy_gained(run: Run) -> float:
         return 0.0  # the ledger of a pile takes longer than its run
     book = ledger(run)
     work = sum(book.work.values())
-    jumps: dict[float, float] = defaultdict(float)
-    largest = max(1e-30, book.start, *(abs(part) for part in book.work.values()))
-    for ball in run.setup.balls:
-        for before, after in pairwise(run.arcs[ball.name]):
-            energy = kinetic(ball, after.start)
-            jumps[after.t0] += energy - kinetic(ball, before.state(before.t1))
-            largest = max(largest, energy)
+    fastest = (kinetic(ball, arc.start) for ball in run.setup.balls for arc in run.arcs[ball.name])
+    largest = max(1e-30, book.start, *(abs(part) for part in book.work.values()), *fastest)
     if run.accuracy.method == "plain":
         return max(0.0, book.end - book.start - work) / largest
-    return (max(0.0, book.residue) + sum(jump for jump in jumps.values() if jump > 0.0)) / largest
+    return (max(0.0, book.residue) + book.jumped) / largest
 
 
 def _overlap(run: Run) -> tuple[float, bool, str]:
@@ -187,15 +183,25 @@ def _overlap(run: Run) -> tuple[float, bool, str]:
     found, through = [(0.0, 0.0), *_overlaps_of_balls(run)], ""
     for ball in run.setup.balls:
         times, x, y = run.trajectory(ball.name, max(run.duration, 1e-9) / _SAMPLES, ends=True)[:, :3].T
-        for surface in (each for each in run.setup.surfaces if each.motion is None):
+        for surface in run.setup.surfaces:
             outline = Outline.of(surface.shape, np.full_like(x, ball.radius))
-            fixed = fixed_outline(surface.shape).shape
-            for t, gap in [(t, gap) for t, gap in zip(times, outline.near(x, y).gap, strict=True) if gap < 0.0]:
+            seen = _seen_from(surface.motion, times, x, y)
+            for t, gap in [(t, gap) for t, gap in zip(times, outline.near(*seen).gap, strict=True) if gap < 0.0]:
                 if ball.rotates:  # the disc around it may overlap: its outline counts
+                    fixed = fixed_outline(surface.at(t).shape).shape
                     gap = nearest(*_outline(run, ball, t), fixed, Pose(0.0, 0.0, 0.0)).gap
                 found.append((-float(gap), _allowed(run, ball, t, Phase.CLUSTER)))
-            through = through or (surface.name if _crosses(outline, x, y) else "")
+            through = through or (surface.name if _crosses(outline, *seen) else "")
     return max(found)[0], any(deep > allowed for deep, allowed in found), through
+
+
+def _seen_from(motion: Motion | None, times: np.ndarray, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Places in m at times in s, each of shape (n,), as they lie to a surface that moves where it is drawn."""
+    if motion is None:
+        return x, y
+    u, v, angle = np.array([motion.place(t) for t in times.tolist()]).T
+    c, s, dx, dy = np.cos(angle), np.sin(angle), x - u, y - v
+    return motion.about[0] + c * dx + s * dy, motion.about[1] - s * dx + c * dy
 
 
 def _allowed(run: Run, ball: Ball, t: float, *pressed: Phase) -> float:
@@ -219,7 +225,7 @@ def _crosses(outline: Outline, x: np.ndarray, y: np.ndarray) -> bool:
     before, after = across[:-1], across[1:]
     share = before / np.where(before == after, 1.0, before - after)
     met = along[:-1] + share * (along[1:] - along[:-1])
-    return bool(np.any((before * after < 0.0) & (met > 0.0) & (met < outline.length[1:])))
+    return bool(np.any(((before < 0.0) != (after < 0.0)) & (met > 0.0) & (met < outline.length[1:])))
 
 
 def _overlaps_of_balls(run: Run) -> Iterator[tuple[float, float]]:

@@ -13,9 +13,10 @@ from sandbox.cli import main
 from sandbox.engine import simulate
 from sandbox.engine.model.accuracy import LEVELS, resolve
 from sandbox.engine.model.ball import Ball, Body
+from sandbox.engine.model.motion import Motion, Sliding, Turning
 from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.shapes import box
-from sandbox.engine.model.surface import Circle, Segment, Surface
+from sandbox.engine.model.surface import Circle, Moving, Segment, Surface
 from sandbox.engine.paths.run import Run
 from sandbox.lab import stress as lab
 from sandbox.lab.extremes import Extreme, of_scene, setups_without_scene
@@ -45,7 +46,7 @@ def test_the_levels_method_keeps_what_is_promised(name: str):
     assert outcome.outcome in (HELD, REFUSED), outcome
 
 
-@pytest.mark.parametrize("scene", ["golf", "soccer", "soccer-curl", "basketball"])
+@pytest.mark.parametrize("scene", ["golf", "soccer", "soccer-curl", "basketball", "minigolf"])
 def test_scenes_hold_at_their_extremes(scene: str):
     outcomes = [
         outcome
@@ -133,6 +134,35 @@ def test_a_path_through_a_wall_and_an_overlap_are_seen(monkeypatch, start, veloc
     assert outcome.left is through
     assert ("passed through wall" in outcome.message) is through
     assert outcome.outcome == (FAILED if overlap else HELD)
+
+
+@pytest.mark.parametrize(
+    ("motion", "overlap", "through"),
+    [
+        (Turning((0.0, 0.0), 2.0), 0.1, True),  # it passes over the ball that waits
+        (Turning((0.0, 0.0), 0.2), 0.0, False),
+        (Sliding((0.0, 0.55)), 0.05, False),
+        (Sliding((0.0, 2.0)), 0.1, True),
+    ],
+)
+def test_what_moves_is_looked_at_where_it_is(monkeypatch, motion: Motion, overlap: float, through: bool):
+    """A ball of 0.1 m that waits at (0.5, 0.6) m for a second, as it does without the surface."""
+    run = simulate(Setup([Ball("ball", 1.0, 0.1, (0.5, 0.6))], duration=1.0), resolve())
+    run.setup = replace(
+        run.setup, surfaces=[Moving(Surface("blade", Segment((0.0, 0.0), (1.0, 0.0)), 1.0, 0.0), motion)]
+    )
+    outcome = examined(monkeypatch, run)
+    assert outcome.penetration_m == pytest.approx(overlap, abs=5e-3)
+    assert outcome.left is through
+    assert outcome.outcome == (FAILED if overlap else HELD)
+
+
+def test_what_moves_may_drive_a_ball():
+    bat = Moving(Surface("bat", Segment((-1.0, -1.0), (-1.0, 1.0)), 1.0, 0.0), Sliding((20.0, 0.0)))
+    setup = Setup([Ball("ball", 1.0, 0.1, (0.0, 0.0), (-1.0, 0.0))], [bat], duration=0.2)
+    outcome = one(Extreme("bat", lambda: setup), LEVEL_METHOD)
+    assert outcome.outcome == HELD
+    assert outcome.energy_gained == pytest.approx(0.0, abs=1e-9)
 
 
 def test_a_state_that_is_no_number_is_seen(monkeypatch: pytest.MonkeyPatch):
