@@ -10,6 +10,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -76,6 +77,21 @@ def test_random_heaps_gain_no_energy_and_do_not_overlap(opened: Callable[[str], 
     assert not found.error
     assert found.gain < 1e-3
     assert found.overlap < 0.02
+
+
+def test_nothing_passes_through_what_moves(run: Run):
+    found = run("moving", "--quick")
+    assert not any(each["error"] for each in found)
+    assert sum(each["hits"] for each in found) > 4
+    assert max(each["overlap"] for each in found) < 1e-6
+
+
+def test_what_passes_through_is_noticed(opened: Callable[[str], ModuleType]):
+    """The same case with the surface out of the way, measured as if it were there."""
+    moving = opened("moving")
+    case = next(case for seed in range(40) if moving.measure(seed).hits for case in [moving.case(seed)])
+    through = moving.simulate(replace(case.setup, surfaces=[]), moving.resolve("balanced"))
+    assert moving.overlapped(through, case)[0] > 0.1
 
 
 def test_error_against_time(run: Run):
