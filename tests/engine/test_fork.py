@@ -11,9 +11,10 @@ from sandbox.engine import simulate, simulate_many
 from sandbox.engine.ledger import ledger
 from sandbox.engine.model.accuracy import resolve
 from sandbox.engine.model.ball import Ball, Body
+from sandbox.engine.model.motion import Swinging
 from sandbox.engine.model.setup import Setup, Touches
 from sandbox.engine.model.shapes import box
-from sandbox.engine.model.surface import Segment, Surface
+from sandbox.engine.model.surface import Moving, Segment, Surface
 from sandbox.engine.motion.moving_ball import InCluster
 from sandbox.engine.paths.phase import Phase
 from sandbox.engine.simulation import Simulation
@@ -88,6 +89,22 @@ def test_it_is_the_same_from_times_in_a_contact(name, phase):
     assert times
     for t in times[1::2][:3]:
         assert_same(run, run.fork(t))
+
+
+@pytest.mark.parametrize("shift", [(0.0, 0.05), (0.1, 0.0)], ids=["lift", "tray"])
+def test_a_ball_that_is_carried_goes_on_as_it_was(shift):
+    """It rests on what goes up and down, and rolls on what goes to and fro."""
+    carried = Moving(Surface("lift", FLOOR.shape, 0.3, 0.4), Swinging((0.0, 0.0), 0.0, 1.0, shift=shift))
+    run = run_of(ball(position=(0.0, 0.3)), surfaces=[carried])
+    there = pickle.loads(pickle.dumps(run))
+    phases = {arc.phase for arc in run.arcs["ball"]}
+    assert phases & {Phase.RESTING, Phase.ROLLING}
+    for phase in phases:
+        for t in middles(run, phase):
+            assert_same(run, run.fork(t))
+    assert_same(run, there.fork(2.3))
+    kicked = run.fork(2.0, velocity=(0.0, 3.0))
+    assert next(event.t for event in kicked.events if event.t > 2.1) > 2.4
 
 
 def test_only_the_rest_is_computed(monkeypatch):

@@ -37,7 +37,9 @@ def stepped(world, until, rate):
     return events
 
 
-@pytest.mark.parametrize("name", ["basketball/rattle", "billiards/nine-ball-break", "collisions/bowl", "golf"])
+@pytest.mark.parametrize(
+    "name", ["basketball/rattle", "billiards/nine-ball-break", "collisions/bowl", "golf", "minigolf"]
+)
 @pytest.mark.parametrize("rate", [60, 144, "random"])
 def test_frames_change_nothing(name, rate):
     """The events are those of a run, to the last bit."""
