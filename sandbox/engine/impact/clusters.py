@@ -74,6 +74,8 @@ class ClusterOutcome:
     impulse: np.ndarray  # N s, normal, shape (links,); 0 if the link never closed
     approach: np.ndarray  # m/s, when it first closed, shape (links,)
     closed: np.ndarray  # s, time when it first closed, shape (links,)
+    energy: float  # J, kinetic, of the balls at the start
+    gained: float  # J, by numerical errors; taken from the motion at the end
 
     @property
     def velocity(self) -> np.ndarray:
@@ -172,12 +174,13 @@ class _Passage:
             over = not self._touches()
         self._go_back_to_opening()
         impulse = self._pushed + self._forces.damped
-        self._remove_excess_energy(impulse)
+        energy = _energy(self._weights, self._states[0][:, :-1])
+        gained = self._remove_excess_energy(impulse)
         times, motion = np.array(self._times), np.array(self._states)[:, :, :-1]
         motion[:, POSITION] += self._origin
         place, velocity, roll, out = motion.swapaxes(0, 1)
         parts = place.real, place.imag, velocity.real, velocity.imag, out.imag, roll.real, roll.imag
-        return ClusterOutcome(times, np.stack(parts, axis=-1), impulse, self._approach, self._closed)
+        return ClusterOutcome(times, np.stack(parts, axis=-1), impulse, self._approach, self._closed, energy, gained)
 
     def _rub(self, over: bool) -> None:
         """Apply the friction of the previous and the next half step: second order, and mu times the impulse in
@@ -260,13 +263,13 @@ class _Passage:
             self._state[POSITION] -= early * self._state[VELOCITY] - 0.5 * early**2 * acceleration
             self._state[VELOCITY] -= early * acceleration
 
-    def _remove_excess_energy(self, impulse: np.ndarray) -> None:
+    def _remove_excess_energy(self, impulse: np.ndarray) -> float:
         """Slow the balls that were touched towards their common motion if numerical errors have raised their energy;
-        other causes may have added what they do along the distance moved."""
+        other causes may have added what they do along the distance moved. Returns the energy in J that was too much."""
         start, end, forces = self._states[0], self._state, self._forces
         touched = np.flatnonzero(forces.pull[:-1, impulse > 0.0].any(axis=1))
         if not touched.size:
-            return
+            return 0.0
         weights = self._weights[:, touched]
         common = np.zeros((4, 1), complex)
         if not forces.has_walls:
@@ -277,6 +280,7 @@ class _Passage:
         has = _energy(weights, apart)
         if has > most:
             end[1:, touched] = (common + np.sqrt(max(0.0, most / has)) * apart)[1:]
+        return max(0.0, has - most)
 
 
 def _energy(weights: np.ndarray, state: np.ndarray) -> float:

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from sandbox.engine import simulate, simulate_many
+from sandbox.engine.impact.cluster_forces import ClusterForces
 from sandbox.engine.impact.cluster_parts import ClusterBall
 from sandbox.engine.ledger import ledger
 from sandbox.engine.model.accuracy import resolve
@@ -17,6 +18,7 @@ from sandbox.engine.model.ball import Ball
 from sandbox.engine.model.setup import ContactModel, Setup
 from sandbox.engine.model.surface import Bounce, Circle, ConstantBounce, Segment, Surface, Trap
 from sandbox.engine.paths.run import Run
+from sandbox.errors import RunError
 from tests.engine.contact_law import by_contact_law
 
 R, M = 0.028575, 0.170097  # of pool balls: m, kg
@@ -42,6 +44,20 @@ def test_two_balls_that_touch_share_the_blow(model, expected):
     assert [run.state(name, 1.0)[2] / 2.0 for name in ("cue", "1", "2")] == pytest.approx(expected, abs=1e-4)
     assert (run.numerics.clusters == 0) == (model == "rigid")
     assert abs(ledger(run).residue) < 1e-9
+
+
+def test_energy_from_nothing_in_a_cluster_ends_the_run(monkeypatch: pytest.MonkeyPatch):
+    """As if balls pushed one another twice as hard while they separate."""
+    evaluate = ClusterForces.evaluate
+
+    def livelier(forces: ClusterForces, state: np.ndarray, rates: np.ndarray) -> np.ndarray:
+        elastic = evaluate(forces, state, rates)
+        rates[1] *= 2.0 if forces.closing.sum() < 0.0 else 1.0
+        return elastic
+
+    monkeypatch.setattr(ClusterForces, "evaluate", livelier)
+    with pytest.raises(RunError, match=r"^t = 0\.\d+ s: \S+ J appeared from nothing in the contact of '1', '2', 'cue'"):
+        struck([ball("cue", -0.5, vx=2.0), ball("1", 0.0), ball("2", 2 * R)])
 
 
 @pytest.mark.parametrize("ends", [SystemExit(0), GeneratorExit(), ZeroDivisionError("of the scene"), StopIteration()])
