@@ -29,7 +29,7 @@ from sandbox.engine.model.motion import Given, Motion, Placing, Sliding, Swingin
 from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.surface import Circle, Moving, Segment, Surface
 from sandbox.engine.paths.run import Run
-from sandbox.errors import RunError
+from sandbox.errors import SandboxError
 from sandbox.physics.forces import Gravity
 
 G, MASS, RADIUS = 9.81, 0.6, 0.1  # m/s^2, kg, m
@@ -130,7 +130,7 @@ def measure(seed: int, level: str = "balanced") -> Measured:
     found = case(seed)
     try:
         spent, run = timed(simulate, found.setup, resolve(level))
-    except RunError as error:
+    except SandboxError as error:
         return Measured(seed, found.kind, str(error))
     hits = sum(event.kind == "impact" for event in run.events)
     return Measured(seed, found.kind, "", hits, *overlapped(run, found), spent)
@@ -185,7 +185,7 @@ def report(found: Sequence[Measured]) -> None:
     above = ", ".join(f"{sum(each.overlap > limit for each in whole)} above {limit:g}" for limit in LIMITS)
     worst = sorted(whole, key=lambda each: -each.overlap)[:_SHOWN]
     show(f"overlap: {above}", [each._asdict() for each in worst], {"case": "{seed}", "overlap": "{overlap:.1e}"})
-    refused = Counter(re.sub(r"t = \S+ s", "t = ... s", each.error) for each in found if each.error)
+    refused = Counter(re.sub(r"-?\d[\d.e+-]*", "...", each.error) for each in found if each.error)
     say("", *(f"{count} refused: {error}" for error, count in refused.most_common()))
     say(f"{sum(each.time_s for each in whole):.0f} s of processor time")
 
