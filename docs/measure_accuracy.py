@@ -129,7 +129,7 @@ def claims(name: str, faster: float) -> Iterator[float]:
         sys.stderr.write(f"{name}: {error}\n")
         return
     for fact, twice in truth.errors.items():
-        unsure = {*claimed.chaotic, *claimed.unsettled, *claimed.changed}
+        unsure = {*claimed.chaotic, *claimed.changed_by_nudge, *claimed.changed}
         if fact not in unsure and scene.facts[fact].final_when != "start" and claimed.errors.get(fact):
             ratio = (twice if isinstance(run.result[fact], int) else twice / SAFETY) / claimed.errors[fact]
             if ratio > 1.0:

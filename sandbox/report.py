@@ -55,7 +55,7 @@ def as_json(scene: Scene, run: SceneRun, check: Check | None = None, others: Seq
             "runs": check.nudges,
             "spread": check.spread,
             "chaotic": sorted(check.chaotic),
-            "changed": check.unsettled,
+            "changed": check.changed_by_nudge,
         }
     try:
         return json_text(report)
@@ -157,7 +157,7 @@ def _check_lines(check: Check, scene: Scene) -> list[str]:
     ]
     said += [
         f"chaotic: {name.replace('_', ' ')} differs in {len(others)} of {away}, for example {_word(others[0])}"
-        for name, others in check.unsettled.items()
+        for name, others in check.changed_by_nudge.items()
     ]
     unseen = [
         _error(check, scene, name)

@@ -45,18 +45,18 @@ def test_what_a_nanometre_changes_the_check_has_said(shot):
     for dy in (1e-9, -1e-9):
         other = sandbox.simulate(broken(y + dy, speed, angle)).result
         if set(other["positions"]) != set(run.result["positions"]):
-            assert "positions" in {**check.unsettled, **check.chaotic}
+            assert "positions" in {**check.changed_by_nudge, **check.chaotic}
         else:
             off = apart(run.result["positions"], other["positions"])
             assert off < check.errors.get("positions", inf)  # there is none where the finer run pots another ball
-            assert off < 0.01 or "positions" in {**check.unsettled, **check.chaotic}
+            assert off < 0.01 or "positions" in {**check.changed_by_nudge, **check.chaotic}
 
 
 def test_a_finer_run_on_cloth_is_another_run():
     """Motion on cloth has no step; contact skin and hops are what the method leaves open."""
     check = sandbox.check("billiards/cut")
     assert 0.0 < check.errors["positions"] < 1e-4  # m
-    assert (check.changed, check.unsettled, check.chaotic) == ({}, {}, {})
+    assert (check.changed, check.changed_by_nudge, check.chaotic) == ({}, {}, {})
 
 
 @pytest.mark.parametrize("level", LEVELS)
@@ -76,7 +76,7 @@ def test_claimed_errors_hold():
         for fact, twice in true.errors.items():
             if (
                 fact not in check.chaotic
-                and fact not in check.unsettled
+                and fact not in check.changed_by_nudge
                 and run.scene.facts[fact].final_when != "start"
             ):
                 claimed += 1

@@ -132,7 +132,7 @@ class Check:
     #: The most that each number changes if every ball starts a nanometre away, in its unit.
     spread: dict[str, float] = field(default_factory=dict)
     #: Other results that such nudges change, with the values in the runs that differ.
-    unsettled: dict[str, list[Any]] = field(default_factory=dict)
+    changed_by_nudge: dict[str, list[Any]] = field(default_factory=dict)
     nudges: int = 0  # runs from nudged starts
 
     @property
@@ -155,20 +155,20 @@ def check(scene: Scene | str | Path, run: SceneRun | None = None, progress: Prog
     run = run or simulate(chosen)
     outcomes = [compare(run, finer) for finer in _finer(chosen, run, progress)]
     spread: dict[str, float] = {}
-    unsettled: dict[str, list[Any]] = {}
+    changed_by_nudge: dict[str, list[Any]] = {}
     for result in _nudged_results(chosen, run, progress):
         apart, changed = _differences(run.result, result)
         for name, difference in apart.items():
             spread[name] = max(difference, spread.get(name, 0.0))
         for name, (_, other) in changed.items():
-            unsettled.setdefault(name, []).append(other)
+            changed_by_nudge.setdefault(name, []).append(other)
     errors = {
         name: max((each.errors[name] for each in outcomes if name in each.errors), default=0.0) + spread.get(name, 0.0)
         for name in run.result
         if name in spread or any(name in each.errors for each in outcomes)
     }
     changed_by_finer = {name: pair for each in reversed(outcomes) for name, pair in each.changed.items()}
-    return Check(outcomes[0].finer, errors, changed_by_finer, spread, unsettled, NUDGES)
+    return Check(outcomes[0].finer, errors, changed_by_finer, spread, changed_by_nudge, NUDGES)
 
 
 def _finer(scene: Scene, run: SceneRun, progress: Progress | None) -> Iterator[SceneRun]:

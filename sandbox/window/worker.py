@@ -80,6 +80,6 @@ def cost_and_errors(scene: Scene) -> str:
     units = scene.units
     errors = [f"{name} ± {error:.1g} {units.get(name, '')}" for name, error in checked.errors.items() if error > 0]
     changed = [f"{name} would be {finer}" for name, (_, finer) in checked.changed.items()]
-    changed += [f"{name} is chaotic" for name in (*checked.chaotic, *checked.unsettled)]
+    changed += [f"{name} is chaotic" for name in (*checked.chaotic, *checked.changed_by_nudge)]
     summary = ", ".join(text.strip() for text in changed or errors[:4]) or "the same in a finer run"
     return f"{1e3 * run.numerics.wall_s:.1f} ms a run; {summary.replace('_', ' ')}"
