@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from sandbox.errors import RequestError, RunError, SandboxError
     from sandbox.lab.aim import Aim, aim
     from sandbox.lab.many import Runs, simulate_many
+    from sandbox.lab.spread import Spread, spread
     from sandbox.lab.sweep import Sweep, sweep
     from sandbox.physics.air import LogWind, UniformWind
     from sandbox.physics.cloth import Cloth
@@ -61,6 +62,7 @@ _MODULES = {
     **dict.fromkeys(("RequestError", "RunError", "SandboxError"), "sandbox.errors"),
     **dict.fromkeys(("Aim", "aim"), "sandbox.lab.aim"),
     **dict.fromkeys(("Runs", "simulate_many"), "sandbox.lab.many"),
+    **dict.fromkeys(("Spread", "spread"), "sandbox.lab.spread"),
     **dict.fromkeys(("Sweep", "sweep"), "sandbox.lab.sweep"),
     **dict.fromkeys(("LogWind", "UniformWind"), "sandbox.physics.air"),
     **dict.fromkeys(("Cloth",), "sandbox.physics.cloth"),
@@ -114,6 +116,7 @@ __all__ = [
     "Setup",
     "Sliding",
     "SpinDecay",
+    "Spread",
     "State",
     "Surface",
     "Sweep",
@@ -134,6 +137,7 @@ __all__ = [
     "regular",
     "simulate",
     "simulate_many",
+    "spread",
     "sweep",
 ]
 

@@ -211,6 +211,15 @@ def test_code_of_the_readme_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     assert names["Fan"]()(0.0, (6.0, 1.0), (0.0, 0.0), 0.0) == (0.0, 4.0)
 
 
+def test_code_of_the_page_on_scatter_runs(capsys: pytest.CaptureFixture[str]):
+    page = (ROOT / "docs" / "spread.md").read_text("utf-8")
+    names: dict[str, Any] = {}
+    for _, code in blocks(page):
+        exec(code, names)
+    assert len(capsys.readouterr().out.splitlines()) == 4
+    assert names["found"].causes["carry"]["launch.speed"].first > 0.5
+
+
 def test_code_of_the_page_on_sharing_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.chdir(tmp_path)
     page = (ROOT / "docs" / "sharing.md").read_text("utf-8")

@@ -1,4 +1,4 @@
-"""The commands that measure: ``aim``, ``sweep``, ``trade``, ``stress``, ``validate``."""
+"""The commands that measure: ``aim``, ``spread``, ``sweep``, ``trade``, ``stress``, ``validate``."""
 
 from __future__ import annotations
 
@@ -7,7 +7,15 @@ from typing import Any
 
 import click
 
-from sandbox.cli.arguments import changes_options, json_option, load, optional_scene, say, scene_argument
+from sandbox.cli.arguments import (
+    changes_options,
+    json_option,
+    load,
+    optional_scene,
+    say,
+    scene_argument,
+    units_option,
+)
 from sandbox.errors import RequestError, RunError
 from sandbox.files import json_text, writing
 
@@ -76,6 +84,104 @@ def aim(
     else:
         written = [] if show is None else [f"wrote {show}"]
         say("\n".join([*report.as_text(found), *written]))
+
+
+@click.command()
+@scene_argument
+@click.option(
+    "--by",
+    metavar="KEY=SD",
+    multiple=True,
+    help="A parameter and its standard deviation: in its unit, as 1%, or evenly over LO:HI; repeatable.  "
+    "[default: the scene's practised player]",
+)
+@click.option("--of", metavar="NAME", multiple=True, help="A result to report; repeatable.  [default: all]")
+@changes_options
+@json_option
+@click.option(
+    "--samples", metavar="N", type=click.IntRange(16, 1_000_000), default=1024, show_default=True,
+    help="Number of shots; as many again for each cause.",
+)  # fmt: skip
+@click.option("--seed", metavar="N", type=click.IntRange(0), default=0, show_default=True, help="Seed of the points.")
+@click.option(
+    "--sampling", type=click.Choice(("sobol", "random")), default="sobol", show_default=True,
+    help="Points that cover the distribution evenly, or random ones.",
+)  # fmt: skip
+@click.option(
+    "--within",
+    metavar="NAME=WIDTH",
+    multiple=True,
+    help="Ask how many shots tell a result to within +-WIDTH: carry=1, made=5%; repeatable.",
+)
+@click.option("--no-causes", is_flag=True, help="Leave out which cause makes which share of the variance.")
+@units_option
+@click.option("--plot", metavar="F.png", type=Path, help="Draw histograms and causes.")
+@click.option("--page", "--html", "page", metavar="F.html", type=Path, help="Write them as a page for any browser.")
+def spread(
+    scene: str,
+    by: tuple[str, ...],
+    of: tuple[str, ...],
+    changes: dict[str, Any],
+    as_json: bool,
+    samples: int,
+    seed: int,
+    sampling: str,
+    within: tuple[str, ...],
+    no_causes: bool,
+    plot: Path | None,
+    page: Path | None,
+) -> None:
+    """What scatter in gives as scatter out.
+
+    The same shot many times, each parameter scattering around its value: mean, standard deviation and quantiles of each
+    result, the share of shots that score with its 95 % interval, which cause makes which share of the variance, and how
+    many shots a real test needs.
+
+    \b
+    Examples:
+      sandbox spread basketball
+      sandbox spread golf --by launch.speed=1% --by launch.angle=1deg --plot spread.png
+      sandbox spread golf --by launch.spin="200 rpm" --by air.wind[0]=-3:3 --of carry --within carry=1
+      sandbox spread billiards/nine-ball-break --by cue.speed=3% --samples 256 --page breaks.html
+    """
+    from sandbox.files import check_distinct
+    from sandbox.lab.spread import report, spread_of
+    from sandbox.lab.spread.causes import causes_of, parse_cause
+    from sandbox.lab.spread.needs import parse_within
+    from sandbox.progress import bar
+    from sandbox.text import no_such_result
+
+    chosen = load(scene, changes)
+    causes = causes_of(chosen, [parse_cause(chosen, "--by", text) for text in by], "--by")
+    for name in of:
+        if name not in chosen.facts:
+            raise RequestError(f"--of {name}: {no_such_result(name, list(chosen.facts))}")
+    widths = dict(parse_within(chosen, text) for text in within)
+    if plot is not None:
+        from sandbox.lab.chart import check_chart
+
+        check_chart("--plot", plot)
+    if page is not None:
+        from sandbox.files import check_file, check_installed
+
+        check_file("--page", page, ".html")
+        check_installed("--page", "matplotlib")
+    check_distinct({"--plot": plot, "--page": page})
+    with bar("spread") as progress:
+        found = spread_of(chosen, causes, of, samples, seed, sampling, not no_causes, widths, progress)
+    if plot is not None:
+        from sandbox.lab.spread.chart import draw
+
+        with writing("--plot", plot):
+            draw(found, plot)
+    if page is not None:
+        from sandbox.page.parts import save
+        from sandbox.page.spread import page_of
+
+        with writing("--page", page):
+            save(page_of(found), page)
+    written = [f"wrote {path}" for path in (plot, page) if path is not None]
+    say(report.as_json(found) if as_json else "\n".join([*report.as_text(found), *written]))
 
 
 @click.command()

@@ -39,6 +39,29 @@ def check_chart(option: str, path: Path) -> None:
 @contextmanager
 def chart(path: Path, title: str, about: str) -> Iterator[tuple[Any, dict[str, Any]]]:
     """Axes to draw into, and the palette; the file is written at the end."""
+    with _sheet(path, _SIZE) as (sheet, colours):
+        axes = sheet.subplots()
+        axes.set_title(f"{about}\n", loc="left", fontsize=10, color=colours["card"]["ink_quiet"])
+        axes.annotate(title, (0, 1), xytext=(0, 36), xycoords="axes fraction", textcoords="offset points",
+                      fontsize=15, fontweight="bold")  # fmt: skip
+        yield axes, colours
+
+
+@contextmanager
+def figure(path: Path, title: str, about: str, size: tuple[float, float]) -> Iterator[tuple[Any, dict[str, Any]]]:
+    """A figure for several axes, ``size`` in inches, and the palette; the file is written at the end."""
+    with _sheet(path, size) as (sheet, colours):
+        inches = 0.55 + 0.25 * len(about.split("\n"))
+        sheet.get_layout_engine().set(rect=(0.02, 0.02, 0.96, 1.0 - inches / size[1] - 0.02))
+        sheet.text(0.02, 1.0 - 0.18 / size[1], title, ha="left", va="top", fontsize=15, fontweight="bold")
+        sheet.text(0.02, 1.0 - 0.5 / size[1], about, ha="left", va="top", fontsize=10,
+                   color=colours["card"]["ink_quiet"], linespacing=1.3)  # fmt: skip
+        yield sheet, colours
+
+
+@contextmanager
+def _sheet(path: Path, size: tuple[float, float]) -> Iterator[tuple[Any, dict[str, Any]]]:
+    """An empty figure in the style of all charts, and the palette; written at the end."""
     import matplotlib
     from matplotlib import font_manager
     from matplotlib.figure import Figure
@@ -48,14 +71,10 @@ def chart(path: Path, title: str, about: str) -> Iterator[tuple[Any, dict[str, A
     for file in sorted((resources.folder("assets") / "fonts").glob("*.ttf")):
         font_manager.fontManager.addfont(str(file))
     with matplotlib.rc_context(_style(colours)):
-        figure = Figure(figsize=_SIZE, dpi=_DOTS, facecolor="white", layout=ConstrainedLayoutEngine(rect=_FRAME))
-        axes = figure.subplots()
-        axes.set_title(f"{about}\n", loc="left", fontsize=10, color=colours["card"]["ink_quiet"])
-        axes.annotate(title, (0, 1), xytext=(0, 36), xycoords="axes fraction", textcoords="offset points",
-                      fontsize=15, fontweight="bold")  # fmt: skip
-        yield axes, colours
+        sheet = Figure(figsize=size, dpi=_DOTS, facecolor="white", layout=ConstrainedLayoutEngine(rect=_FRAME))
+        yield sheet, colours
         with atomic_write(path) as out:
-            figure.savefig(out.buffer, format="png")
+            sheet.savefig(out.buffer, format=path.suffix[1:].lower())
 
 
 def _style(colours: dict[str, Any]) -> Any:

@@ -22,6 +22,7 @@ from sandbox.scene.setup_scene import with_scene
 if TYPE_CHECKING:
     from sandbox.engine.paths.run import Run
     from sandbox.lab.aim import Aim
+    from sandbox.lab.spread import Spread
     from sandbox.lab.sweep import Sweep
     from sandbox.scene import Scene
 
@@ -203,3 +204,37 @@ def _drawn(draw: Callable[[Path], None]) -> Image.Image:
 def _image(image: Image.Image | None) -> str:
     assert image is not None
     return f'<img alt="chart" width="{min(960, image.width)}" src="{picture(image.convert("RGB"))}">'
+
+
+def spread_plot(spread: Spread, path: Path | str | None) -> Image.Image | None:
+    """Its histograms and causes: written to ``path``, or handed back."""
+    from sandbox.lab.chart import check_chart
+    from sandbox.lab.spread.chart import draw
+
+    def drawn(file: Path) -> None:
+        check_chart("plot", file)
+        draw(spread, file)
+
+    if path is None:
+        return _drawn(drawn)
+    drawn(Path(path))
+    return None
+
+
+def spread_page(spread: Spread, path: Path | str | None) -> str | None:
+    """Its page: written to ``path``, or its text."""
+    from sandbox.page.spread import page_of
+
+    if path is None:
+        return page_of(spread)
+    _check(path, ".html", ".htm")
+    save(page_of(spread), Path(path))
+    return None
+
+
+def spread_html(spread: Spread) -> str:
+    """Its numbers as text, and its picture."""
+    from sandbox.lab.spread.report import as_text
+
+    text = escape("\n".join(as_text(spread)))
+    return f'<pre style="font-family: monospace; white-space: pre">{text}</pre>{_image(spread.plot())}'

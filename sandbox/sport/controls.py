@@ -95,6 +95,7 @@ class Controls:
     spread: tuple[Spread, ...] = ()  # of a fan of shots; where empty, of speed and angle
     fan_fact: str = ""  # the fact whose mean and spread a fan reports
     fan_shots: int = 0  # more than usual, where they differ much
+    landing: tuple[str, ...] = ()  # two facts, in m, that say where it lands, where a shot scatters in two directions
     #: From a run and its parameters to the changes with which the next shot begins; without it, every shot begins the
     #: same way.
     next_start: Callable[[Any, Any], Mapping[str, Any]] | None = None
@@ -106,7 +107,11 @@ class Controls:
             if not isinstance(entries, tuple | list) or not all(isinstance(entry, kind) for entry in entries):
                 what = "keys" if kind is str else kind.__name__
                 return f"{name} = {entries!r}: must be a tuple of {what}; a single one needs a trailing comma"
-        for name, fact in (("scores", self.scores), ("fan_fact", self.fan_fact)):
+        for name, fact in (
+            ("scores", self.scores),
+            ("fan_fact", self.fan_fact),
+            *(("landing", key) for key in self.landing),
+        ):
             if fact and fact not in facts:
                 return f'{name} "{fact}": {no_such_result(fact, facts)}'
         known = list(every_key(schema))

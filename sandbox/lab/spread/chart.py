@@ -1,0 +1,114 @@
+"""The picture of a spread: histograms, the share that scores, and the causes; with matplotlib (extra ``lab``)."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from sandbox.lab.axes import result_label
+from sandbox.lab.chart import figure
+from sandbox.lab.spread import Spread
+from sandbox.lab.spread.report import about, deviation, name_of, percent, title, value
+
+#: Most histograms, and most rows of causes.
+_MOST, _ROWS = 6, 7
+
+
+def draw(spread: Spread, path: Path) -> None:
+    """Histograms of the most important numbers, those of shots that score in another colour; the ellipse of one ball;
+    and which cause makes which share of the variance."""
+    names = [name for name in spread.shown if name in spread.numbers][:_MOST]
+    ellipses = list(spread.ellipses.items())[: max(0, _MOST - len(names))]
+    has_causes = any(len(by) > 1 for by in spread.causes.values())
+    panels = len(names) + len(ellipses)
+    across = min(3, max(panels, 1))
+    down = -(-panels // across)
+    parts = [0.3 + 2.2 * down] * (panels > 0) + [2.6] * has_causes
+    shots = title(spread).partition(": ")[2]
+    with figure(path, _headline(spread), f"{shots}\n{about(spread)}", (9.6, 1.2 + max(sum(parts), 1.0))) as (
+        sheet,
+        colours,
+    ):
+        rows = iter(sheet.subfigures(len(parts), 1, height_ratios=parts, squeeze=False).flat if parts else ())
+        if panels:
+            places = next(rows).subplots(down, across, squeeze=False).flat
+            for name, axes in zip(names, places, strict=False):
+                _histogram(axes, spread, name, colours)
+            for (name, ellipse), axes in zip(ellipses, places, strict=False):
+                _ellipse(axes, name, ellipse, colours)
+            for axes in places:  # what is left of the last row
+                axes.set_axis_off()
+        if has_causes:
+            _causes(next(rows).subplots(), spread, colours)
+
+
+def _headline(spread: Spread) -> str:
+    scores = spread.scene.controls.scores
+    if scores in spread.shares:
+        share = spread.shares[scores]
+        low, high = share.interval
+        word = name_of(spread, scores)
+        return f"{spread.scene.title}: {percent(share.value)} {word} (95 %: {100 * low:.1f} to {percent(high)})"
+    return f"{spread.scene.title}: how it scatters"
+
+
+def _histogram(axes: Any, spread: Spread, name: str, colours: dict[str, Any]) -> None:
+    """Bars; of shots that score green, if some score and some do not."""
+    found, card = spread.numbers[name], colours["card"]
+    _, edges = found.histogram()
+    scores, values = spread.scene.controls.scores, spread.values(name)
+    share = spread.shares.get(scores)
+    known = spread.hits(scores) if share is not None and 0 < share.hits < share.shots else None
+    hits = None if known is None else known[: spread.samples]
+    groups = [(values, colours["trace"]["colours"][0])]
+    if hits is not None:
+        groups = [(values[hits == 1.0], card["good"]), (values[hits == 0.0], card["quiet"])]
+    base = np.zeros(len(edges) - 1)
+    for part, colour in groups:
+        counts = np.histogram(part[np.isfinite(part)], edges)[0]
+        axes.bar(edges[:-1], counts, np.diff(edges), bottom=base, align="edge", color=colour, linewidth=0.0)
+        base = base + counts
+    axes.axvline(found.mean, color=card["ink"], linewidth=1.0)
+    for end in found.quantiles((0.025, 0.975)).values():
+        axes.axvline(end, color=card["ink"], linewidth=0.9, linestyle=(0, (2, 2)))
+    axes.set_title(f"{value(spread, name, found.mean)} ± {deviation(spread, name, found.sd)}", loc="left", fontsize=11,
+                   fontweight="bold")  # fmt: skip
+    axes.set_xlabel(result_label(spread.scene, name))
+    axes.set(yticks=[], ylim=(0, 1.08 * max(float(base.max()), 1.0)))
+    axes.spines["left"].set_visible(False)
+    axes.locator_params(axis="x", nbins=5)
+
+
+def _ellipse(axes: Any, name: str, ellipse: Any, colours: dict[str, Any]) -> None:
+    """The points where a ball comes to lie, and the ellipse that holds 95 % of them."""
+    size = float(np.clip(4000 / len(ellipse.points), 2.0, 20.0))
+    axes.scatter(*ellipse.points.T, s=size, color=colours["trace"]["colours"][0], alpha=0.5)
+    axes.plot(*ellipse.outline().T, color=colours["card"]["ink"], linewidth=1.2)
+    long, short = ellipse.axes
+    axes.set_title(f"{name}: {long:.2g} m by {short:.2g} m", loc="left", fontsize=11, fontweight="bold")
+    axes.set(xlabel="x (m)", ylabel="y (m)", aspect="equal")
+    axes.set_adjustable("datalim")
+    axes.locator_params(nbins=5)
+
+
+def _causes(axes: Any, spread: Spread, colours: dict[str, Any]) -> None:
+    """A bar for each fact, divided by what each cause makes alone; the rest is what several do together."""
+    names = [name for name, by in spread.causes.items() if len(by) > 1 and name in spread.shown]
+    first = [name for name in names if name in spread.shares]
+    rows = [*first, *(name for name in names if name not in first)][:_ROWS][::-1]
+    left, labels = np.zeros(len(rows)), [name_of(spread, name) for name in rows]
+    keys = [each.key for each in spread.by]
+    for key, colour in zip(keys, colours["trace"]["colours"], strict=False):
+        shares = np.array([max(spread.causes[name][key].first, 0.0) for name in rows])
+        axes.barh(labels, shares, left=left, color=colour, height=0.62, label=key)
+        left = left + shares
+    rest = np.maximum(1.0 - left, 0.0)
+    axes.barh(labels, rest, left=left, color=colours["card"]["quiet"], alpha=0.35, height=0.62, label="together")
+    axes.set_xlim(0, 1)
+    axes.xaxis.set_major_formatter(lambda share, place: f"{100 * share:.0f} %")
+    axes.set_title("share of the variance that each cause makes alone", loc="left", fontsize=11, fontweight="bold")
+    axes.tick_params(axis="y", length=0)
+    axes.spines["left"].set_visible(False)
+    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), handlelength=1.0, handleheight=1.0)
