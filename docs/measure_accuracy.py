@@ -1,7 +1,8 @@
 """Measures the tables and pictures of accuracy.md again: ``python docs/measure_accuracy.py``.
 
 Or only some of them, by name: ``trade`` (two minutes on an idle machine), ``stress`` (ten minutes and more),
-``validate`` (a second), ``rim`` (half a minute), ``check`` (ten minutes). The page is written after each.
+``validate`` (ten seconds; it writes the count in README.md, too), ``rim`` (half a minute), ``check`` (ten minutes). The
+page is written after each.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ import platform
 import random
 import re
 import sys
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from time import perf_counter
 
@@ -24,15 +25,20 @@ from sandbox.lab import chart
 from sandbox.lab.reference import REFERENCE, apart, places
 from sandbox.lab.stress import FAILED, Outcome, stress, summary
 from sandbox.lab.tables import length, length_or_below, time
+from sandbox.lab.teeth import as_text as teeth_text
+from sandbox.lab.teeth import teeth
 from sandbox.lab.trade import TARGETS, Trade, trade
-from sandbox.lab.validate import Compared, cells, validate
+from sandbox.lab.validate import COUNTED, KINDS, Compared, cells, counted, validate
 from sandbox.parameters import walk
 from sandbox.scene import check, compare, listings, load
 from sandbox.scene import simulate as simulate_scene
 from sandbox.scene.running import SAFETY, simulate_at
 
 DOCS = Path(__file__).resolve().parent
-PAGE = DOCS / "accuracy.md"
+PAGE, README = DOCS / "accuracy.md", DOCS.parent / "README.md"
+
+#: How many published numbers hold, as README.md says it.
+COUNT = r"(`sandbox validate`:\s)\d+ of \d+ measured\snumbers"
 
 #: Scenes in the tables, those of them with a picture, and those whose parts are listed.
 SCENES = ("golf", "soccer", "soccer-curl", "basketball", "basketball/rattle", "billiards", "billiards/cut")
@@ -96,7 +102,11 @@ def validated() -> dict[str, list[str]]:
     started = perf_counter()
     rows = validate()
     report("validate", started)
-    return {"published": published(rows), "not held": not_held(rows)}
+    readme, count = re.subn(COUNT, f"\\g<1>{counted(rows)}", README.read_text("utf-8"))
+    assert count == 1
+    README.write_text(readme, "utf-8")
+    said = " ".join(teeth_text(teeth(rows)))
+    return {"kinds": kinds(rows), "teeth": [said], "published": published(rows), "not held": not_held(rows)}
 
 
 def checked() -> dict[str, list[str]]:
@@ -248,16 +258,21 @@ def failed(outcomes: list[Outcome]) -> list[str]:
     return ["Other failures of the exact method:", "", *markdown(["integrator", "scene", "extreme", "what"], rows, 4)]
 
 
-def published(rows: list[Compared]) -> list[str]:
-    def row(name: str, own: list[Compared]) -> list[str]:
-        return [name, str(len(own)), str(sum(compared.holds for compared in own))]
+def kinds(rows: list[Compared]) -> list[str]:
+    body = []
+    for kind, meaning in KINDS.items():
+        own = [row for row in rows if row.kind == kind]
+        counts = "yes" if kind in COUNTED else "no"
+        body.append([kind, meaning, counts, str(len(own)), str(sum(row.holds for row in own))])
+    return markdown(["kind", "", "counted", "numbers", "hold"], body, left=3)
 
-    exact: Callable[[Compared], bool] = lambda compared: compared.source.startswith("exact")  # noqa: E731
-    groups = {"exact cases": [compared for compared in rows if exact(compared)]}
-    for compared in rows:
-        if not exact(compared):
-            groups.setdefault(compared.source, []).append(compared)
-    return markdown(["source", "numbers", "hold"], [row(name, own) for name, own in groups.items()])
+
+def published(rows: list[Compared]) -> list[str]:
+    groups: dict[tuple[str, str], list[Compared]] = {}
+    for row in sorted(rows, key=lambda row: list(KINDS).index(row.kind), reverse=True):
+        groups.setdefault(("exact cases" if row.kind == "exact" else row.source, row.kind), []).append(row)
+    body = [[*key, str(len(own)), str(sum(row.holds for row in own))] for key, own in groups.items()]
+    return markdown(["source", "kind", "numbers", "hold"], body, left=2)
 
 
 def not_held(rows: list[Compared]) -> list[str]:

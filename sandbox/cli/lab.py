@@ -354,13 +354,18 @@ def stress(scene: str | None, changes: dict[str, Any], as_json: bool) -> None:
 @click.command()
 @optional_scene
 @changes_options
+@click.option("--teeth", is_flag=True, help="Switch off, or change by 20 %, what each row tests: does it fall?")
 @json_option
-def validate(scene: str | None, changes: dict[str, Any], as_json: bool) -> None:
+def validate(scene: str | None, changes: dict[str, Any], teeth: bool, as_json: bool) -> None:
     """Compare results with published numbers and their sources.
+
+    Each row is exact, fitted, of another program, of a model, measured, or held out of a fit. Only measured and
+    held-out rows are counted.
 
     \b
     Examples:
       sandbox validate
+      sandbox validate golf --teeth
       sandbox validate golf --set ball.drag.model=usga --set ball.lift.model=usga
     """
     from sandbox.lab import validate as lab
@@ -368,4 +373,11 @@ def validate(scene: str | None, changes: dict[str, Any], as_json: bool) -> None:
 
     with bar("validate") as progress:
         rows = lab.validate(scene, changes, progress)
+    if teeth:
+        from sandbox.lab import teeth as of_rows
+
+        with bar("teeth") as progress:
+            tried = of_rows.teeth(rows, changes, progress)
+        say(json_text(of_rows.as_json(rows, tried)) if as_json else "\n".join(of_rows.as_text(tried)))
+        return
     say(json_text(rows) if as_json else "\n".join(lab.as_text(rows)))

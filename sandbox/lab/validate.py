@@ -1,8 +1,10 @@
 """Comparison with published numbers: the tables in published/, each row with its source.
 
-A table is ``NAME.csv`` with the columns scene, case, set, result, value, tolerance, unit, source, reason: ``set`` holds
-``key=value`` separated by ``;``, ``result`` is a key of the scene's result, with dots into lists and tables. A table
-in another format has a ``NAME.toml`` next to it that maps its columns to such rows.
+A table is ``NAME.csv`` with the columns scene, case, set, result, value, tolerance, unit, source, reason, kind, tests,
+tolerance_from: ``set`` holds ``key=value`` separated by ``;``, ``result`` is a key of the scene's result, with dots
+into lists and tables, ``kind`` is one of KINDS, ``tests`` names the effects that the number is to show (see teeth.py),
+and ``tolerance_from`` says what the tolerance is: the uncertainty of the measurement, or why it is not. A table in
+another format has a ``NAME.toml`` next to it that maps its columns to such rows.
 """
 
 from __future__ import annotations
@@ -20,11 +22,22 @@ from sandbox.errors import RequestError
 from sandbox.lab.runs import Progress, no_progress
 from sandbox.lab.tables import paragraph, table
 from sandbox.parameters import parse_assignment
-from sandbox.scene import load, parameters_of, simulate
+from sandbox.scene import Scene, load, parameters_of, simulate
 from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.amounts import significant
 
 PUBLISHED = Path(__file__).resolve().parent / "published"
+
+#: What a published number is. Only those of COUNTED say how true a model is.
+KINDS = {
+    "exact": "a closed form, or a solution to many digits",
+    "fitted": "a constant of the model, or of the scene, was chosen to meet it",
+    "program": "computed by another program",
+    "model": "computed by another model, or a rule of thumb",
+    "measured": "measured, and used for no constant",
+    "held-out": "measured; others of the same set were fitted, this one was not",
+}
+COUNTED = ("measured", "held-out")
 
 
 @dataclass(frozen=True)
@@ -40,6 +53,9 @@ class Case:
     unit: str
     source: str
     reason: str  # why it does not match, if known
+    kind: str  # of KINDS
+    tests: str  # effects that it is to show: causes of forces, keys of parameters, or key=value; separated by ``;``
+    tolerance_from: str  # what the tolerance is
 
 
 @dataclass(frozen=True)
@@ -73,16 +89,21 @@ def _case(row: Mapping[str, str]) -> Case:
 def _by_form(rows: Sequence[Mapping[str, str]], form: Mapping[str, Any]) -> Iterator[Case]:
     """The cases of a table in another format. In ``form``, ``{column}`` stands for the row's value in that column.
 
-    It has ``scene``, ``name``, ``source``, ``set``; ``value``, ``unit`` and ``tolerance`` of each of ``results``; and
+    It has ``scene``, ``name``, ``source``, ``kind``, ``set``; ``value``, ``unit``, ``tolerance``, ``tests`` and
+    ``tolerance_from`` of each of ``results``, with the rows that it does not have as ``unless``, words by column; and
     ``reasons`` by name and result.
     """
     for row in rows:
         name = form["name"].format(**row)
         settings = "; ".join(f"{key}={value.format(**row)}" for key, value in form["set"].items())
         for result, how in form["results"].items():
+            if any(row[column] in words for column, words in how.get("unless", {}).items()):
+                continue
             reason = form.get("reasons", {}).get(f"{name} {result}", "")
-            value, source = how["value"].format(**row), form["source"].format(**row)
-            yield Case(form["scene"], settings, name, result, value, how["tolerance"], how["unit"], source, reason)
+            value, source, kind = (text.format(**row) for text in (how["value"], form["source"], form["kind"]))
+            allowed = how["tolerance"], how["unit"]
+            last = kind, how["tests"], how["tolerance_from"]
+            yield Case(form["scene"], settings, name, result, value, *allowed, source, reason, *last)
 
 
 def validate(
@@ -96,10 +117,19 @@ def validate(
         progress(done, len(wanted))
         key = case.scene, case.set
         if key not in found:
-            settings = dict(parse_assignment(text) for text in case.set.split(";") if text.strip())
-            found[key] = simulate(load(case.scene, settings).changed(changes or {}, "--set"))
-        compared.append(_compare(case, found[key]))
+            found[key] = simulate(scene_of(case, changes))
+        compared.append(compare(case, found[key]))
     return compared
+
+
+def scene_of(case: Case, changes: Mapping[str, Any] | None = None) -> Scene:
+    """The scene of a case; ``changes`` override what it sets."""
+    return load(case.scene, assignments(case.set)).changed(changes or {}, "--set")
+
+
+def assignments(text: str) -> dict[str, Any]:
+    """``key=value; key=value`` as a dictionary."""
+    return dict(parse_assignment(part) for part in text.split(";") if part.strip())
 
 
 def _of(source: str) -> list[Case]:
@@ -120,7 +150,8 @@ def _inside(result: Any, key: str) -> Any:
     return result
 
 
-def _compare(case: Case, run: SceneRun) -> Compared:
+def compare(case: Case, run: SceneRun) -> Compared:
+    """The number of a case in a run."""
     computed, difference, holds = _inside(run.result, case.result), None, False
     if computed is None:
         pass
@@ -133,7 +164,7 @@ def _compare(case: Case, run: SceneRun) -> Compared:
         computed = units.convert(float(computed), own or si, case.unit)
         difference = computed - float(case.value)
         holds = abs(difference) <= case.tolerance  # not where it is NaN
-    return Compared(**vars(case), computed=computed, difference=difference, holds=holds)
+    return Compared(**{**vars(case), "computed": computed, "difference": difference, "holds": holds})
 
 
 # ------------------------------------------------------------------------------------------------------------- report
@@ -143,7 +174,7 @@ def as_text(rows: Sequence[Compared]) -> list[str]:
     """A table for each source."""
     tables: dict[str, list[Compared]] = {}
     for row in rows:
-        tables.setdefault(f"{row.scene.partition('/')[0]}: {row.source}", []).append(row)
+        tables.setdefault(f"{row.scene.partition('/')[0]}, {row.kind}: {row.source}", []).append(row)
     headings = ("case", "result", "published", "computed", "off by", "allowed", "")
     lines = []
     for title, own in tables.items():
@@ -153,7 +184,19 @@ def as_text(rows: Sequence[Compared]) -> list[str]:
                 case, result, *_ = cells(row)
                 lines += paragraph(f"{case}, {result}, does not hold: {row.reason or 'no reason known'}")
         lines.append("")
-    return [*lines, f"{sum(row.holds for row in rows)} of {len(rows)} hold"]
+    kinds = {kind: [row for row in rows if row.kind == kind] for kind in KINDS if kind not in COUNTED}
+    others = ", ".join(f"{kind} {_holding(own)}" for kind, own in kinds.items() if own)
+    lines += paragraph(f"{counted(rows)} hold", "")
+    return [*lines, *paragraph(f"not counted: {others}", "")] if others else lines
+
+
+def counted(rows: Sequence[Compared]) -> str:
+    """How many of the numbers that were measured, and not fitted, hold: the count of README.md and of the report."""
+    return f"{_holding([row for row in rows if row.kind in COUNTED])} measured numbers"
+
+
+def _holding(rows: Sequence[Compared]) -> str:
+    return f"{sum(row.holds for row in rows)} of {len(rows)}"
 
 
 def cells(row: Compared) -> tuple[str, ...]:

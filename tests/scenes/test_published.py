@@ -2,26 +2,64 @@
 
 from __future__ import annotations
 
-from sandbox.lab.validate import as_text, cases, validate
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from sandbox.lab.teeth import as_json, teeth
+from sandbox.lab.teeth import as_text as as_text_of_teeth
+from sandbox.lab.validate import KINDS, Compared, as_text, cases, counted, validate
 from sandbox.scene import listings
 
+ROOT = Path(__file__).resolve().parents[2]
 
-def test_every_case_holds_or_says_why_not_and_most_hold():
-    rows = validate()
+
+@pytest.fixture(scope="module")
+def rows() -> list[Compared]:
+    return validate()
+
+
+def test_every_case_holds_or_says_why_not_and_most_hold(rows):
     silent = [f"{row.scene} {row.name} {row.result}" for row in rows if not row.holds and not row.reason]
     assert silent == []
     assert [row.name for row in rows if row.holds and row.reason] == []
     assert sum(row.holds for row in rows) >= 0.85 * len(rows)
-    exact = [row for row in rows if row.source.startswith("exact")]
+    exact = [row for row in rows if row.kind == "exact"]
     assert len(exact) >= 20
     assert all(row.holds for row in exact)
     assert max(map(len, as_text(rows))) <= 80
 
 
-def test_every_case_names_its_source_and_every_scene_has_cases():
-    assert all(case.source for case in cases())
+def test_every_case_has_a_source_a_kind_and_a_reasoned_tolerance(rows):
+    assert {row.kind for row in rows} == set(KINDS)
+    assert [row.name for row in rows if not row.source or (row.tolerance is not None and not row.tolerance_from)] == []
     scenes = {listing.name for listing in listings() if "/" not in listing.name}
     assert {case.scene.partition("/")[0] for case in cases()} >= scenes
+
+
+def test_rows_fall_without_the_effect_they_test(rows):
+    """One of each source and result; ``sandbox validate --teeth`` tries all."""
+    tried = teeth(list({(row.source, row.result): row for row in rows if row.holds}.values()))
+    assert [f"{one.row.scene} {one.row.name} {one.row.result}" for one in tried if not one.has_teeth] == []
+
+
+def test_a_row_without_teeth_is_listed():
+    """Within 100 yd a carry says nothing about lift; that drag is left out altogether it would still notice."""
+    carry = [row for row in validate("golf") if (row.name, row.result) == ("PGA 7i", "carry")]
+    blunt = [replace(row, tolerance=100.0) for row in carry]
+    (one,) = tried = teeth(blunt)
+    assert (one.has_teeth, one.holds_without) == (False, ["lift"])
+    assert "PGA 7i" in as_text_of_teeth(tried)[2]
+    assert as_json(blunt, tried)[0]["has_teeth"] is False
+
+
+def test_the_readme_counts_measured_rows_as_validate_does(rows):
+    """``python docs/measure_accuracy.py validate`` writes it."""
+    counts = [row for row in rows if row.kind in ("measured", "held-out")]
+    said = f"{sum(row.holds for row in counts)} of {len(counts)} measured numbers"
+    assert said == counted(rows)
+    assert f"`sandbox validate`: {said}" in " ".join((ROOT / "README.md").read_text("utf-8").split())
 
 
 def test_a_wrong_number_would_be_seen():
