@@ -14,6 +14,7 @@ from sandbox.engine.contact.driven import MovingObstacle
 from sandbox.engine.contact.touch import Outline
 from sandbox.engine.model.ball import Ball, kinetic
 from sandbox.engine.model.setup import Setup
+from sandbox.engine.model.tolerances import CLOSING, TOUCHING_GAP
 from sandbox.engine.motion.forces_on_ball import acceleration_function, by_cause
 from sandbox.engine.motion.moving_ball import InCluster, InHeap
 from sandbox.engine.motion.sustained_contact import SustainedContact
@@ -37,15 +38,15 @@ class Ledger:
 
     start: float  # kinetic, of all balls where they come in, including rotation
     end: float
-    #: By force or torque; by "lost mass", what that takes away; "driven by" a surface that moves; and "set by hand",
-    #: what changes of a ball's motion from outside add.
+    #: By force or torque; by "lost mass", what that takes away; "driven by" a surface that moves; "kicked by" one that
+    #: kicks; and "set by hand", what changes of a ball's motion from outside add.
     work: dict[str, float]
     impacts: dict[str, float]  # by the partner; an impact of two balls under both names
     #: By the surface slid or rolled on, including bounces too low to simulate; by "heap" where balls press on one
     #: another, and "position correction", what moving them apart there adds.
     contacts: dict[str, float]
     residue: float  # kinetic energy gained along the path that no cause accounts for: the numerical error
-    #: What impacts and contacts add at the times at which all balls together gain, beyond what drives a surface.
+    #: What impacts and contacts add at the times at which all balls together gain, beyond what surfaces do.
     jumped: float
 
 
@@ -83,10 +84,14 @@ def ledger(run: Run) -> Ledger:
                 work["set by hand"] += jump
                 continue
             by = lasting.obstacle.surface.name if hit is None and isinstance(lasting, SustainedContact) else hit
-            driven = _driven_in_impact(run, ball, by, before.state(before.t1), after) if by else 0.0
+            if by is None and jump != 0.0 and not lasting:
+                by = _driven_off(run, ball, after)
+            driven, kicked = _active_in_impact(run, ball, by, before.state(before.t1), after) if by else (0.0, 0.0)
             if driven:
                 work[f"driven by {by}"] += driven
-            jump -= driven
+            if kicked:
+                work[f"kicked by {by}"] += kicked
+            jump -= driven + kicked
             jumps[after.t0] += jump
             if hit is not None:
                 impacts[hit] += jump
@@ -141,18 +146,35 @@ class _Impacts:
         return " and ".join(sorted((own.ball, own.partner))) if own.partner in self._balls else own.partner
 
 
-def _driven_in_impact(run: Run, ball: Ball, name: str, before: State, after: Arc) -> float:
-    """The work in J that a surface of this name does in an impact of a ball: its velocity at the point of contact times
-    the change of momentum; 0 if it does not move."""
-    surface = next((each for each in run.setup.surfaces if each.name == name and each.motion is not None), None)
-    if surface is None or surface.motion is None:
-        return 0.0
+def _driven_off(run: Run, ball: Ball, after: Arc) -> str | None:
+    """The name of a moving surface that a ball leaves by a hop: it touches it where an arc begins."""
+    t, (x, y, *_) = after.t0, after.start
+    for surface in _at(run, t, ball)[0].surfaces:
+        if surface.motion is not None and Outline.of(surface.at(t).shape, ball.radius).near(x, y).gap < TOUCHING_GAP:
+            return surface.name
+    return None
+
+
+def _active_in_impact(run: Run, ball: Ball, name: str, before: State, after: Arc) -> tuple[float, float]:
+    """The work in J that a surface of this name does in an impact of a ball: by moving, its velocity at the point of
+    contact times the change of momentum; and by its kick, which comes last, as seen from it. 0 if it does neither."""
+    active = [each for each in _at(run, after.t0, ball)[0].surfaces if each.name == name]
+    active = [each for each in active if each.motion is not None or each.kick > 0.0]
+    if not active:
+        return 0.0, 0.0
     t, (x, y, vx, vy, *_) = after.t0, after.start
-    place, rates = surface.motion.place(t), surface.motion.rates(t)
-    _, nx, ny, *_ = Outline.of(surface.at(t).shape, ball.radius).near(x, y)
-    ux = rates.x - rates.angle * (y - ball.radius * ny - place.y)
-    uy = rates.y + rates.angle * (x - ball.radius * nx - place.x)
-    return float(ball.mass * ball.mass_fraction(t) * ((vx - before[2]) * ux + (vy - before[3]) * uy))
+    found = [(Outline.of(each.at(t).shape, ball.radius).near(x, y), each) for each in active]
+    (_, nx, ny, *_), surface = min(found, key=lambda each: abs(each[0].gap))
+    ux = uy = 0.0
+    if surface.motion is not None:
+        place, rates = surface.motion.place(t), surface.motion.rates(t)
+        ux = rates.x - rates.angle * (y - ball.radius * ny - place.y)
+        uy = rates.y + rates.angle * (x - ball.radius * nx - place.x)
+    mass = ball.mass * ball.mass_fraction(t)
+    driven = mass * ((vx - before[2]) * ux + (vy - before[3]) * uy)
+    hit = (before[2] - ux) * nx + (before[3] - uy) * ny < -CLOSING
+    leaving = (vx - ux) * nx + (vy - uy) * ny
+    return driven, surface.kick * (leaving - 0.5 * surface.kick / mass) if hit else 0.0
 
 
 def _work_of_forces(ball: Ball, arc: Arc, moved: InHeap) -> float:

@@ -111,6 +111,11 @@ class PlainSimulation:
             raise RequestError(
                 f'the plain method has no surfaces that move, as {moving!r} does: use accuracy.method = "exact"'
             )
+        kicking = next((surface.name for surface in setup.surfaces if surface.kick > 0.0), None)
+        if kicking is not None:
+            raise RequestError(
+                f'the plain method has no surfaces that kick, as {kicking!r} does: use accuracy.method = "exact"'
+            )
         self._setup = setup
         self._accuracy = accuracy
         self._progress = progress

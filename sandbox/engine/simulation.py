@@ -153,7 +153,7 @@ class Simulation:
         """True if a ball moves, or one at rest will be struck: only by a surface that moves."""
         return bool(self._moving) or (
             any(surface.motion is not None for surface in self._setup.surfaces)
-            and any(event.kind is EventKind.TOUCH for event in self._queue.pending())
+            and any(event.kind in (EventKind.TOUCH, EventKind.EDGE) for event in self._queue.pending())
         )
 
     def _resolve(self, event: QueuedEvent) -> None:
@@ -332,9 +332,9 @@ class Simulation:
         if self._over:
             return  # nothing left to plan
         self._note_rest(index, t)
-        own = None if mover.contact is None else mover.contact.obstacle
+        own = mover.held_by
         everyone = range(len(self._movers))
-        self._prediction.predict(index, t, kind, lambda other: other is own, everyone if len(everyone) > 1 else ())
+        self._prediction.predict(index, t, kind, lambda other: other in own, everyone if len(everyone) > 1 else ())
 
     # ------------------------------------------------------------------ noting
 

@@ -267,7 +267,7 @@ def test_a_ball_flies_on_where_what_carries_it_stops():
     up = Sliding([(0.0, (0.0, 2.0)), (0.5, (0.0, 0.0))])
     run = run_with(up, position=(0.0, RADIUS), restitution=0.0, duration=1.0)
     assert run.state("ball", 0.4).y == pytest.approx(RADIUS + 0.8, abs=1e-9)
-    assert run.events[-1].kind == "impact"
+    assert [event.kind for event in run.events][-2:] == ["impact", "rest"]
     assert run.state("ball", 0.6).y == pytest.approx(RADIUS + 1.0 + 0.2 - 0.5 * G * 0.01, abs=1e-9)
 
 
@@ -319,9 +319,48 @@ def test_a_motion_must_have_what_motions_have():
         run_with(3.0)  # type: ignore[arg-type]
 
 
-def test_staying_on_what_turns_is_refused_by_name():
-    with pytest.raises(RunError, match="ball 'ball': it stays on 'lift', which turns; a ball bounces off what turns"):
-        run_with(Turning((0.0, 0.0), 0.2), restitution=0.0, position=(0.5, RADIUS))
+def test_a_ball_goes_along_with_what_turns_in_low_hops():
+    """A plate that turns up under a ball without friction or bounce keeps touching it; no energy is from nowhere."""
+    start = {"position": (0.5, RADIUS), "velocity": (0.0, 0.1), "restitution": 0.0, "friction": 0.0}
+    run = run_with(Turning((0.0, 0.0), 0.2), duration=0.5, **start)  # type: ignore[arg-type]
+    times = np.linspace(0.0, 0.5, 101)
+    x, y, *_ = run.states("ball", times).T
+    above = y * np.cos(0.2 * times) - x * np.sin(0.2 * times) - RADIUS
+    assert above.min() > -1e-9
+    assert above.max() < 3e-6
+    book = ledger(run)
+    assert sum(book.impacts.values()) + book.residue == pytest.approx(0.0, abs=1e-6)
+    assert book.start + sum(book.work.values()) == pytest.approx(book.end, abs=1e-5)  # a hop more
+
+
+def flipper(*motions: tuple[float, Motion]) -> Surface:
+    """A bar of 1 m about the origin."""
+    return Moving(Surface("flipper", Segment((0.0, 0.0), (1.0, 0.0), 0.05), 0.5, 0.3), InTurn(motions))
+
+
+def simulated_with(surface: Surface, position: tuple[float, float], others: Sequence[Surface], last: float) -> Run:
+    ball = Ball("ball", MASS, RADIUS, position, forces=[Gravity(MASS, G)])
+    return simulate(Setup([ball], [surface, *others], duration=last), resolve(level="balanced"))
+
+
+def test_a_ball_is_cradled_until_what_has_turned_turns_again():
+    """It rests between a wall and a bar that was raised, is not done with that, and flies when the bar goes on."""
+    turns = (0.0, 0.0, 0.0), (2.0, 0.0, 0.1), (0.0, 0.6, 0.4), (4.0, 0.6, 3.0), (0.0, 0.8, 3.05)  # rate, from, when
+    bar = flipper(*((start, Turning((0.0, 0.0), rate, angle, start)) for rate, angle, start in turns))
+    wall = Surface("wall", Segment((-0.15, -1.0), (-0.15, 2.0)), 0.3, 0.3)
+    run = simulated_with(bar, (0.3, 0.3), [wall], 3.2)
+    assert next(event.t < 3.0 for event in run.events if event.kind == "rest")
+    assert run.arcs["ball"].at(2.9).phase is Phase.RESTING
+    assert next(event.t for event in run.events if event.t > 2.9) == pytest.approx(3.0, abs=1e-9)
+    assert run.state("ball", 3.05).y > run.state("ball", 2.9).y + 0.01
+
+
+def test_what_stands_between_two_turns_is_as_any_that_stands():
+    bar = flipper((0.0, Turning((0.0, 0.0), 0.0, -0.3)), (2.0, Turning((0.0, 0.0), 1.0, -0.3, 2.0)))
+    fixed = Surface("flipper", Segment((0.0, 0.0), (cos(-0.3), sin(-0.3)), 0.05), 0.5, 0.3)
+    one, other = (simulated_with(each, (0.3, 0.4), [], 1.0) for each in (bar, fixed))
+    assert [event.kind for event in one.events] == [event.kind for event in other.events]
+    assert one.state("ball", 1.0) == pytest.approx(other.state("ball", 1.0), abs=1e-9)
 
 
 def test_a_ball_that_is_pressed_on_something_is_refused_by_name():

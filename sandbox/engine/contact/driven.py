@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 from sandbox.engine.contact.touch import Obstacle
 from sandbox.engine.contact.turning_touch import OutlineOnArc, first_touch
 from sandbox.engine.model.ball import Ball, outline_of
-from sandbox.engine.model.motion import Motion, Placing, piece_of
+from sandbox.engine.model.motion import Motion, Placing, piece_of, stands_until
 from sandbox.engine.model.setup_errors import call_user_function
 from sandbox.engine.model.shapes import Polygon, Vector
 from sandbox.engine.model.surface import Circle, Segment, Surface
@@ -51,9 +51,9 @@ class DrivenPath:
         self._next = _LONGEST  # s, to try
 
     def at(self, t: float) -> Arc:
-        """The arc at time t, of two that which begins then."""
+        """The arc at time t, of two that which begins then. None is made before the first time asked for."""
         while not self._arcs or self._arcs[-1].t1 <= t:
-            start = self._arcs[-1].t1 if self._arcs else 0.0
+            start = self._arcs[-1].t1 if self._arcs else t
             arc = self._arc_from(start)
             self._arcs.append(arc)
             self._starts.append(start)
@@ -66,6 +66,10 @@ class DrivenPath:
             arc = self.at(t)
             yield arc
             t = arc.t1
+
+    def stands_until(self, t: float) -> float:
+        """Until when in s it stands still from time t on; t if it moves."""
+        return stands_until(self._motion, t)
 
     def breaks_at(self, arc: Arc) -> bool:
         """True if the velocity may jump where this arc ends: another motion takes over."""
@@ -191,9 +195,7 @@ class MovingObstacle(Obstacle):
 
 
 class PosedObstacle(Obstacle):
-    """A moving surface at one time."""
-
-    moves = True
+    """A moving surface at one time: while it ``stands_until`` a later one, in s, it is like any that stands."""
 
     def __init__(self, source: MovingObstacle, t: float) -> None:
         arc = source.path.at(t)
@@ -206,6 +208,8 @@ class PosedObstacle(Obstacle):
             there = Segment(frame.out(t, shape.a), frame.out(t, shape.b), shape.radius)
         super().__init__(source.surface, source.outline.reach - shape.radius, source.skin, there)
         self.source = source
+        self.stands_until = source.path.stands_until(t)
+        self.moves = self.stands_until <= t
         self._drive = Drive(x, y, vx, vy, spin)
 
     def velocity_at(self, point: Vector) -> Vector:

@@ -201,7 +201,7 @@ class Heap:
         within = self.margin if index in self._members else TOUCHING_GAP
         found = resting_points(mover.ball, mover.obstacles_at(t), state, within, applied, self._settle)
         alone = len(found) == 1 and body_point_contact(mover.ball, state, *found[0], applied) is not None
-        if found and any(obstacle.moves for obstacle, *_ in found):
+        if found and any(obstacle.surface.motion is not None for obstacle, *_ in found):
             what = f"it stays on {found[0][0].surface.name!r}, which moves"
             raise failed(t, mover.ball.name, f"{what}: a body bounces off what moves, but is not carried by it")
         return bool(found) and not alone

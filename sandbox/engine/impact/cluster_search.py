@@ -85,7 +85,7 @@ class ClusterSearch:
             walls, room = self._walls_near(t, members, reach, hard > 0.0, deep)
             if model.name == "auto" and len(members) == 2 and not walls:
                 return None
-            if any(wall.moves for _, wall in walls):
+            if any(wall.surface.motion is not None or wall.surface.kick > 0.0 for _, wall in walls):
                 return None
             pairs = self._pairs(members, blow, met)
             try:

@@ -25,7 +25,13 @@ from sandbox.engine.contact.surfaces import (
     tilted,
 )
 from sandbox.engine.contact.touch import Obstacle
-from sandbox.engine.impact.impulses import Contact, after_contact_of_bodies, after_contacts_at_once, disc_on_ground
+from sandbox.engine.impact.impulses import (
+    Contact,
+    after_contact_of_bodies,
+    after_contacts_at_once,
+    after_kick,
+    disc_on_ground,
+)
 from sandbox.engine.model.ball import Ball, kinetic
 from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.surface import Bounce, Surface
@@ -101,6 +107,7 @@ class Impacts:
         model = setup.contact
         self._all_soft = len(setup.balls) > 1 and model.name != "rigid" and model.wall_stiffness == 0.0
         self._some_soft = self._all_soft or any(map(self._soft, setup.surfaces))
+        self._some_kick = any(surface.kick > 0.0 for surface in setup.surfaces)
         self._some_move = any(surface.motion is not None for surface in setup.surfaces)
         self._walls: dict[tuple[int, bool | None], list[Obstacle]] = {}  # soft or hard, of each ball
         self._all_round = all_round(*setup.balls)
@@ -136,6 +143,8 @@ class Impacts:
             if closed and self._slowest_hop > 0.0:
                 self._pay_for_hops(before, states, done)
             work += done
+            if self._some_kick:
+                work += self._kick(group, closed)
             hits += _hits(t, closed)
         self._refuse_gain(t, start, states, hits, work)
         return Outcome(t, states, hits)
@@ -185,6 +194,23 @@ class Impacts:
                 work += self._exchange_alone(group.states, contact)
                 closed.append(contact)
         return closed, work
+
+    def _kick(self, group: ImpactGroup, closed: Sequence[Contact]) -> float:
+        """Add what surfaces that were hit kick with, shared among the points of one contact; returns the work in J of
+        this, and of what moves where balls are kicked into something else."""
+        kicking = [contact for contact in closed if contact.kick > 0.0]
+        if not kicking:
+            return 0.0
+        states, had = group.states, self._energy(group.states)
+        for contact in kicking:
+            points = sum((other.balls, other.partner) == (contact.balls, contact.partner) for other in kicking)
+            index, share = contact.balls[0], contact._replace(kick=contact.kick / points)
+            states[index] = after_kick(self._movers[index].ball, states[index], share)
+        work = self._energy(states) - had
+        found = [*self._contacts_with_surfaces(group, None), *self._contacts_of_balls(group)]
+        if any(contact.speed > CLOSING for contact in found):
+            work += self._exchange_at_once(states, found)
+        return work
 
     def touching(self, t: float, seeds: Sequence[int], gap: float = TOUCHING_GAP) -> ImpactGroup:
         """All balls that touch those in ``seeds`` at t, directly or through others, up to a ``gap`` in m."""
@@ -361,7 +387,7 @@ def contact_with_surface(
     else:
         bounce = _without_pull(bounce, approach)
         speeds = speeds_at((state,), point, (nx, ny))
-    return Contact((index,), surface.name, nx, ny, sine, bounce, approach, speeds, point)
+    return Contact((index,), surface.name, nx, ny, sine, bounce, approach, speeds, point, kick=surface.kick)
 
 
 def contact_of_two(

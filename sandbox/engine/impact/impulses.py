@@ -128,11 +128,22 @@ class Contact(NamedTuple):
     speeds: tuple[float, float, float]  # m/s, where they touch: of approach, and of the slip along and upward
     point: Vector  # m, where they touch
     drive: Vector = (0.0, 0.0)  # m/s, of the surface there, if it moves
+    kick: float = 0.0  # N s, that the surface adds along the normal
 
     def seen(self, states: Mapping[int, State]) -> list[State]:
         """The states of its balls, as seen from the surface that they meet."""
         met = [states[index] for index in self.balls]
         return met if self.drive == (0.0, 0.0) else [relative(met[0], self.drive)]
+
+
+def after_kick(ball: Ball, state: State, contact: Contact) -> State:
+    """The state of a ball or body after the kick of the surface that it has hit."""
+    x, y, vx, vy, spin, *more = state
+    px, py = contact.kick * contact.nx, contact.kick * contact.ny
+    turn = 0.0
+    if ball.rotates:
+        turn = ((contact.point[0] - x) * py - (contact.point[1] - y) * px) / ball.inertia
+    return x, y, vx + px / ball.mass, vy + py / ball.mass, spin + turn, *more
 
 
 def after_contact_of_bodies(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from sandbox.engine.contact.surfaces import bounce_off, tilted
@@ -28,9 +30,9 @@ class BatchImpacts:
         self._record = record
         self._has_law = np.array([surface.law is not None for surface in setups.whole.surfaces], dtype=bool)
         ball = setups.whole.balls[0]
-        self._radius, self._factor = (
-            np.broadcast_to(each, len(setups)) for each in (ball.radius, ball.inertia_factor)
-        )  # of all shots: m, and of m R^2
+        self._radius, self._factor, self._mass = (
+            np.broadcast_to(each, len(setups)) for each in (ball.radius, ball.inertia_factor, ball.mass)
+        )  # of all shots: m, of m R^2, kg
 
     def collide(self, lanes: np.ndarray) -> None:
         """Let pymunk change the velocities of shots that touch a surface."""
@@ -43,7 +45,8 @@ class BatchImpacts:
         resolved = (count == 1) & (approach > CLOSING)
         bounces, lawful = self._bounces(shots, surface, approach, along, resolved)
         resolved &= lawful
-        motion = np.array(self._exchanged(lanes, *tilted(near.nx, near.ny, bounces[:, 2], along), bounces))
+        normal, kick = tilted(near.nx, near.ny, bounces[:, 2], along), self._outlines.of(surface, shots).surface.kick
+        motion = np.array(self._exchanged(lanes, *normal, bounces, kick))
         held = (flying.surface[lanes] >= 0).nonzero()[0]
         if len(held):  # what it is on may act, too, and does not if it is not pressed on that
             own = self._outlines.of(flying.surface[lanes[held]], shots[held]).on_feature(SIDE, x[held], y[held])
@@ -75,11 +78,13 @@ class BatchImpacts:
                 lawful[i] = False
         return bounces, lawful
 
-    def _exchanged(self, lanes: np.ndarray, nx: np.ndarray, ny: np.ndarray, bounces: np.ndarray) -> Acceleration:
-        """The velocities (m/s) and spins (rad/s) after impacts on surfaces with these normals."""
+    def _exchanged(
+        self, lanes: np.ndarray, nx: np.ndarray, ny: np.ndarray, bounces: np.ndarray, kick: Any
+    ) -> Acceleration:
+        """The velocities (m/s) and spins (rad/s) after impacts on surfaces with these normals, which ``kick`` (N s)."""
         motion, shots = tuple(self._flying.state[2:, lanes]), self._flying.shot[lanes]
         r, factor = self._radius[shots], self._factor[shots]
         approach, slip, _ = surface_speeds(motion, nx, ny, r)
         pairs = np.column_stack((bounces[:, :2], factor))
         push, rub = lanes_for(len(lanes)).exchange(approach, (1.0 + bounces[:, 3]) * slip, pairs)
-        return after_impulse(motion, nx, ny, r, factor, (push, rub, 0.0))
+        return after_impulse(motion, nx, ny, r, factor, (push + kick / self._mass[shots], rub, 0.0))

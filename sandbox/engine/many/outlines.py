@@ -25,6 +25,7 @@ class SurfaceProperties(NamedTuple):
     friction: Any
     rolling_resistance: Any
     lowest_bounce: Any  # m
+    kick: Any  # N s
 
 
 class Obstacles(Obstacle):

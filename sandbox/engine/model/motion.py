@@ -263,6 +263,14 @@ def piece_of(motion: Motion, t: float) -> tuple[Motion, float]:
     return inner, min(until, ends)
 
 
+def stands_until(motion: Motion, t: float) -> float:
+    """Until when in s a motion stands still from time t on; t if it moves, or is not known to stand."""
+    piece, until = piece_of(motion, t)
+    known = isinstance(piece, Sliding | Turning | Swinging)
+    still = known and not any(piece.rates(t)) and not (isinstance(piece, Sliding) and any(map(_varies, piece.velocity)))
+    return until if still and not isinstance(piece, Swinging) else t
+
+
 def _piece(pieces: Sequence[tuple[float, Motion]], t: float) -> tuple[Motion, float]:
     """The piece at time t of those that begin at their times, the first at any time, and until when it lasts, in s."""
     until = inf
@@ -300,6 +308,11 @@ def _in_pieces(velocity: Sequence[Any]) -> bool:
 def _coefficients(component: Any) -> list[float]:
     """Those of a component of a velocity, from the constant up."""
     return [float(c) for c in component] if isinstance(component, Sequence) else [float(component)]
+
+
+def _varies(component: Any) -> bool:
+    """True if a component of a velocity is not constant."""
+    return any(_coefficients(component)[1:])
 
 
 def _integral(component: Any) -> list[float]:

@@ -83,6 +83,8 @@ class Surface:
     ``law`` replaces restitution and friction at an impact by a function of the normal and the tangential speed (m/s).
     ``nose_height`` is for balls seen from above: the height in m above their plane at which a cushion touches them.
     ``motion`` moves it, whatever meets it; ``shape`` is then where it would be without.
+    ``kick`` is the impulse in N s that it adds along its normal to what hits it, as the bumper of a pinball table does;
+    it acts in impacts, not on what slides, rolls or lies on it, nor where balls are pressed together.
 
     >>> from sandbox import Segment, Surface
     >>> floor = Surface("floor", Segment((-10, 0), (30, 0)), restitution=0.8, friction=0.4)
@@ -98,9 +100,10 @@ class Surface:
     law: BounceLaw | None = None
     nose_height: float | None = None  # m
     motion: Motion | None = None
+    kick: float = 0.0  # N s
 
     def __post_init__(self) -> None:
-        numbers = ("friction", "rolling_resistance", "lowest_bounce")
+        numbers = ("friction", "rolling_resistance", "lowest_bounce", "kick")
         check(f"surface {self.name!r}", self, fractions=["restitution"], not_negative=numbers)
         if self.motion is not None and not isinstance(self.motion, Motion):
             raise ValueError(f"surface {self.name!r}: motion = {self.motion!r:.80} must have about, place and rates")

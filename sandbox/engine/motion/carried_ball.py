@@ -2,7 +2,8 @@
 
 As seen from a surface that does not turn, a ball in contact moves as on one that stands still, under the applied forces
 and the inertial force ``-m A`` of the surface's acceleration A. So it slides, rolls and rests there as exactly as
-elsewhere, and its path is the sum of two polynomials. On a surface that turns a ball bounces; staying on it is refused.
+elsewhere, and its path is the sum of two polynomials. While a surface stands it is like any other. On one that turns a
+ball that would stay on it goes along in hops of ``HOP``.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from collections.abc import Sequence
 from sandbox.engine.contact.driven import Frame, MovingObstacle, PosedObstacle
 from sandbox.engine.contact.manifold import relative
 from sandbox.engine.contact.surfaces import press, takeoff_speed
-from sandbox.engine.contact.touch import Near
+from sandbox.engine.contact.touch import Near, Obstacle
 from sandbox.engine.model.setup_errors import failed
 from sandbox.engine.model.tolerances import PUSH
 from sandbox.engine.motion.event_kind import EventKind
@@ -22,6 +23,9 @@ from sandbox.engine.paths.arc import Arc, crossing, resting_arc
 from sandbox.engine.paths.phase import Phase
 from sandbox.physics.integrators import Acceleration, State
 
+#: Height in m of the hops in which a ball goes along with what turns: higher is less true, lower takes longer.
+HOP = 1e-6
+
 #: Points of an arc at rest on what moves at which it is tested that it stays so.
 _TESTS = 16
 
@@ -30,12 +34,13 @@ class CarriedBall(MovingBall):
     """A ball that moving surfaces may carry."""
 
     _frame: Frame | None = None  # of the surface that it is on, if that moves
+    _beside: Sequence[PosedObstacle] = ()  # the driven surfaces that it touches, which stand
 
     def advance(self, t: float, until: float) -> tuple[Arc, EventKind]:
         """The next arc from t, at most to ``until`` and while the motion of what carries it is smooth."""
         contact = self.contact
         if contact is None or not isinstance(contact.obstacle, MovingObstacle):
-            return super().advance(t, until)
+            return self._advance_while_all_stands(t, until)
         obstacle = contact.obstacle
         frame = self._frame = obstacle.frame(t)
         until = min(until, frame.arc.t1)
@@ -47,6 +52,20 @@ class CarriedBall(MovingBall):
         if kind is EventKind.ARC_END and arc.t1 == frame.arc.t1 and obstacle.path.breaks_at(frame.arc):
             kind = EventKind.EDGE
         return frame.carried(arc), kind
+
+    def _advance_while_all_stands(self, t: float, until: float) -> tuple[Arc, EventKind]:
+        """The next arc of a ball that is not carried: in contact, until a surface that it touches begins to move."""
+        stands = min((each.stands_until for each in self._beside), default=until) if self.contact is not None else until
+        arc, kind = super().advance(t, min(until, stands))
+        return arc, EventKind.EDGE if kind is EventKind.ARC_END and arc.t1 == stands < until else kind
+
+    @property
+    def held_by(self) -> Sequence[Obstacle]:
+        if self.contact is None:
+            return ()
+        own = self.contact.obstacle
+        standing = [each.source for each in self._beside if each is own or self.contact.phase is Phase.RESTING]
+        return own, *standing
 
     def _advance_in(self, frame: Frame, contact: SustainedContact, t: float, until: float) -> tuple[Arc, EventKind]:
         """The next arc, and why it ends, as seen from what carries it."""
@@ -80,10 +99,12 @@ class CarriedBall(MovingBall):
 
     def find_sustained_contact(self, t: float, height: float) -> None:
         """Find the contact that lasts after a touch, as seen from what the ball touches if that moves."""
-        self.contact = None
+        self.contact, self._frame = None, None
         slips, self._slips = self._slips, False
         near = self.near(t, *self.state[:2])
-        moving = [(self._leaving(each), each[0]) for each in near if isinstance(each[0], PosedObstacle)]
+        driven = [(self._leaving(each), each[0]) for each in near if isinstance(each[0], PosedObstacle)]
+        moving = [each for each in driven if each[1].moves]
+        self._beside = [each for _, each in driven] if not moving else ()
         if not moving:
             if near:
                 self._stay(near, self.applied(t, self.state), slips, height)
@@ -91,7 +112,7 @@ class CarriedBall(MovingBall):
         on = min(moving, key=lambda each: each[0])[1].source
         frame, applied = on.frame(t), self.applied(t, self.state)
         if frame.turns:
-            self._refuse_turning(t, near, frame, applied, height)
+            self._hop(t, near, frame, applied, height)
             return
         self.state = frame.into(t, self.state)
         own = [obstacle.source for _, obstacle in moving if obstacle.surface.motion == on.surface.motion]
@@ -109,10 +130,8 @@ class CarriedBall(MovingBall):
         _, _, vx, vy, *_ = relative(self.state, obstacle.velocity_at(point))
         return vx * touch.nx + vy * touch.ny
 
-    def _refuse_turning(
-        self, t: float, near: Sequence[Near], frame: Frame, applied: Acceleration, height: float
-    ) -> None:
-        """Raise RunError if it stays on a surface that turns."""
+    def _hop(self, t: float, near: Sequence[Near], frame: Frame, applied: Acceleration, height: float) -> None:
+        """Leave what turns by a hop where it would stay on it."""
         x, y, *_, spin, _ = frame.arc.state(t)
         (ax, ay), turning = frame.arc.acceleration(t), frame.angular_acceleration(t)
         for obstacle, touch in near:
@@ -121,10 +140,10 @@ class CarriedBall(MovingBall):
             dx, dy = self.state[0] - x, self.state[1] - y
             against = applied[0] - ax + turning * dy + spin**2 * dx, applied[1] - ay - turning * dx + spin**2 * dy, 0.0
             by = press(self.state, against, touch.nx, touch.ny, 0.0)
-            if by > PUSH and self._leaving((obstacle, touch)) <= takeoff_speed(by, height):
-                what = f"it stays on {obstacle.surface.name!r}, which turns"
-                remedy = "a ball bounces off what turns, but cannot slide or roll on it: give it restitution"
-                raise failed(t, self.ball.name, f"{what}; {remedy}")
+            short = takeoff_speed(by, max(height, HOP)) - self._leaving((obstacle, touch))
+            if by > PUSH and short >= 0.0:
+                u, v, vx, vy, *spins = self.state
+                self.state = (u, v, vx + short * touch.nx, vy + short * touch.ny, *spins)
 
     def _refuse_wedged(self, t: float, near: Sequence[Near], frame: Frame) -> None:
         """Raise RunError if what carries it presses it on something else."""

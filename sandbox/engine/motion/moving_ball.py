@@ -175,6 +175,11 @@ class MovingBall:
         """The name of the surface that it is in sustained contact with, if any."""
         return "" if self.contact is None else self.contact.obstacle.surface.name
 
+    @property
+    def held_by(self) -> Sequence[Obstacle]:
+        """What it is in sustained contact with, and so does not meet."""
+        return () if self.contact is None else (self.contact.obstacle,)
+
     def arrive(self, t: float, state: State) -> None:
         """Move it along its arc up to t, where it is in this state.
 
