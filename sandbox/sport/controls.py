@@ -29,11 +29,15 @@ class Spin:
 class Spread:
     """The precision of a practised player at a parameter: a standard deviation of ``share`` times its value, or at
     least ``minimum``, which is in the parameter's unit.
+
+    One with ``sd``, the key of a parameter that holds it, is of what the picture does not show, such as the direction
+    to the side: it is in every fan, map and spread.
     """
 
     key: str
     share: float = 0.0
     minimum: float = 0.0
+    sd: str = ""
 
     def sigma(self, value: float) -> float:
         """Standard deviation around a value."""
@@ -132,5 +136,5 @@ class Controls:
             "handles": [
                 key.partition("[")[0] for it in self.handles for key in (it.x, it.y, *it.with_y, it.where) if key
             ],
-            "spread": [spread.key for spread in self.spread],
+            "spread": [key for spread in self.spread for key in (spread.key, spread.sd) if key],
         }

@@ -12,19 +12,17 @@ import numpy as np
 
 from sandbox import parameters as declared
 from sandbox.lab.runs import fly_together, runs
+from sandbox.lab.spread.causes import players_spread
 from sandbox.picture.camera import Camera
 from sandbox.picture.palette import Colour
 from sandbox.picture.path import points
 from sandbox.scene import Scene
-from sandbox.sport.controls import Spread
 from sandbox.window.shots import Shot
 
 SHOTS = 100
 #: So many more are computed at least before a fan is shown, and no more after this time in s; and after this one by a
 #: process that may have to compute the path at once.
 FEWEST, QUICK, BRIEF = 8, 0.3, 0.05
-#: Spread if the scene gives none: of the speed, as a share of it, and of the angle, in deg.
-SPEED, ANGLE = 0.01, 0.5
 #: Opacity of one path; and how far from the picture, in px, a path is still followed.
 FAINT, FAR = 0.3, 2000
 #: Size in px of the mark at the end of a path.
@@ -55,17 +53,6 @@ class Cloud(NamedTuple):
     shots: int
     scored: int
     left: int  # shots that are still to be computed, to their end and at the scene's accuracy
-
-
-def spread_of(scene: Scene, width: float) -> dict[str, tuple[declared.Parameter, float]]:
-    """Each parameter that a player does not hit exactly, and its standard deviation, ``width`` times the usual one."""
-    controls, known = scene.controls, {p.key: p for p in declared.walk(scene.parameters)}
-    if any(known[key].value != value for key, value in controls.set_on_pull.items()):
-        return {}  # the shot does not start as a player's does, so these parameters have no effect
-    spread = controls.spread or (Spread(controls.speed, SPEED), Spread(controls.angle, minimum=ANGLE))
-    varied = [(known[item.key], item) for item in spread if item.key in known]
-    sigmas = [(p, width * item.sigma(p.value)) for p, item in varied if isinstance(p.value, float)]
-    return {p.key: (p, sigma) for p, sigma in sigmas if sigma > 0}
 
 
 def within(parameter: declared.Parameter, values: np.ndarray) -> np.ndarray:
@@ -147,7 +134,7 @@ def _asked(scene: Scene) -> list[str]:
 def shots_from_end(scene: Scene, width: float, left: int) -> list[FanShot | None]:
     """The shots that another process has computed so far, from the end of the fan, of which so many were ``left`` when
     it was asked for more; none of a fan that is computed together."""
-    fan = _fan(scene, spread_of(scene, width), _asked(scene), backwards=True)
+    fan = _fan(scene, players_spread(scene, width), _asked(scene), backwards=True)
     if not fan.together:
         fan.go_on(left, 1, BRIEF)
     return fan.flown
@@ -169,7 +156,7 @@ def cloud(
     A ``quick`` one, for an aim that changes, ends where the fact ``early`` is known, such as at the landing, if it is
     known only at the end which shots score.
     """
-    spread = spread_of(scene, width)
+    spread = players_spread(scene, width)
     if not spread:
         return Cloud((0, 0), (0, 0), b"", ("no fan: this shot does not start from the player's controls", ""), 0, 0, 0)
     asked = _asked(scene)

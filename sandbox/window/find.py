@@ -9,11 +9,11 @@ from typing import Any, NamedTuple
 from sandbox.lab.aim import search
 from sandbox.lab.aim.question import Solution, Target
 from sandbox.lab.axes import Span
+from sandbox.lab.spread.causes import players_spread
 from sandbox.scene import Scene
 from sandbox.sport.amounts import amount
 from sandbox.sport.controls import Goal
 from sandbox.window.aim import speeds
-from sandbox.window.fan import spread_of
 from sandbox.window.handles import grips
 from sandbox.window.session import Session
 from sandbox.window.worker import Packed, computed
@@ -139,7 +139,7 @@ def _found(scene: Scene, solution: Solution) -> Found:
     rooms = solution.region.room if solution.region is not None else {}
     if solution.interval is not None:
         rooms = dict.fromkeys(solution.values, 0.5 * solution.interval.width)
-    spread = spread_of(aimed, 1.0)
+    spread = players_spread(aimed, 1.0)
     margins = [room / spread[key][1] for key, room in rooms.items() if key in spread]
 
     def texts(numbers: Mapping[str, float]) -> list[str]:

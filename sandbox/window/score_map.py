@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from statistics import NormalDist
 from time import perf_counter
 from typing import NamedTuple
 
@@ -12,11 +13,12 @@ import pygame
 from sandbox import parameters as declared
 from sandbox.errors import RequestError
 from sandbox.lab.runs import runs
+from sandbox.lab.spread.causes import ANGLE, SPEED, players_spread
 from sandbox.picture.palette import Colour, mix, palette
 from sandbox.scene import Scene
 from sandbox.sport.controls import Spread
 from sandbox.window.canvas import Canvas
-from sandbox.window.fan import ANGLE, SPEED, within
+from sandbox.window.fan import within
 from sandbox.window.layout import Form
 
 CARD = palette("card")
@@ -30,17 +32,18 @@ COARSE, FINER, QUICK = (13, 9), 3, 0.5
 MAP = (210, 150)
 #: What is said of a map on which nothing scores: where to look.
 NOTHING = "none scores; / looks farther"
-#: A cell's value.
-MISSED, SCORED, FAILED = 0, 1, 2
+#: What is not in the picture, such as the direction to the side, has so many values at each cell, on one side, since
+#: left and right are alike: each stands for as many shots.
+ASIDE = 5
 
 
 class ScoreMap(NamedTuple):
-    """The outcome at each cell of a grid over speed and angle, in their units."""
+    """The share of shots that score at each cell of a grid over speed and angle, in their units."""
 
     speeds: tuple[float, float]  # lowest and highest
     angles: tuple[float, float]
     units: tuple[str, str]
-    cells: np.ndarray  # shape (speeds, angles)
+    cells: np.ndarray  # shape (speeds, angles), from 0 to 1, NaN where none could be computed
     seconds: float  # that it took
 
     def holds(self, speed: float, angle: float) -> bool:
@@ -60,8 +63,8 @@ class ScoreMap(NamedTuple):
 
     @property
     def share(self) -> float:
-        """The share of the cells that score."""
-        return float((self.cells == SCORED).mean())
+        """The share of all shots that score."""
+        return float(np.nan_to_num(self.cells).mean())
 
     @property
     def said(self) -> str:
@@ -88,12 +91,36 @@ def score_map(scene: Scene, finer: int = 1) -> ScoreMap:
         shares = (np.arange(finer * count) + 0.5) / (finer * count)
         middles.append(low + shares * (high - low))
     points = np.stack(np.meshgrid(*middles, indexing="ij"), axis=-1).reshape(-1, 2)
-    found = runs(scene, keys, points.tolist(), asked=[controls.scores])
-    cells = [FAILED if isinstance(run, Exception) else SCORED if run.result[controls.scores] else MISSED
-             for run in found]  # fmt: skip
+    unseen = _unseen(scene)
+    several = [[*point, *others] for point in points.tolist() for others in unseen.tolist()]
+    found = runs(scene, [*keys, *_hidden(scene)], several, asked=[controls.scores])
+    scored = [np.nan if isinstance(run, Exception) else float(bool(run.result[controls.scores])) for run in found]
     units = known[controls.speed].unit or "", known[controls.angle].unit or ""
     shape = finer * COARSE[0], finer * COARSE[1]
-    return ScoreMap(ends[0], ends[1], units, np.array(cells, np.uint8).reshape(shape), perf_counter() - started)
+    return ScoreMap(ends[0], ends[1], units, _means(scored, len(unseen)).reshape(shape), perf_counter() - started)
+
+
+def _hidden(scene: Scene) -> list[str]:
+    """The parameters that scatter, but are not in the picture."""
+    hidden = {item.key for item in scene.controls.spread if item.sd}
+    return [key for key in players_spread(scene) if key in hidden]
+
+
+def _unseen(scene: Scene) -> np.ndarray:
+    """Values of these parameters at each cell, shape (values, parameters): the middles of equal shares of a normal
+    distribution to one side."""
+    scatter = [players_spread(scene)[key] for key in _hidden(scene)]
+    if not scatter:
+        return np.empty((1, 0))
+    sizes = [NormalDist().inv_cdf(0.5 + 0.5 * (place + 0.5) / ASIDE) for place in range(ASIDE)]
+    return np.array([[parameter.value + sd * size for parameter, sd in scatter] for size in sizes])
+
+
+def _means(scored: list[float], shots: int) -> np.ndarray:
+    """The share that scores of so many shots at each cell, of those that could be computed."""
+    cells = np.array(scored).reshape(-1, shots)
+    known = np.isfinite(cells)
+    return np.where(known.any(axis=1), np.nan_to_num(cells).sum(axis=1) / np.maximum(known.sum(axis=1), 1), np.nan)
 
 
 def map_forms(
@@ -103,6 +130,14 @@ def map_forms(
     told where the cells are."""
     maps = [_map_form(sheet, found, aim, drawn, share) for share in (1.0, 0.75, 0.55)]
     return [*maps, sheet.text([(found.said, CARD["text"])])._replace(whole=False)]
+
+
+def _coloured(cells: np.ndarray) -> np.ndarray:
+    """The colours of cells, shape (speeds, angles, 3): greener the more shots score."""
+    missed, failed = np.array(mix(CARD["background"], CARD["quiet"], 0.3)), np.array(CARD["bad"])
+    share = np.nan_to_num(cells)[..., None]
+    colours = missed + share * (np.array(CARD["good"]) - missed)
+    return np.where(np.isnan(cells)[..., None], failed, colours).round().astype(np.uint8)
 
 
 def _map_form(
@@ -122,8 +157,7 @@ def _map_form(
     def draw(card: pygame.Rect) -> None:
         sheet.painter.panel(card, CARD["background"], 0.9, 8 * unit)
         cells = pygame.Rect(card.right - 2 * gap - wide, card.top + row + 2 * gap, wide, tall)
-        colours = np.array([mix(CARD["background"], CARD["quiet"], 0.3), CARD["good"], CARD["bad"]], np.uint8)
-        image = pygame.surfarray.make_surface(colours[found.cells[:, ::-1]])
+        image = pygame.surfarray.make_surface(_coloured(found.cells[:, ::-1]))
         sheet.surface.blit(pygame.transform.scale(image, cells.size), cells)
         across, along = found.place(*aim)
         if 0 <= across <= 1 and 0 <= along <= 1:

@@ -2,9 +2,11 @@
 
 Models: gravity; drag and lift in flight; impacts with rim, bracket, backboard and floor, with spin and friction; the
 net, which slows a ball that falls through it (its form and strength are assumed: no measurement was found); wind if
-the scene file sets it.
-Leaves out: the ball's loss of spin in the air; everything sideways, so the ring is two tubes and a shot is never off to
-the side; the deformation of ball, rim and board.
+the scene file sets it. A shot that is off to the side (launch.side) is computed in its own plane, in which the ring is
+two tubes as far apart as leaves the ball's centre the room that it has in the round ring; off the board it goes on to
+the side with what friction leaves of that speed. Fan, map and spread scatter to the side by launch.aside.
+Leaves out: the ball's loss of spin in the air; what the side of the ring does, so a ball that falls on it misses, while
+some of those go in; the deformation of ball, rim and board.
 
 Sizes of effects, measured on the default free throw as the shift of the point where the ball comes down to the ring:
 1 m/s of headwind, 7.5 cm shorter. Of what is modelled, drag takes 45 cm, and lift as large as the spin ratio (assumed),
@@ -21,6 +23,7 @@ from math import inf
 from typing import Any
 
 from sandbox.kit import (
+    DEGREE,
     ENDED,
     LAUNCH,
     Circle,
@@ -32,6 +35,7 @@ from sandbox.kit import (
     ForceRegion,
     Group,
     Handle,
+    Launch,
     Moment,
     Passes,
     RequestError,
@@ -60,6 +64,7 @@ from sandbox.kit import (
     quantity,
     rectangle,
     roughly,
+    sin,
     smooth,
     switch,
     where,
@@ -114,9 +119,17 @@ class Net(Group):
     damping: float = quantity(..., "1/s", 0, 100, "deceleration over speed of a ball falling through it")
 
 
+class Shot(Launch):
+    """The ball as it leaves the hand; to the side, too."""
+
+    side: float = quantity(0.0, "deg", -45, 45, "direction to the side of the middle of the ring; 0 is straight at it")
+    aside: float = quantity(..., "deg", 0, 20, "standard deviation of side, in fan, map and spread")
+
+
 class Parameters(Flight):
     """All parameters of a shot."""
 
+    launch: Shot = group(..., "the ball as it is launched")
     release: Release = group(..., "where the ball leaves the hand")
     hoop: Hoop = group(..., "the ring")
     backboard: Backboard = group(..., "the board")
@@ -127,6 +140,31 @@ class Parameters(Flight):
     def held(self) -> Any:
         """Height in m of the ball's centre at the release: no lower than where the ball lies on the floor."""
         return maximum(self.release.height, self.ball.radius)
+
+    @property
+    def beside(self) -> Any:
+        """Distance in m of the middle of the ring from the plane in which the ball flies, which is that of the run."""
+        return self.hoop.distance * sin(self.launch.side * DEGREE)
+
+    @property
+    def room(self) -> Any:
+        """How far in m the ball's centre may be from the middle of the ring, at its height, without touching it."""
+        return 0.5 * self.hoop.inner_diameter - self.ball.radius
+
+    @property
+    def free(self) -> Any:
+        """The same along the plane in which the ball flies; 0 if it cannot pass without touching the ring's side."""
+        room, beside = self.room, self.beside
+        free = maximum(room * room - beside * beside, 0.0) ** 0.5
+        return where(free > NARROWEST, free, 0.0)
+
+    @property
+    def section(self) -> Hoop:
+        """The ring as a ball meets it that flies past its middle at a distance: two tubes nearer to each other, so that
+        the ball's centre has as much room between them as in the round ring."""
+        narrows = (self.room > 0.0) & (self.free > 0.0) & (self.beside != 0.0)
+        narrower = where(narrows, 2.0 * (self.room - self.free), 0.0)
+        return self.hoop.model_copy(update={"inner_diameter": self.hoop.inner_diameter - narrower})
 
     @property
     def board(self) -> tuple[float, float, float, float]:
@@ -145,8 +183,16 @@ CONTROLS = Controls(
         Handle("backboard.gap", "backboard.top", at=lambda parameters: parameters.board[::3]),
     ),
     scores="made",
-    spread=(Spread("launch.speed", 0.01), Spread("launch.angle", minimum=1.0), Spread("launch.spin", 0.2)),  # assumed
+    spread=(
+        *(Spread("launch.speed", 0.01), Spread("launch.angle", minimum=1.0), Spread("launch.spin", 0.2)),  # assumed
+        Spread("launch.side", sd="launch.aside"),
+    ),
+    landing=("entry_offset", "entry_aside"),
 )
+
+#: A ball whose centre would have less room than this, in m, to either side is taken to miss: it flies past the middle
+#: of the ring so far that it falls on its side.
+NARROWEST = 0.01
 
 #: A shot still moving after this time in s is ended.
 LONGEST = 60.0
@@ -214,7 +260,7 @@ def is_tired(event: Event) -> bool:
 
 def court(parameters: Parameters) -> list[Surface]:
     """Floor, ring and board. Raises RequestError for what is upside down, or in something else."""
-    hoop, backboard, (front, back) = parameters.hoop, parameters.backboard, parameters.hoop.rims
+    hoop, backboard, (front, back) = parameters.hoop, parameters.backboard, parameters.section.rims
     left, bottom, right, top = parameters.board
     if top <= bottom:
         raise RequestError(f"backboard.top = {top:g} m is not above backboard.bottom = {bottom:g} m: swap them")
@@ -258,12 +304,35 @@ def made(run: Run, parameters: Parameters) -> bool:
     if left is None:
         return False
     up = max((t for t, _ in run.crossings("ball", parameters.hoop.middle, (0.0, -1.0)) if t < left), default=0.0)
-    return any(up < t <= left and inside(state, parameters) for t, state in falls_to(run, parameters))
+    falls = falls_to(run, parameters)
+    return any(up < t <= left and inside(state, parameters) and not on_side(t, run, parameters) for t, state in falls)
 
 
 def inside(state: State, parameters: Parameters) -> bool:
-    """True if the ball's centre is between the inner edges, seen from above."""
-    return abs(state[0] - parameters.hoop.distance) < 0.5 * parameters.hoop.inner_diameter
+    """True if the ball's centre is between the inner edges."""
+    return bool(abs(state[0] - parameters.hoop.distance) < 0.5 * parameters.section.inner_diameter)
+
+
+def on_side(t: float, run: Run, parameters: Parameters) -> bool:
+    """True if the ball falls on the side of the ring instead, at time t in s."""
+    beside = abs(aside_at(t, run, parameters))
+    return beside > 0.0 and (parameters.free == 0.0 or beside >= parameters.room)
+
+
+def aside_at(t: float, run: Run, parameters: Parameters) -> float:
+    """How far in m the ball is beside the middle of the ring at time t in s, positive to the left.
+
+    It flies straight on to the side, and the ring is met near its middle. The board leaves it the share 1 / (1 + k) of
+    its sideways speed, k its moment of inertia over m r^2: it grips, since that speed is small.
+    """
+    beside = float(parameters.beside)
+    if beside == 0.0 or parameters.free == 0.0:
+        return beside
+    hit = next((event for event in run.events if event.partner == "backboard" and event.t < t), None)
+    if hit is None:
+        return beside
+    further = hit.speed * (t - hit.t) / (1.0 + parameters.ball.inertia_factor)
+    return beside * (hit.x + further) / parameters.hoop.distance
 
 
 @cached_per_run
@@ -276,6 +345,17 @@ def entry(run: Run, parameters: Parameters) -> Moment | None:
 def beyond_middle(ball: Moment, it: Parameters) -> float:
     """The distance in m of the ball beyond the middle of the ring."""
     return ball.x - it.hoop.distance
+
+
+def aside_of_middle(run: Run, parameters: Parameters) -> float | None:
+    """The distance in m of the ball to the side of the middle of the ring, as it comes down to it."""
+    ball = entry(run, parameters)
+    return None if ball is None else aside_at(ball.t, run, parameters)
+
+
+def is_aside(run: Run, parameters: Parameters) -> bool:
+    """True for a shot that is not straight at the ring."""
+    return bool(parameters.launch.side != 0.0)
 
 
 @cached_per_run
@@ -311,12 +391,12 @@ class Decided(Passes):
 
 def decided(parameters: Parameters) -> Decided:
     """The condition at which the shot is decided. In a wind, or with a way out below the board, no ball stays."""
-    ball, hoop, (back, level), wind = parameters.ball, parameters.hoop, parameters.hoop.rims[1], parameters.air.wind
+    ball, hoop, (back, level), wind = parameters.ball, parameters.hoop, parameters.section.rims[1], parameters.air.wind
     face, bottom, _, top = parameters.board
     barrier = parameters.gravity * (minimum(level + hoop.tube_radius, top) + ball.radius)
     needed = where((wind[0] == 0.0) & (wind[1] == 0.0) & (bottom <= level), barrier, -inf)
     factors = parameters.gravity, ball.inertia_factor * ball.radius**2
-    return Decided("floor", 1, *hoop.across(ball.radius), (back, face, level), factors, needed)
+    return Decided("floor", 1, *parameters.section.across(ball.radius), (back, face, level), factors, needed)
 
 
 def outcome(run: Run, parameters: Parameters) -> str:
@@ -333,6 +413,7 @@ FACTS = (
     Fact("entry_angle", "entry angle", "deg", fact_from(entry, "descent"), decided),
     Fact("entry_speed", "entry speed", "m/s", fact_from(entry, "speed"), decided),
     Fact("entry_offset", "from centre", "m", fact_from(entry, beyond_middle), decided, sides=("short", "long")),
+    Fact("entry_aside", "to the side", "m", aside_of_middle, decided, sides=("right", "left"), where=is_aside),
     Fact("apex", "apex above hand", "m", lambda run, it: apex(run, it) - it.held, decided),
     Fact("flight_time", "flight time", "s", fact_from(entry, "t"), decided),
     *LAUNCH,
@@ -347,6 +428,8 @@ def verdict(run: SceneRun, parameters: Parameters) -> str:
     if result["made"]:
         how = {"swish": "nothing but net", "rim": "off the rim", "bank": "off the board"}
         return f"In, {how[result['verdict']]}"
+    if abs(result["entry_aside"] or 0.0) >= parameters.room > 0.0:
+        return "Off to the side"
     touched = next((name for name in result["touches"] if name != "floor"), None)
     if touched:
         return "Off the board, and out" if touched == "backboard" else "Off the rim, and out"

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 import sandbox
 from sandbox.lab.runs import runs
 from scenes.basketball import hoop
+from scenes.basketball.scene import aside_at, out
 from tests.scenes.play import playing
 
 #: Without the net's force, which bends the end of the way.
@@ -267,3 +268,47 @@ def test_the_net_swings_after_the_ball_and_comes_to_rest():
     assert ends[2] == pytest.approx(-ends[0] * exp(-3.0 * pi / 11.0), rel=1e-6)
     assert ends[3] == pytest.approx(ends[0] * exp(-6.0 * pi / 11.0), rel=1e-6)
     assert net._shape(down, net.left + 2.0)[0].tolist() == [0.0] * 5
+
+
+# To the side --------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("beside", "made"), [(0.0, True), (0.06, True), (0.09, True), (0.1095, False), (0.2, False)])
+def test_a_ball_falls_through_where_it_has_room(beside: float, made: bool):
+    """Straight down at the middle of its chord: the ball's centre may be R - r = 0.1092 m beside the ring's middle."""
+    aside = np.degrees(np.arcsin(beside / 4.191))
+    run = sandbox.simulate(sandbox.load("basketball", {"launch.side": aside, "launch.speed": 7.37}))
+    assert run.result["made"] is made
+    assert run.result["entry_aside"] == pytest.approx(beside, abs=1e-9)
+
+
+def test_the_section_leaves_the_room_of_the_round_ring():
+    parameters = sandbox.load("basketball", {"launch.side": 1.2}).parameters
+    room, beside = parameters.room, 4.191 * np.sin(np.radians(1.2))
+    along = 0.5 * parameters.section.inner_diameter - parameters.ball.radius
+    assert np.hypot(along, beside) == pytest.approx(room, abs=1e-12)
+    assert sandbox.load("basketball").parameters.section == sandbox.load("basketball").parameters.hoop
+
+
+def test_left_and_right_are_alike_and_the_board_sends_it_further():
+    changes = {"launch.speed": 7.84, "launch.angle": 50.0}
+    left, right = (
+        sandbox.simulate(sandbox.load("basketball", {**changes, "launch.side": side})) for side in (1.0, -1.0)
+    )
+    assert (left.result["verdict"], right.result["verdict"]) == ("bank", "bank")
+    assert left.result["entry_aside"] == pytest.approx(-right.result["entry_aside"], abs=1e-12)
+    through, it = out(left, left.scene.parameters), left.scene.parameters
+    assert 1.05 < aside_at(through, left, it) / it.beside < 1.25
+
+
+def test_scatter_to_the_side_makes_the_middle_the_best():
+    """In the plane alone the best free throw is a bank shot; players know better."""
+    by, best = {"launch.speed": "1%", "launch.angle": 1.0, "launch.spin": "20%"}, {}
+    for aside in (0.0, 0.8):
+        for how, changes in (("bank", {"launch.speed": 7.82, "launch.angle": 50.0}), ("direct", {"launch.speed": 7.4})):
+            scene = sandbox.load("basketball", {**changes, "launch.aside": aside})
+            found = sandbox.spread(scene, by, facts=("made",), samples=512, causes=False)
+            assert ("launch.side" in [cause.key for cause in found.by]) == (aside > 0.0)
+            best[how, aside] = found.shares["made"].value
+    assert best["bank", 0.0] > best["direct", 0.0]
+    assert best["direct", 0.8] > best["bank", 0.8]

@@ -15,18 +15,19 @@ import pytest
 
 from sandbox.errors import RunError
 from sandbox.lab.runs import runs
+from sandbox.lab.spread.causes import players_spread
 from sandbox.picture.camera import Camera
 from sandbox.picture.lettering import Lettering
-from sandbox.scene import simulate
+from sandbox.scene import load, simulate
 from sandbox.window import commands
 from sandbox.window.background import HUNG
 from sandbox.window.canvas import Canvas
 from sandbox.window.charts import Charts
 from sandbox.window.commands import GROUPS, HINTS, TABLE
-from sandbox.window.fan import FEWEST, SHOTS, cloud, density, short, shots_from_end, spread_of
+from sandbox.window.fan import FEWEST, SHOTS, cloud, density, short, shots_from_end
 from sandbox.window.measure import away_from, reading
 from sandbox.window.path import LONG
-from sandbox.window.score_map import COARSE, FINER, SCORED, score_map
+from sandbox.window.score_map import COARSE, FINER, score_map
 from sandbox.window.session import Session
 from sandbox.window.shown import AHEAD
 from sandbox.window.stage import Stage
@@ -77,7 +78,7 @@ class TestTheFan:
 
     def test_its_shots_score_as_often_as_they_do_alone(self):
         session = Session("basketball", {"launch.speed": 7.5})
-        spread = spread_of(session.scene, 1.0)
+        spread = players_spread(session.scene, 1.0)
         draws = np.random.default_rng(1).standard_normal((SHOTS, len(spread)))[:30]
         made = 0
         for row in draws:
@@ -279,15 +280,23 @@ class TestTheFan:
 class TestTheMap:
     def test_its_middle_is_the_shot_and_its_cells_are_outcomes(self):
         session = Session("basketball/free-throw")
+        session.change({"launch.aside": 0.0})
         found = score_map(session.scene)
         assert found.place(session.value("launch.speed"), session.value("launch.angle")) == pytest.approx((0.5, 0.5))
         assert 0.02 < found.share < 0.6
         columns, rows = found.cells.shape
-        assert found.cells[columns // 2, rows // 2] == SCORED  # as the shot itself does
+        assert found.cells[columns // 2, rows // 2] == 1.0  # as the shot itself does
         for column, row in ((columns // 2, rows // 2), (0, 0), (columns - 1, 4), (8, rows - 1)):
             speed, angle = found.aim((column + 0.5) / columns, (row + 0.5) / rows)
             session.change({"launch.speed": speed, "launch.angle": angle})
-            assert simulate(session.scene).result["made"] == (found.cells[column, row] == SCORED)
+            assert simulate(session.scene).result["made"] == (found.cells[column, row] == 1.0)
+
+    def test_its_cells_are_shares_where_shots_scatter_aside(self):
+        scene = load("basketball/free-throw")
+        straight, aside = (score_map(scene.changed({"launch.aside": sd})) for sd in (0.0, 0.8))
+        assert set(np.unique(straight.cells)) == {0.0, 1.0}
+        assert {0.8, 0.6} <= set(np.unique(aside.cells).round(3))
+        assert 0.6 * straight.share < aside.share < 0.9 * straight.share
 
     def test_it_is_drawn_refined_and_a_drag_on_it_aims_there(self, player):
         player = player(PUTT)

@@ -60,6 +60,7 @@ def cause(scene: Scene, option: str, key: str, given: Any) -> Cause:
     """A cause from a standard deviation: a number in the parameter's unit, ``"1 deg"``, ``"1%"`` of the scene's own
     value, or evenly over ``"-3:3"``. Raises RequestError."""
     text = given.strip() if isinstance(given, str) else given
+    key = next((item.key for item in scene.controls.spread if item.sd and item.sd == key), key)  # it is a deviation
     try:
         value = value_at(scene.parameters, key)
     except Exception:
@@ -121,20 +122,24 @@ def parse_cause(scene: Scene, option: str, text: str) -> Cause:
 
 
 def causes_of(scene: Scene, given: Sequence[Cause], option: str) -> list[Cause]:
-    """The causes to compute with: those that are given, or by default the scene's own, as the window's fan has them.
-    Raises RequestError if there is none, or one twice."""
+    """The causes to compute with: those that are given, with what the picture does not show, or by default the scene's
+    own, as the window's fan has them. Raises RequestError if there is none, or one twice."""
     keys = [each.key for each in given]
     twice = next((key for key in keys if keys.count(key) > 1), None)
     if twice is not None:
         raise RequestError(f"{option} {twice}: given twice")
-    if given:
-        return list(given)
     own = players_spread(scene)
-    if not own:
+    if given:
+        always = {item.key for item in scene.controls.spread if item.sd} - set(keys)
+        own = {key: each for key, each in own.items() if key in always}
+    elif not own:
         raise RequestError(f"nothing scatters: give {option} KEY=SD, for example {option} launch.speed=1%")
     return [
-        Cause(Normal(key, parameter.value, sd, _bounds(scene, key)), parameter.unit or "")
-        for key, (parameter, sd) in own.items()
+        *given,
+        *(
+            Cause(Normal(key, parameter.value, sd, _bounds(scene, key)), parameter.unit or "")
+            for key, (parameter, sd) in own.items()
+        ),
     ]
 
 
@@ -146,7 +151,11 @@ def players_spread(scene: Scene, width: float = 1.0) -> dict[str, tuple[declared
         return {}  # these parameters have no effect
     spread = controls.spread or (Practised(controls.speed, SPEED), Practised(controls.angle, minimum=ANGLE))
     varied = [(known[item.key], item) for item in spread if item.key in known]
-    sigmas = [(p, width * item.sigma(p.value)) for p, item in varied if isinstance(p.value, float)]
+    sigmas = [
+        (p, width * (known[item.sd].value if item.sd else item.sigma(p.value)))
+        for p, item in varied
+        if isinstance(p.value, float)
+    ]
     return {p.key: (p, sigma) for p, sigma in sigmas if sigma > 0}
 
 
