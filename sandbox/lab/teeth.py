@@ -121,6 +121,11 @@ class _Times:
     term: Any
     factor: float
 
+    @property
+    def __name__(self) -> str:
+        """Facts that ask for a force by its cause find it."""
+        return str(getattr(self.term, "__name__", type(self.term).__name__))
+
     def __call__(self, *arguments: Any) -> Any:
         result = self.term(*arguments)
         return tuple(self.factor * part for part in result) if isinstance(result, tuple) else self.factor * result

@@ -270,10 +270,23 @@ def stepanek_lift(reynolds: Any, spin_ratio: Any) -> Any:
     return spin_ratio / (0.981 + 2.022 * spin_ratio)
 
 
+def lift_crisis(reynolds: Any, spin_ratio: Any) -> Any:
+    """Table tennis ball: ``stepanek_lift (1 - a exp(-((S - 0.5) / 0.15)^2))``, a = 0 at Re = 3e4, 1 at 9e4, held there.
+
+    Measured in flight for Re 3e4 to 9e4 and S up to 1: a deep valley of the lift around S = 0.5, with almost none left
+    at Re = 9e4 and S = 0.48 to 0.50. Only that point is from the source; the width of the valley, its growth with Re
+    and the lift beside it, a tennis ball's, are assumed. Source: Miyazaki, Sakai, Komatsu, Takahashi & Himeno 2017,
+    Eur. J. Phys. 38:024001, of which the abstract was read.
+    """
+    depth = clip((reynolds - 3e4) / 6e4, 0.0, 1.0)
+    off = (clip(spin_ratio, 0.0, 10.0) - 0.5) / 0.15
+    return stepanek_lift(reynolds, spin_ratio) * (1.0 - depth * exp(-off * off))
+
+
 #: Models of a tennis ball, by name. In free flight, 15 to 30 m/s and up to 2,500 rpm, the drag coefficient is 0.507 +-
 #: 0.024, whatever the spin: Cross & Lindsey 2013.
 TENNIS_DRAG: dict[str, Coefficient] = {"cross-lindsey": Constant(0.507), "stepanek": stepanek_drag}
-TENNIS_LIFT: dict[str, Coefficient] = {"stepanek": stepanek_lift}
+TENNIS_LIFT: dict[str, Coefficient] = {"stepanek": stepanek_lift, "lift-crisis": lift_crisis}
 
 
 # --------------------------------------------------------------------------------------------------------- baseball

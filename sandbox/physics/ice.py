@@ -1,9 +1,9 @@
 """Bodies that slide on ice, seen from above: pucks, whose deceleration is constant, and curling stones.
 
-A **puck** (``Glide``) slides on a straight path with ``dv/dt = -mu g``, and its spin decays independently, by
-``dw/dt = -+ 2 mu_sp g / r`` for a disc: in closed form. With mu = 0 it is a puck on an air table. Left out: that a
-spinning disc is slowed less along its path, and a sliding one less in its spin (Voyenli & Eriksen 1985, American
-Journal of Physics 53, 1149).
+A **puck** (``Glide``) slides on a straight path with ``dv/dt = -mu g - k v^2``, and its spin decays independently, by
+``dw/dt = -+ 2 mu_sp g / r`` for a disc: in closed form where the air is left out, k = 0. With mu = 0 it is a puck on an
+air table. Left out: that a spinning disc is slowed less along its path, and a sliding one less in its spin (Voyenli &
+Eriksen 1985, American Journal of Physics 53, 1149).
 
 A **curling stone** (``CurlingIce``) is slowed the more the slower it is, and turns towards its spin:
 
@@ -42,7 +42,8 @@ def _straight(state: PlaneState, deceleration: float, spin_deceleration: float) 
 
 @dataclass(frozen=True)
 class Glide:
-    """Constant friction: mu is the deceleration over gravity, mu_sp the torque on the spin over m g r.
+    """Constant friction and drag: mu is the deceleration over gravity, mu_sp the torque on the spin over m g r, and
+    ``drag`` is k = rho Cd A / 2 m.
 
     >>> import sandbox
     >>> from sandbox import DISC, Ball, Glide, Setup
@@ -56,22 +57,42 @@ class Glide:
     spinning: float = 0.0
     gravity: float = 9.81  # m/s^2
     name: str = "ice"  # what it is called in reports: ice, deck, table
+    drag: float = 0.0  # 1/m
 
     rolls: ClassVar[bool] = False
-    in_closed_form: ClassVar[bool] = True
-    TERMS: ClassVar[Mapping[str, str]] = {"sliding": "sliding friction", "spinning": "spinning friction"}
+    TERMS: ClassVar[Mapping[str, str]] = {
+        "sliding": "sliding friction",
+        "spinning": "spinning friction",
+        "drag": "drag",
+    }
 
     def __post_init__(self) -> None:
-        check(self.name, self, not_negative=["sliding", "spinning", "gravity"])
+        check(self.name, self, not_negative=["sliding", "spinning", "gravity", "drag"])
+
+    @property
+    def in_closed_form(self) -> bool:
+        return self.drag == 0.0
 
     @property
     def strongest(self) -> float:
-        """The deceleration in m/s^2."""
+        """The deceleration in m/s^2 without air."""
         return self.sliding * self.gravity
 
     def phase(self, state: PlaneState, radius: float) -> PlanePhase:
         """Slides until it stops or its spin ends."""
-        return _straight(state, self.strongest, 2.0 * self.spinning * self.gravity / radius)
+        _, _, vx, vy, wz = state
+        spin_deceleration = 2.0 * self.spinning * self.gravity / radius
+        if self.drag == 0.0 or vx * vx + vy * vy <= _CREEPING * _CREEPING:
+            return _straight(state, self.strongest, spin_deceleration)
+        turning = -copysign(spin_deceleration, wz) if abs(wz) > STILL else 0.0
+
+        def acceleration_at(t: float, state: PlaneState) -> tuple[Any, Any, Any]:
+            _, _, vx, vy, _ = state
+            speed = sqrt(vx * vx + vy * vy)
+            slowing = self.strongest / speed + self.drag * speed
+            return -slowing * vx, -slowing * vy, turning
+
+        return PlanePhase("sliding", state, inf, *acceleration_at(0.0, state), acceleration_at=acceleration_at)
 
 
 @dataclass(frozen=True)

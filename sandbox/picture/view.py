@@ -258,7 +258,12 @@ class View(BallDrawing[P]):
 
     @property
     def _caveat(self) -> list[str]:
-        return [self.CAVEAT] if self.CAVEAT else []
+        return [self.caveat] if self.caveat else []
+
+    @property
+    def caveat(self) -> str:
+        """What is not validated."""
+        return self.CAVEAT
 
     def _stretched(self, camera: Camera) -> list[str]:
         """To note how much larger heights are drawn than lengths."""

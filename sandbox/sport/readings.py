@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import atan2, degrees, hypot
+from math import atan2, degrees, hypot, pi
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from sandbox.engine.model.setup import Touches
 from sandbox.engine.model.shapes import Vector
+from sandbox.engine.motion.forces_on_ball import cause
 from sandbox.physics.elementwise import maximum, minimum
 from sandbox.renamed import name_old_names
 from sandbox.sport.amounts import amount
@@ -53,6 +54,19 @@ class Moment(NamedTuple):
 
 #: The names of everything that can be read from a moment.
 MOMENT = (*Moment._fields, *(name for name, what in vars(Moment).items() if isinstance(what, property)))
+
+
+def coefficient_at_start(force: str) -> Callable[[Run, Any], float | None]:
+    """A fact: the coefficient of a force by its cause, such as "drag", as the first ball starts; None without air."""
+
+    def coefficient(run: Run, parameters: Any) -> float | None:
+        ball, air = run.setup.balls[0], parameters.air
+        ux, uy = (v - wind for v, wind in zip(ball.velocity, air.wind, strict=True))
+        pressure = 0.5 * air.density * pi * ball.radius**2 * (ux * ux + uy * uy)
+        pulls = [each(0.0, ball.position, ball.velocity, ball.spin) for each in ball.forces if cause(each) == force]
+        return sum(hypot(*pull) for pull in pulls) / pressure if pressure else None
+
+    return coefficient
 
 
 def words_of(run: Run, event: Event, several: bool = True) -> tuple[str, ...]:

@@ -19,7 +19,7 @@ UPRIGHT, APART, TALL, DEEP = 10.67, 5.64, 1.85, 48.8  # m: above the bar and bet
 class Picture(SideView[Parameters]):
     LOOK = Look(COLOURS["ball"])
     TRACE, OTHER_TRACES = COLOURS["trace"], COLOURS["earlier"]
-    LENGTH_ROWS, MEASURED_FROM, THING = 1, "from the kick", "ball"
+    LENGTH_ROWS, MEASURED_FROM, THING, CAVEAT = 1, "from the kick", "ball", "not validated"
 
     @property
     def frame_width(self) -> float:

@@ -1,9 +1,10 @@
-"""American football from the side: punt, kick-off and field goal, and the bounce that nobody can predict.
+"""American football from the side: kicks, and the bounce that nobody can predict. Not validated.
 
 Models: gravity; drag by the ball's angle to the wind; an ellipse of 28.6 x 17.3 cm that turns end over end or, as a
 spiral, keeps its nose in its path; bounces, rolling and sliding of the ellipse on the grass; the bar.
 Leaves out: everything sideways; lift, and the torque of the air, which makes a bad spiral wobble; that ball and grass
-deform; how it rolls once it has stopped bouncing, where the run ends. Not validated.
+deform; how it rolls once it has stopped bouncing, where the run ends. No measured kick, and no number of the force on a
+tumbling ball, could be read.
 """
 
 from __future__ import annotations

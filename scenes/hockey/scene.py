@@ -1,10 +1,10 @@
-"""Hockey from above: a puck on the ice, off the boards, past the players, between the posts; or on an air table.
+"""Hockey from above, a puck off the boards and past the players, or on an air table. Not validated.
 
-Models: constant friction of the ice, none of an air table; impacts with boards, posts, net and players, with friction
-and the puck's spin; players, or mallets, that stand or move at an even speed.
+Models: constant friction of the ice, none of an air table; drag of a puck that flies flat; impacts with boards, posts,
+net and players, with friction and the puck's spin; players, or mallets, that stand or move at an even speed.
 Leaves out: the third dimension, and with it the saucer pass and every shot that leaves the ice; how a spinning puck is
 slowed less along its path; the near slot of a table. A rounded corner is 64 chords, 0.7 deg off at most.
-Not validated: the friction of ice, and how boards and players answer.
+Assumed, as nothing measured was found: drag, the friction of ice, and how boards and players answer.
 """
 
 from __future__ import annotations
@@ -66,13 +66,27 @@ class Player(Group):
     vy: float = quantity(0.0, "m/s", -15, 15, "to the left")
 
 
+class Puck(SlidingDisc):
+    """The puck, and how it meets the boards."""
+
+    height: float = quantity(..., "m", 0.001, 0.2, "thickness")
+    drag: float = quantity(..., "", 0, 2, "drag coefficient, edge on")
+
+
+class Air(Group):
+    """The air."""
+
+    density: float = quantity(..., "kg/m^3", 0, 1500, "density")
+
+
 class Parameters(Sliding):
     """All parameters of a shot."""
 
     launch: Launch = group(..., "the puck as it leaves the stick")
     players: list[Player] = groups(..., "who is on the ice")
     player: SlidingDisc = group(..., "what they are, and how the puck meets them")
-    puck: SlidingDisc = group(..., "the puck, and how it meets the boards")
+    puck: Puck = group(..., "the puck, and how it meets the boards")
+    air: Air = group(..., "the air")
     rink: Rink = group(..., "the ice, or the table")
     duration: float = quantity(..., "s", 0.1, 60, "shown at most")
 
@@ -100,6 +114,7 @@ def build(parameters: Parameters) -> Setup:
     goal = Trap("goal", (inside, POST - half), POST, (inside, half - POST), ["puck"])
     bodies = [puck.at("puck", (it.launch.x, it.launch.aside), it.launch.velocity, it.launch.turning)]
     bodies += [it.player.at(f"{who.role} {i}", (who.x, who.y), (who.vx, who.vy)) for i, who in enumerate(it.players, 1)]
+    drag = 0.5 * it.air.density * puck.drag * 2.0 * puck.radius * puck.height / puck.mass
     check_inside(bodies, rink.length, rink.width, rink.corner)
     return Setup(
         bodies,
@@ -107,7 +122,7 @@ def build(parameters: Parameters) -> Setup:
         it.duration,
         Touches("goal"),
         it.player.bounce,
-        Glide(rink.sliding, 2.0 / 3.0 * rink.sliding, it.gravity),
+        Glide(rink.sliding, 2.0 / 3.0 * rink.sliding, it.gravity, drag=drag),
         [goal],
         planes=[(who.name, Glide(0.0 if any(who.velocity) else 1.0)) for who in bodies[1:]],
     )

@@ -38,6 +38,10 @@ class Picture(NetView[Parameters]):
         right = max(0.3 + 1.1 * end, float(self.path.points[-1, 0]) + 0.6 * TALL)
         return Box(min(-0.3 - 0.04 * end, left), 0.0, right, 2.0 - self.parameters.court.table)
 
+    @property
+    def caveat(self) -> str:
+        return "not validated: lift, and strokes" if self.parameters.court.table else ""
+
     def look_of(self, name: str) -> Look:
         return LOOKS[self.parameters.court.table > 0.0]
 

@@ -16,19 +16,20 @@ from sandbox.parameters import group, quantity
 from sandbox.physics.elementwise import clip, exp, maximum
 from sandbox.sport import net_game
 from sandbox.sport.controls import Controls, Handle, Spin, Spread
-from sandbox.sport.facts import ENDED
+from sandbox.sport.facts import ENDED, Fact
 from sandbox.sport.flight import Launch, Sphere
-from sandbox.sport.readings import LAUNCH
+from sandbox.sport.readings import LAUNCH, coefficient_at_start
 from sandbox.sport.solids import level
 
 
 def hong_drag(reynolds: Any, spin_ratio: Any) -> Any:
-    """0.47 for a slow ball, 0.16 for a fast one, past the drag crisis at Re = 2.3e5 (16 m/s).
+    """0.47 for a slow ball, 0.16 for a fast one, past the drag crisis at Re = 2.1e5 (15 m/s).
 
-    After Hong, Ozaki, Watanabe & Asai 2020, Appl. Sci. 10:3256 (Mikasa V200W: 0.15 to 0.17 at Re = 2.6e5 to 2.9e5);
-    the curve between is our own fit.
+    Hong, Ozaki, Watanabe & Asai 2020, Appl. Sci. 10:3256: a Mikasa V200W has least drag with 0.15 at Re = 2.6e5 or 0.17
+    at 2.9e5, by the side that it turns to the wind. Where and how steeply the drag falls before that is assumed; Thomas
+    2012 (thesis, University of Washington) calls other balls supercritical from Re = 2e5 on.
     """
-    return 0.16 + 0.31 / (1.0 + exp(clip((reynolds - 2.3e5) / 0.2e5, -50.0, 50.0)))
+    return 0.16 + 0.31 / (1.0 + exp(clip((reynolds - 2.1e5) / 0.12e5, -50.0, 50.0)))
 
 
 class Volleyball(Sphere, drag={"hong": hong_drag}):
@@ -70,4 +71,11 @@ def build(parameters: Parameters) -> Setup:
     return Setup([hit], [floor, net_game.net_of(parameters)], 20.0, net_game.Bounces())
 
 
-FACTS, verdict = (*net_game.FACTS, *LAUNCH, ENDED), net_game.verdict
+FACTS = (
+    *net_game.FACTS,
+    *LAUNCH,
+    Fact("drag_coefficient", "", "", coefficient_at_start("drag"), "start"),
+    Fact("lift_coefficient", "", "", coefficient_at_start("lift"), "start"),
+    ENDED,
+)
+verdict = net_game.verdict

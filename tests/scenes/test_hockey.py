@@ -11,7 +11,7 @@ import sandbox
 from sandbox.engine.ledger import ledger
 from tests.scenes.play import playing
 
-ALONE: dict[str, Any] = {"players": []}
+ALONE: dict[str, Any] = {"players": [], "air.density": 0.0}  # without air
 
 shoot = playing("hockey")
 
@@ -63,7 +63,7 @@ def test_corners_are_round():
 
 
 def test_an_air_table_takes_no_energy():
-    book = ledger(shoot("hockey/air-hockey", players=[], launch__angle=70.0, duration=3.0))
+    book = ledger(shoot("hockey/air-hockey", players=[], air__density=0.0, launch__angle=70.0, duration=3.0))
     assert book.contacts["ice"] == pytest.approx(0.0, abs=1e-15)
     assert book.end < book.start  # to the rails
     assert book.start + sum(book.impacts.values()) == pytest.approx(book.end, abs=1e-12)
@@ -71,7 +71,12 @@ def test_an_air_table_takes_no_energy():
 
 def test_a_mallet_strikes_the_puck():
     """An elastic smooth blow of a mallet of mass M on a puck at rest: 2 M v / (M + m)."""
-    blow = {"players": [{"role": "mallet", "x": -1.0, "y": 0.0, "vx": 3.0}], "launch.speed": 0.0, "duration": 0.3}
+    blow = {
+        "players": [{"role": "mallet", "x": -1.0, "y": 0.0, "vx": 3.0}],
+        "launch.speed": 0.0,
+        "duration": 0.3,
+        "air.density": 0.0,
+    }
     run = sandbox.simulate(
         sandbox.load("hockey/air-hockey", {**blow, "player.restitution": 1.0, "player.friction": 0.0})
     )

@@ -4,7 +4,7 @@ method."""
 import random
 from dataclasses import replace
 from itertools import pairwise
-from math import cos, hypot, log, pi, sin
+from math import atan, cos, hypot, log, log1p, pi, sin, sqrt
 
 import numpy as np
 import pytest
@@ -48,6 +48,19 @@ def expected(speed, law=ICE):
 
     ahead, aside = (over_speeds(lambda w, way=way: w**5 * way(turned(w))) for way in (cos, sin))
     return over_speeds(lambda w: 1.0), ahead, aside
+
+
+@pytest.mark.parametrize(("level", "error"), [("fast", 1e-4), ("balanced", 1e-6)])
+def test_a_puck_with_drag_stops_where_the_closed_form_says(level, error):
+    """s = ln(1 + k v^2 / mu g) / 2 k, t = atan(v (k / mu g)^(1/2)) / (k mu g)^(1/2); its spin slows by itself."""
+    k, slowing, v = 0.003, 0.981, 45.0
+    run = slid(
+        Ball("puck", 0.16, 0.038, (0.0, 0.0), (v, 0.0), 50.0, inertia_factor=DISC), Glide(0.1, 0.05, drag=k), level
+    )
+    time = atan(v * sqrt(k / slowing)) / sqrt(k * slowing)
+    assert end_of(run, "puck").x == pytest.approx(log1p(k * v * v / slowing) / (2.0 * k), abs=error)
+    assert run.duration == pytest.approx(time, abs=error)
+    assert run.state("puck", 1.0).spin == pytest.approx(50.0 - 2.0 * 0.05 * 9.81 / 0.038)
 
 
 @pytest.mark.parametrize(("level", "error"), [("fast", 1e-6), ("balanced", 3e-9), ("precise", 3e-10)])
