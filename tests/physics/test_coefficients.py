@@ -75,7 +75,7 @@ def test_what_depends_on_the_spin_alone_has_its_values(model, values: dict[float
         assert model(1e5, spin_ratio) == pytest.approx(value, abs=1e-4)
 
 
-def test_a_table_tennis_ball_loses_its_lift_where_it_was_measured():
+def test_a_table_tennis_ball_loses_its_lift_at_one_spin():
     """Miyazaki 2017: almost none at Re = 9e4 and S = 0.48 to 0.50; the valley is shallower for slow balls."""
     assert max(law.lift_crisis(9e4, s) for s in (0.48, 0.49, 0.50)) < 0.01
     assert law.lift_crisis(9e4, 0.5) < law.lift_crisis(6e4, 0.5) < law.lift_crisis(3e4, 0.5)
