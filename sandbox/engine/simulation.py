@@ -49,7 +49,7 @@ _MOST_IMPACTS = 200_000
 MOST_STEPS = 100_000
 
 #: Events that change nothing at the end of the run's duration.
-_GO_ON = {EventKind.ARC_END, EventKind.HEAP_STEP, EventKind.CLUSTER_END}
+_GO_ON = EventKind.ARC_END, EventKind.HEAP_STEP, EventKind.CLUSTER_END
 
 
 class Simulation:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import is_dataclass
 from math import isfinite
 from typing import Any
 
@@ -36,16 +37,17 @@ def acceleration_function(ball: Ball) -> AccelerationFunction:
 
     It raises RunError if one of them returns anything but real numbers, or arrays for many shots.
     """
-    mass, inertia, torques = ball.mass, ball.inertia, ball.torques
+    mass, inertia = ball.mass, ball.inertia
     rotates, loses_mass = ball.rotates, ball.loss is not None
     constant = [force(0.0, (0.0, 0.0), (0.0, 0.0), 0.0) for force in ball.forces if _is_constant(force)]
     constant_x, constant_y = (sum(parts) for parts in zip((0.0, 0.0), *constant, strict=True))
-    forces = [force for force in ball.forces if not _is_constant(force)]
+    forces = [_called(force) for force in ball.forces if not _is_constant(force)]
+    torques = [_called(torque) for torque in ball.torques]
 
     def acceleration(t: Any, state: State) -> Acceleration:
         try:
-            position = _position(state) if rotates else (state[0], state[1])
-            velocity, spin = (state[2], state[3]), state[4]
+            x, y, vx, vy, spin = state[:5] if rotates else state
+            position, velocity = _position(state) if rotates else (x, y), (vx, vy)
             fx, fy, torque = constant_x, constant_y, 0.0
             for force in forces:
                 gx, gy = force(t, position, velocity, spin)
@@ -64,6 +66,11 @@ def acceleration_function(ball: Ball) -> AccelerationFunction:
             raise force_error(ball, t, state) from None
 
     return acceleration
+
+
+def _called(term: Any) -> Any:
+    """Return a force or torque as Python calls it fastest: the bound ``__call__`` of one that is data."""
+    return term.__call__ if is_dataclass(type(term)) else term
 
 
 def _is_constant(force: Any) -> bool:

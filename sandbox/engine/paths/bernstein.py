@@ -30,7 +30,15 @@ def evaluate(b: Sequence[float], u: float) -> float:
 
 
 def _horner(b: Sequence[float], r: float) -> float:
-    """Return sum_k C(n, k) b[k] r^(n - k)."""
+    """Return sum_k C(n, k) b[k] r^(n - k). The degrees of a ball's spin, velocity and position are written out: most
+    are of these."""
+    match len(b):
+        case 6:
+            return ((((b[0] * r + 5.0 * b[1]) * r + 10.0 * b[2]) * r + 10.0 * b[3]) * r + 5.0 * b[4]) * r + b[5]
+        case 5:
+            return (((b[0] * r + 4.0 * b[1]) * r + 6.0 * b[2]) * r + 4.0 * b[3]) * r + b[4]
+        case 4:
+            return ((b[0] * r + 3.0 * b[1]) * r + 3.0 * b[2]) * r + b[3]
     value = 0.0
     for binomial, coefficient in zip(binomials(len(b) - 1), b, strict=False):
         value = value * r + binomial * coefficient
@@ -46,7 +54,15 @@ def binomials(n: int) -> Sequence[float]:
 def first_part(b: Sequence[float], u: float) -> list[float]:
     """Return the coefficients on [0, u], by de Casteljau: each level takes the weighted mean of neighbours in the level
     before, and the first of each level is a coefficient."""
-    w, left, degree = 1.0 - u, list(b), len(b) - 1
+    w, degree = 1.0 - u, len(b) - 1
+    if 3 <= degree <= 5:  # as those of a ball's path, written out: a coefficient depends only on those before it
+        b0, b1, b2, b3, b4, b5 = (*b, 0.0, 0.0, 0.0, 0.0, 0.0)[:6]
+        b1, b2, b3, b4, b5 = w * b0 + u * b1, w * b1 + u * b2, w * b2 + u * b3, w * b3 + u * b4, w * b4 + u * b5
+        b2, b3, b4, b5 = w * b1 + u * b2, w * b2 + u * b3, w * b3 + u * b4, w * b4 + u * b5
+        b3, b4, b5 = w * b2 + u * b3, w * b3 + u * b4, w * b4 + u * b5
+        b4, b5 = w * b3 + u * b4, w * b4 + u * b5
+        return [b0, b1, b2, b3, b4, w * b4 + u * b5][: degree + 1]
+    left = list(b)
     for level in range(1, degree + 1):
         for k in range(degree, level - 1, -1):
             left[k] = w * left[k - 1] + u * left[k]
