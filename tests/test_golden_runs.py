@@ -18,6 +18,7 @@ RUNS = {
     "soccer/goal-kick-in-a-gale": None,
     "soccer-curl": None,
     "soccer-curl/roberto-carlos-1997": None,
+    "soccer-curl/wrong-footed": None,
     "billiards": 0.3,  # into the rack, where in the end a bit decides who goes left
     "billiards/bank": None,
     "billiards/nine-ball-break": 2.1,
@@ -36,6 +37,7 @@ RUNS = {
     "hockey": None,
     "hockey/rim": None,
     "hockey/air-hockey": None,
+    "hockey/glove-save": None,
     "bowling": None,
     "bowling/straight": None,
     "curling": None,

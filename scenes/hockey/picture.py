@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import cached_property
 from itertools import chain, product
+from math import dist
 
 import numpy as np
 
@@ -15,8 +16,9 @@ from sandbox.picture.palette import Colour, scene_colours
 from sandbox.picture.places import Shape, goal
 from sandbox.picture.places.plan import Ground, Kit, Line, Person, Plan, Point, Spot, Worn, arc
 from sandbox.picture.views import AboveView, Area, Box, Camera, Look, Mark, Painter, near
+from sandbox.sport.dive import place_of
 
-from .scene import Parameters, Rink, decided
+from .scene import Parameters, Player, Rink, decided, named
 
 COLOURS = scene_colours(__file__)
 MARK = Mark(COLOURS["shine"], near(np.array([(0.0, 0.7, 0.7)]), 0.25))
@@ -32,6 +34,8 @@ BOARDS, FAR, POST, HEIGHT, HOLES = 0.025, 200.0, 0.03, 1.22, 0.075
 
 #: The picture shows so much ice around the puck's path, and whoever is so near to it, in m.
 AROUND, WITH = 3.0, 4.0
+#: How far a goalie who dives holds out each hand, in m.
+SPREAD = 0.6
 
 BOTH = (-1, 1)
 
@@ -66,7 +70,8 @@ class Picture(AboveView[Parameters]):
         whole = 0.51 * np.array([(-rink.length, -rink.width), (rink.length, rink.width)])
         if self.table:
             return whole
-        spots = [*self.points, *(self.run.state(ball.name, self.story_end)[:2] for ball in self.run.setup.balls)]
+        names = ["puck", *(name for name, _ in named(self.parameters.players))]
+        spots = [*self.points, *(self.place_of(name, self.story_end) for name in names)]
         close = np.array([spot for spot in spots if np.hypot(*(self.points - spot).T).min() < WITH])
         return np.clip([close.min(axis=0) - AROUND, close.max(axis=0) + AROUND], *whole)
 
@@ -90,6 +95,28 @@ class Picture(AboveView[Parameters]):
         ):
             painter.surface.fill(COLOURS["hall"], (left, high, right - left, low - high))
 
+    def place_of(self, name: str, t: float) -> Point:
+        """Where someone on the ice is at time t in s, in m."""
+        dives = place_of(self.run.setup.surfaces, name, t)
+        if dives is not None:
+            return dives
+        x, y, *_ = self.run.state(name, t)
+        return x, y
+
+    def draw_driven(self, painter: Painter, camera: Camera, t: float, opacity: float = 1.0) -> None:
+        """Nothing moves but the goalie, who is drawn as a person."""
+
+    @property
+    def moment(self) -> float:
+        """The time in s at which a poster shows the players: of a dive when it is over or the puck is met."""
+        return decided(self.run, self.parameters)[0] if self.parameters.dive.dives else 0.0
+
+    @property
+    def people(self) -> list[Person]:
+        """Those on the ice when one of them dives: no label may hide that."""
+        players = named(self.parameters.players) if self.parameters.dive.dives and not self.table else []
+        return [self._person(name, who, self.moment) for name, who in players]
+
     def look_of(self, name: str) -> Look:
         return LOOKS["mallet" if name != "puck" else "air_puck" if self.table else "puck"]
 
@@ -98,11 +125,19 @@ class Picture(AboveView[Parameters]):
 
     def behind(self, painter: Painter, camera: Camera, t: float) -> None:
         """Whoever is on the ice, at time t in s, in the circle that the puck cannot enter."""
-        for who in [] if self.table else self.run.setup.balls[1:]:
-            shirt, place = COLOURS["shirts"][who.name.partition(" ")[0]], self.run.state(who.name, t)[:2]
-            kit = Kit(**COLOURS["kit"], shirt=shirt)
-            painter.disc(camera.pixel(*place), who.radius * camera.scale, shirt, 0.35)
-            Person(place, 180.0, kit).draw(painter, camera)
+        reach, thin = self.parameters.player.radius * camera.scale, max(1.0, 1.2 * self.unit)
+        for name, who in [] if self.table else named(self.parameters.players):
+            person = self._person(name, who, t)
+            if person.arms:
+                painter.ring(camera.pixel(who.x, who.y), reach, thin, COLOURS["shadow"], 0.6)
+            painter.disc(camera.pixel(*person.at), reach, COLOURS["shirts"][who.role], 0.35)
+            person.draw(painter, camera)
+
+    def _person(self, name: str, who: Player, t: float) -> Person:
+        """Someone on the ice at time t in s; a goalie who dives holds out the arms."""
+        place, kit = self.place_of(name, t), Kit(**COLOURS["kit"], shirt=COLOURS["shirts"][who.role])
+        dives = self.parameters.dive.dives and who.role == "goalie" and dist(place, (who.x, who.y)) > 0.05
+        return Person(place, 180.0, kit, arms=SPREAD if dives else 0.0)
 
 
 def _walls(around: Sequence[Point], boards: Colour, floor: Colour) -> Plan:

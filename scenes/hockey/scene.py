@@ -1,7 +1,8 @@
 """Hockey from above, a puck off the boards and past the players, or on an air table. Not validated.
 
 Models: constant friction of the ice, none of an air table; drag of a puck that flies flat; impacts with boards, posts,
-net and players, with friction and the puck's spin; players, or mallets, that stand or move at an even speed.
+net and players, with friction and the puck's spin; players, or mallets, that stand or move at an even speed; a goalie
+who dives to where it goes.
 Leaves out: the third dimension, and with it the saucer pass and every shot that leaves the ice; how a spinning puck is
 slowed less along its path; the near slot of a table. A rounded corner is 64 chords, 0.7 deg off at most.
 Assumed, as nothing measured was found: drag, the friction of ice, and how boards and players answer.
@@ -9,6 +10,7 @@ Assumed, as nothing measured was found: drag, the friction of ice, and how board
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import pairwise
 from typing import Literal
 
@@ -21,6 +23,7 @@ from sandbox.physics.ice import Glide
 from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spin, Spread
+from sandbox.sport.dive import Dive
 from sandbox.sport.facts import ENDED, Fact
 from sandbox.sport.readings import before
 from sandbox.sport.sliding import Slide, Sliding, SlidingDisc, check_inside, collisions_of, end_of, removed_by, rounded
@@ -85,6 +88,7 @@ class Parameters(Sliding):
     launch: Launch = group(..., "the puck as it leaves the stick")
     players: list[Player] = groups(..., "who is on the ice")
     player: SlidingDisc = group(..., "what they are, and how the puck meets them")
+    dive: Dive = group(..., "the goalie's dive")
     puck: Puck = group(..., "the puck, and how it meets the boards")
     air: Air = group(..., "the air")
     rink: Rink = group(..., "the ice, or the table")
@@ -96,7 +100,15 @@ CONTROLS = Controls(
     spins=(Spin("launch.spin", 50.0),),
     ball="puck",
     handles=(Handle("players[*].x", "players[*].y"), Handle("launch.x", "launch.aside")),
-    sliders=("launch.speed", "launch.angle", "launch.x", "launch.aside", "rink.sliding", "puck.restitution"),
+    sliders=(
+        "launch.speed",
+        "launch.angle",
+        "launch.x",
+        "launch.aside",
+        "rink.sliding",
+        "puck.restitution",
+        "dive.dives",
+    ),
     scores="done",
     spread=(Spread("launch.speed", 0.05), Spread("launch.angle", minimum=1.0)),  # assumed
 )
@@ -113,9 +125,15 @@ def build(parameters: Parameters) -> Setup:
         surfaces += [Surface("net", Segment(*ends), 0.1, 0.5) for ends in pairwise(corners)]
     goal = Trap("goal", (inside, POST - half), POST, (inside, half - POST), ["puck"])
     bodies = [puck.at("puck", (it.launch.x, it.launch.aside), it.launch.velocity, it.launch.turning)]
-    bodies += [it.player.at(f"{who.role} {i}", (who.x, who.y), (who.vx, who.vy)) for i, who in enumerate(it.players, 1)]
+    bodies += [it.player.at(name, (who.x, who.y), (who.vx, who.vy)) for name, who in named(it.players)]
     drag = 0.5 * it.air.density * puck.drag * 2.0 * puck.radius * puck.height / puck.mass
     check_inside(bodies, rink.length, rink.width, rink.corner)
+    dives = [name for name, who in named(it.players) if it.dive.dives and who.role == "goalie"]
+    for goalie in [who for who in bodies if who.name in dives]:
+        aside = it.dive.aside(goalie.position, bodies[0].position, bodies[0].velocity, -half, half)
+        shape = Circle(goalie.position, goalie.radius)
+        surfaces.append(it.dive.diving(it.player.surface(goalie.name, shape), aside))
+    bodies = [who for who in bodies if who.name not in dives]
     return Setup(
         bodies,
         surfaces,
@@ -126,6 +144,11 @@ def build(parameters: Parameters) -> Setup:
         [goal],
         planes=[(who.name, Glide(0.0 if any(who.velocity) else 1.0)) for who in bodies[1:]],
     )
+
+
+def named(players: Sequence[Player]) -> list[tuple[str, Player]]:
+    """The players with their names: what they do, and a number."""
+    return [(f"{who.role} {i}", who) for i, who in enumerate(players, 1)]
 
 
 def touches(run: Run, parameters: Parameters) -> list[str]:
@@ -154,6 +177,7 @@ FACTS = (
     Fact("boards", "off the boards", "", lambda run, it: touches(run, it).count("boards")),
     Fact("release", "release", "m/s", lambda run, it: it.launch.speed, "start", also="mph"),
     Fact("goal", "", "", lambda run, it: "puck" in removed_by(run)),
+    Fact("saved", "", "", lambda run, it: _word(run, it) == "saved"),
     Fact("verdict", "", "", _word),
     Fact("done", "", "", lambda run, it: _word(run, it) in ("goal", "received")),
     Fact("touches", "", "", touches),

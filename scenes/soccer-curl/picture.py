@@ -14,6 +14,7 @@ from sandbox.picture.places import plan
 from sandbox.picture.places.courts import PENALTY_SPOT, pitch_lines
 from sandbox.picture.views import AboveView, Box, Camera, Entry, Painter, Sheet
 from sandbox.sport.amounts import metres
+from sandbox.sport.dive import place_of
 from sandbox.sport.readings import first_touch
 
 from ..soccer.picture import LINE, STRIPE
@@ -27,6 +28,8 @@ WALL, KICKER, KEEPER = (plan.Kit(shirt=shirt, **COLOURS["person"]) for shirt in 
 BOARD, BOARD_LENGTH, FAR = 0.4, 6.0, 1000.0
 #: Height of the goal, how far behind the ball the kicker stands, and room for him and beside each post, in m.
 HEIGHT, BEHIND, ROOM, ASIDE = 2.44, 0.75, 1.3, 0.4
+#: Way in m after which a keeper who dives lies stretched out.
+LEANS = 0.3
 #: The poster follows a ball that was stopped for so long, in s.
 AFTERMATH = 0.6
 #: And one that has passed the goal line for so long, in s.
@@ -65,6 +68,17 @@ class Picture(AboveView[Parameters]):
         return (self.parameters.goal.distance, self.parameters.goal.offset), "the goal"
 
     # The place
+
+    def draw_driven(self, painter: Painter, camera: Camera, t: float, opacity: float = 1.0) -> None:
+        """Nothing moves but the keeper, who is drawn as a person."""
+
+    def keeper_at(self, t: float) -> tuple[float, float]:
+        """Where the keeper is at time t in s, in m."""
+        dives = place_of(self.run.setup.surfaces, "keeper", t)
+        if dives is not None:
+            return dives
+        x, y, *_ = self.run.state("keeper", t)
+        return x, y
 
     @cached_property
     def plan(self) -> plan.Plan:
@@ -113,7 +127,7 @@ class Picture(AboveView[Parameters]):
         keeper = self.parameters.keeper
         if not keeper.present:
             return
-        stands = self.run.state("keeper", t)[:2]
+        stands = self.keeper_at(t)
         start, at = (camera.pixel(*place) for place in (self.parameters.stand, stands))
         colour, reach, thin = KEEPER.shirt, keeper.radius * camera.scale, max(1.0, 1.2 * self.unit)
         if dist(start, at) > 4 * self.unit:
@@ -122,7 +136,11 @@ class Picture(AboveView[Parameters]):
         painter.disc(at, reach, colour, 0.25)
         painter.ring(at, reach, thin, colour, 0.7)
         broad = min(plan.BREADTH, 1.25 * keeper.radius)
-        plan.Person(stands, 180.0, KEEPER, broad, arms=keeper.radius).draw(painter, camera)
+        far = stands[1] - self.parameters.stand[1]
+        if keeper.dive.dives and abs(far) > LEANS:
+            plan.Person(stands, 90.0 if far > 0.0 else -90.0, KEEPER, broad, stretched=True).draw(painter, camera)
+        else:
+            plan.Person(stands, 180.0, KEEPER, broad, arms=keeper.radius).draw(painter, camera)
 
     # How far it bends
 
@@ -145,7 +163,7 @@ class Picture(AboveView[Parameters]):
         """Mark how far from its straight line the ball comes to the goal line."""
         unit, accent, keeper = self.unit, CARD["accent"], self.parameters.keeper
         if keeper.present:
-            at = camera.pixel(*self.run.state("keeper", self.moment)[:2])
+            at = camera.pixel(*self.keeper_at(self.moment))
             sheet.labels.take_path([at], keeper.radius * camera.scale)
         line = np.linspace(camera.pixel(0.0, 0.0), camera.pixel(*self._without_spin(self.moment)), 80)
         sheet.labels.take_path(line, 2 * unit)

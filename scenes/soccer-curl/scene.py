@@ -1,7 +1,7 @@
 """Soccer from above: a free kick that bends round the wall, past the keeper, between the posts.
 
-Models: drag with its crisis; the sideways part of the Magnus force; an even wind; posts, wall, keeper (standing, or
-moving at a given speed) and net as things to hit.
+Models: drag with its crisis; the sideways part of the Magnus force; an even wind; posts, wall, keeper (standing,
+moving at a given speed, or diving to where he sees the ball go) and net as things to hit.
 Leaves out: everything upright. Gravity has no part in this plane, so the scene does not know how high the ball is,
 whether it clears the wall, or when it would come down: give it kicks that stay in the air. The ball's loss of spin.
 
@@ -15,6 +15,8 @@ from dataclasses import replace
 from itertools import pairwise
 from math import cos, inf, radians, tan
 
+from sandbox.engine import simulate
+from sandbox.engine.model.accuracy import resolve
 from sandbox.engine.model.ball import Ball
 from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.shapes import Vector
@@ -26,6 +28,7 @@ from sandbox.sport import flight
 from sandbox.sport.air import Air
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spin
+from sandbox.sport.dive import Dive
 from sandbox.sport.facts import ENDED, Fact, cached_per_run
 from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, LAUNCH_SPIN, Moment, fact_from, first_touch, passing
 from sandbox.sport.solids import Extent, Solid, check_apart, disc, rectangle
@@ -68,7 +71,7 @@ class WideWall(Wall):
 
 
 class Keeper(Solid):
-    """The keeper, a heavy disc."""
+    """The keeper, a disc: heavy, or with a dive as a wall that moves."""
 
     present: bool = switch(..., "whether there is a keeper")
     distance: float = quantity(..., "m", 0, 20, "in front of the goal line")
@@ -76,6 +79,7 @@ class Keeper(Solid):
     speed: float = quantity(..., "m/s", -15, 15, "along the goal line from the kick on, to the left")
     radius: float = quantity(..., "m", 0.05, 5, "half the width that he covers")
     mass: float = quantity(..., "kg", 1, 1000, "mass")
+    dive: Dive = group(..., "his dive")
 
 
 class Parameters(SceneParameters):
@@ -97,7 +101,15 @@ class Parameters(SceneParameters):
 CONTROLS = Controls(
     full_pull_speed=45.0,
     spins=(Spin("launch.spin", 50.0), Spin("launch.tilt", 5.0)),
-    sliders=("launch.speed", "launch.angle", "launch.spin", "launch.tilt", "goal.distance", "air.wind"),
+    sliders=(
+        "launch.speed",
+        "launch.angle",
+        "launch.spin",
+        "launch.tilt",
+        "goal.distance",
+        "air.wind",
+        "keeper.dive.dives",
+    ),
     handles=(
         Handle("wall.distance", "wall.offset", where="wall.present"),
         Handle("keeper.distance", "keeper.offset", at=lambda it: it.stand, where="keeper.present"),
@@ -124,13 +136,17 @@ def build(parameters: Parameters) -> Setup:
     line = Extent("the goal", ("goal.distance",), goal.distance, -inf, inf, inf, goal.post_radius)
     check_apart(parameters, start, *players, line)
     forces = flight.forces_in_flight(ball, air, lift_share=cos(radians(launch.tilt)))
-    balls = [flight.launched_ball(launch, ball, air, (0.0, 0.0), forces)]
+    kicked = flight.launched_ball(launch, ball, air, (0.0, 0.0), forces)
+    balls, saves = [kicked], []
     if keeper.present:
         standing = disc("the keeper", ("keeper.distance", "keeper.offset"), *stand, keeper.radius)
         check_apart(parameters, start, *players, standing)
         for post in (right, left):
             check_apart(parameters, standing, disc("a post", ("goal.width",), *post, goal.post_radius))
-        balls.append(Ball("keeper", keeper.mass, keeper.radius, stand, (0.0, keeper.speed)))
+        if keeper.dive.dives:
+            saves = [diving_keeper(parameters, kicked)]
+        else:
+            balls.append(Ball("keeper", keeper.mass, keeper.radius, stand, (0.0, keeper.speed)))
     back = goal.distance + goal.depth
     boards = rectangle(BOARDS_BEHIND, -BOARDS_ASIDE, goal.distance + BOARDS_BEYOND, BOARDS_ASIDE)
     surfaces = [
@@ -139,9 +155,20 @@ def build(parameters: Parameters) -> Setup:
         goal.surface("left post", Circle(left, goal.post_radius)),
         *goal.net([right, (back, right[1]), (back, left[1]), left]),
         *(wall.outline("wall", rectangle(*wall.extent)) if wall.present else ()),
+        *saves,
     ]
     longest = min(LONGEST, PATIENCE * (goal.distance / max(launch.speed, 0.1)) + MOMENT)
-    return Setup(balls, surfaces, longest, is_over, pairs=[("ball", "keeper", keeper.bounce)])
+    pairs = [] if saves else [("ball", "keeper", keeper.bounce)]
+    return Setup(balls, surfaces, longest, is_over, pairs=pairs)
+
+
+def diving_keeper(parameters: Parameters, kicked: Ball) -> Surface:
+    """The keeper, who goes where the ball would pass him if it went on as he sees it when he moves: straight."""
+    keeper, stand, (right, left) = parameters.keeper, parameters.stand, parameters.goal.posts
+    seen = simulate(Setup([kicked], duration=max(keeper.dive.reaction, 1e-3)), resolve("balanced"))
+    x, y, vx, vy, _ = seen.state("ball", seen.duration)
+    aside = keeper.dive.aside(stand, (x, y), (vx, vy), right[1], left[1])
+    return keeper.dive.diving(keeper.surface("keeper", Circle(stand, keeper.radius)), aside)
 
 
 def is_over(event: Event) -> bool:
@@ -196,6 +223,7 @@ SIDES = ("right", "left")
 
 FACTS = (
     Fact("goal", "", "", scored),
+    Fact("saved", "", "", lambda run, it: outcome(run, it) == "saved"),
     Fact("verdict", "", "", outcome),
     Fact("deviation", "bend", "m", fact_from(at_goal, deviation), sides=SIDES),
     Fact("inside_post", "nearer post", "m", fact_from(at_goal, inside_post), sides=("outside", "inside")),

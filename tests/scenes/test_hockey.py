@@ -88,3 +88,14 @@ def test_who_stands_holds_ground_and_who_skates_keeps_speed():
     run = shoot(players=players, duration=3.0, launch__angle=40.0)
     assert run.state("defender 1", 2.0)[0] == pytest.approx(4.0)
     assert run.state("goalie 2", 2.0)[:2] == (26.2, 0.15)
+
+
+def test_a_goalie_who_dives_saves_what_he_reaches_in_time():
+    """With reaction t and speed u: he covers u (T - t), to the side that he sees the puck go to."""
+    dives = {"dive.dives": True, "dive.reaction": 0.2}
+    assert not shoot("hockey/glove-save", **{"dive.dives": False}).result["saved"]
+    saved = shoot("hockey/glove-save", **dives)
+    assert saved.result["saved"]
+    assert saved.result["touches"][0] == "goalie 1"
+    assert saved.setup.surfaces[-1].at(0.3).shape.center == pytest.approx((26.2, 0.4 - 3.0 * 0.1))
+    assert shoot("hockey/glove-save", **dives | {"dive.reaction": 0.45}).result["goal"]

@@ -147,3 +147,27 @@ def test_the_keeper_answers_by_his_restitution_and_friction(restitution: float, 
 
 def test_a_goal_narrower_than_the_ball_is_never_scored():
     assert all(not kick(goal__width=0.2, launch__angle=a).result["goal"] for a in (-10, -9, -8.5, -8.2, -8, -7.5))
+
+
+def test_a_keeper_who_dives_sees_no_bend():
+    """He goes along the line at u from his reaction time on, to where the ball's tangent of then passes him, at most as
+    far as he reaches: he saves one ball, and another bends back behind him."""
+    saved, missed = kick("soccer-curl/dive"), kick("soccer-curl/wrong-footed")
+    assert (saved.result["saved"], missed.result["saved"], missed.result["goal"]) == (True, False, True)
+    assert not kick("soccer-curl/dive", keeper__dive__dives=False).result["saved"]
+    keeper = saved.setup.surfaces[-1]
+    x, y, vx, vy, _ = saved.state("ball", 0.245)
+    wanted = y + vy / vx * (20.5 - x)
+    assert wanted < -1.7  # farther than he reaches
+    for t in (0.245, 0.445, 5.0):
+        assert keeper.at(t).shape.center == pytest.approx((20.5, 0.3 - min(3.9 * (t - 0.245), 2.0)))
+
+
+def test_a_dive_in_a_mirror():
+    left, right = (
+        kick(keeper__dive={"dives": True}, launch__angle=side * 9.0, launch__spin=side * -300.0, wall__present=False,
+             keeper__offset=side * -0.5)
+        for side in (1, -1)
+    )  # fmt: skip
+    assert [event.t for event in left.events] == pytest.approx([event.t for event in right.events], abs=1e-9)
+    assert left.result["verdict"] == right.result["verdict"]

@@ -5,6 +5,7 @@ Pitches, tables, lanes and sheets of ice are made of the same few parts; what on
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import product
@@ -172,6 +173,7 @@ class Person:
     breadth: float = BREADTH
     behind: float = 0.0
     arms: float = 0.0  # how far each hand is held out, in m
+    stretched: bool = False  # in a dive: the arms ahead, the legs behind
 
     def draw(self, painter: Painter, camera: Camera) -> None:
         (x, y), turn, kit = self.place(camera, unit_of(painter)), radians(self.facing), self.kit
@@ -185,6 +187,9 @@ class Person:
             )  # fmt: skip
 
         painter.shadow((x + 0.16 * wide, y + 0.2 * wide), 0.5 * wide, 0.34 * wide, SHADOW, 0.5)
+        if self.stretched:
+            self._diving(painter, at, wide)
+            return
         elbow, wrist = ((0.14, 0.6 * reach), (0.10, reach - 0.09)) if reach else ((0.22, 0.38), (0.36, 0.08))
         for side in (-1, 1):
             arm = [at(ahead, side * aside) for ahead, aside in ((0.0, 0.36), elbow, wrist)]
@@ -194,6 +199,17 @@ class Person:
         painter.line([at(0.0, -0.34), at(0.0, 0.34)], 0.32 * wide, kit.shirt)
         painter.disc(at(0.03, 0.0), 0.19 * wide, kit.far)
         painter.disc(at(-0.01, 0.0), 0.18 * wide, kit.hair)
+
+    def _diving(self, painter: Painter, at: Callable[[float, float], Point], wide: float) -> None:
+        """Draw someone stretched out in a dive; a place ``at`` is so many breadths of the shoulders ahead and aside."""
+        kit = self.kit
+        for side in (-1, 1):
+            painter.line([at(-0.45, 0.14 * side), at(-1.05, 0.24 * side)], 0.17 * wide, kit.body)
+            painter.line([at(0.1, 0.24 * side), at(0.55, 0.3 * side), at(0.92, 0.15 * side)], 0.14 * wide, kit.body)
+            painter.disc(at(0.98, 0.14 * side), 0.14 * wide, kit.gloves)
+        painter.line([at(-0.42, 0.0), at(0.14, 0.0)], 0.52 * wide, kit.shirt)
+        painter.disc(at(0.42, 0.0), 0.19 * wide, kit.far)
+        painter.disc(at(0.38, 0.0), 0.18 * wide, kit.hair)
 
     def place(self, camera: Camera, unit: float) -> Point:
         """The person's place, in px."""
