@@ -2,7 +2,8 @@
 
 Models: gravity; drag with its crisis; Magnus lift; net and floor as things to hit.
 Leaves out: everything sideways, and with it the wobble of a float serve; the deformation of the net; players who touch
-the ball; the ball's loss of spin.
+the ball; the ball's loss of spin. Lift equal to the spin ratio is assumed: of Kao, Sellens & Stevenson 1994 (J. Appl.
+Biomech. 10:95), who measured it, and of Tamaru et al. 2021 (drag from 4 to 30 m/s) only the abstracts could be read.
 """
 
 from __future__ import annotations
