@@ -1,21 +1,19 @@
-"""The report of a run: a card for people, JSON and CSV for programs."""
+"""The report of a run: a card for people, JSON for programs."""
 
 from __future__ import annotations
 
-import csv
 import json
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from sandbox.engine.ledger import warnings
 from sandbox.errors import RunError
-from sandbox.files import atomic_write, json_ready, json_text
+from sandbox.files import json_ready, json_text
 from sandbox.lab.tables import paragraph, table
 from sandbox.scene.running import NUDGE
 from sandbox.sport.amounts import margin
 from sandbox.sport.readings import words_of
-from sandbox.text import csv_text, shortened
+from sandbox.text import shortened
 
 if TYPE_CHECKING:
     from sandbox.scene import Check, Scene
@@ -73,19 +71,6 @@ def _outcome(scene: Scene, run: SceneRun) -> dict[str, Any]:
         "ended": run.ended,
         "duration": run.duration,
     }
-
-
-def write_trajectory(run: SceneRun, path: Path, others: Mapping[str, SceneRun] = {}) -> None:
-    """Write the path of every ball as CSV: ``t,ball,x,y,vx,vy,spin`` in s, m, m/s and rad/s; with other runs by name
-    the name of the run is a last column."""
-    with atomic_write(path) as file:
-        rows = csv.writer(file, lineterminator="\n")
-        rows.writerow(("t", "ball", "x", "y", "vx", "vy", "spin", *(["run"] if others else [])))
-        for title, each in {run.scene.title: run, **others}.items():
-            last = [csv_text(title)] if others else []
-            for ball in each.setup.balls:
-                name = csv_text(ball.name)
-                rows.writerows((t, name, *state, *last) for t, *state in each.trajectory(ball.name).tolist())
 
 
 def card(

@@ -220,6 +220,30 @@ def test_code_of_the_page_on_scatter_runs(capsys: pytest.CaptureFixture[str]):
     assert names["found"].causes["carry"]["launch.speed"].first > 0.5
 
 
+def test_the_exercises_work_as_they_stand(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys):
+    """Every file is written, every command and every program run, in order; and commands print what the page says."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "80")
+    said = []
+    for language, text in blocks((ROOT / "docs" / "teaching.md").read_text("utf-8")):
+        if language == "toml":
+            Path(text.partition("\n")[0].removeprefix("# ")).write_text(text, "utf-8")
+        elif language == "python":
+            exec(text, {})
+            said.append(capsys.readouterr().out)
+        else:
+            for command, expected in steps(text):
+                assert program.call(shlex.split(command)[1:]) == 0, command
+                output = capsys.readouterr().out
+                assert doctest.OutputChecker().check_output(expected, output, LIKE), f"$ {command}\n{output}"
+    bounces, fit = (list(map(float, re.findall(r"\d+\.\d+", line))) for line in said)
+    assert bounces == pytest.approx([9.81, 0.75], rel=0.02)
+    speed, speed_error, angle, angle_error = fit
+    assert (speed, angle) == (pytest.approx(13.2, abs=3 * speed_error), pytest.approx(41.0, abs=3 * angle_error))
+    pictures = {"ball.png", "put.png", "air.png", "throws.png"}
+    assert pictures <= {path.name for path in tmp_path.iterdir()}
+
+
 def test_code_of_the_page_on_sharing_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.chdir(tmp_path)
     page = (ROOT / "docs" / "sharing.md").read_text("utf-8")

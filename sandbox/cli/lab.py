@@ -210,6 +210,11 @@ def spread(
     "--html", metavar="F.html", type=Path, help="A page with the map, and the path of the point under the cursor."
 )
 @click.option("--of", metavar="NAME", help="The result that --plot and --html show.")
+@click.option(
+    "--family",
+    metavar="KEY",
+    help="Of --plot over two parameters: a curve for each value of this one, in place of a map.",
+)
 @click.option("--jobs", metavar="N", type=int, help="Number of processes.  [default: chosen automatically]")
 @click.option("--scheduler", metavar="ADDRESS", help="Run on the workers of a Dask scheduler.")
 def sweep(
@@ -224,6 +229,7 @@ def sweep(
     plot: Path | None,
     html: Path | None,
     of: str | None,
+    family: str | None,
     jobs: int | None,
     scheduler: str | None,
 ) -> None:
@@ -238,6 +244,8 @@ def sweep(
       sandbox sweep golf --over launch.angle=5:40:71 --over ball.drag.model=tour-fit,usga --out carry.csv
       sandbox sweep golf --over launch.speed="160 mph:180 mph" --over air.wind[0]=-8:8 --samples 5000 --out wind.csv
       sandbox sweep basketball --over launch.speed=7.4~0.08 --over launch.angle=52~1.0 --samples 5000 --out throws.csv
+      sandbox sweep throws --over launch.angle=20:60:81 --over release.height=0,1,2 --out put.csv \\
+        --plot put.png --family release.height
       sandbox sweep golf --points measured-launches.csv --out carry.csv
     """
     from sandbox.files import check_file
@@ -261,12 +269,14 @@ def sweep(
         raise RequestError(f"--seed {seed}: requires --samples")
     if of is not None and plot is None and html is None:
         raise RequestError(f"--of {of}: requires --plot or --html")
+    if family is not None and plot is None:
+        raise RequestError(f"--family {family}: requires --plot")
     if plot is not None:
         from sandbox.lab.chart import check_chart
         from sandbox.lab.maps import check_plot
 
         check_chart("--plot", plot)
-        check_plot(plan, of)
+        check_plot(plan, of, family)
     if html is not None:
         from sandbox.files import check_installed
         from sandbox.page import sweep as page
@@ -280,7 +290,7 @@ def sweep(
         from sandbox.lab.maps import draw_sweep
 
         with writing("--plot", plot):
-            draw_sweep(plan, rows(out), plot, of)
+            draw_sweep(plan, rows(out), plot, of, family)
     if html is not None:
         from sandbox.page.parts import save
 

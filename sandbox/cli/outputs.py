@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -36,6 +36,8 @@ class Drawn:
     size: Size | None = None
     rate: int | None = None
     others: Mapping[str, SceneRun] = field(default_factory=dict)
+    every: float | None = None  # s, between the rows of a trajectory
+    columns: Sequence[str] = ()  # of a trajectory, besides the state
 
     @property
     def ghosts(self) -> Mapping[str, SceneRun]:
@@ -64,9 +66,15 @@ class Output:
 
 
 def _trajectory(drawn: Drawn, path: Path) -> None:
-    from sandbox import report
+    from sandbox import rows
 
-    report.write_trajectory(drawn.run, path, drawn.others)
+    rows.write_trajectory(drawn.run, path, drawn.others, drawn.every or rows.EVERY, drawn.columns)
+
+
+def _momentum(drawn: Drawn, path: Path) -> None:
+    from sandbox import rows
+
+    rows.write_impacts(drawn.run, path, drawn.others)
 
 
 def _poster(drawn: Drawn, path: Path) -> None:
@@ -128,6 +136,7 @@ def _animation(saver: str, rate: int, size: Size | None = None) -> Callable[[Dra
 #: In the order in which they are written.
 OUTPUTS = (
     Output("--trajectory", ".csv", _trajectory, "Write the path of every ball: t,ball,x,y,vx,vy,spin.", False),
+    Output("--momentum", ".csv", _momentum, "Write velocity, momentum and energy before and after each impact.", False),
     Output("--poster", ".png", _poster, "Write the whole run as one picture."),
     Output("--html", ".html", _html, "Write a page for any browser that plays the run; it needs no network.", False),
     Output("--strip", ".png", _strip, "Write some frames side by side."),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -33,6 +34,14 @@ if TYPE_CHECKING:
     help="Another preset or scene file: its numbers and its path next to this one's; repeatable.",
 )
 @click.option(
+    "--every", metavar="TIME", help="Interval of the rows of --trajectory, such as 0.01 s.  [default: 1/120 s]"
+)
+@click.option(
+    "--columns",
+    metavar="NAME,...",
+    help="More columns of --trajectory: acceleration, forces, energy.",
+)
+@click.option(
     "--fps",
     metavar="N",
     type=click.IntRange(1, 240),
@@ -53,6 +62,8 @@ def run(
     compare: tuple[str, ...],
     fps: int | None,
     size: outputs.Size | None,
+    every: str | None,
+    columns: str | None,
     **paths: Path | None,
 ) -> None:
     """Run a scene once, without a window, and print its results.
@@ -62,6 +73,7 @@ def run(
       sandbox run golf
       sandbox run golf --set launch.speed="171 mph" --set air.wind=[-3,0]
       sandbox run golf --poster golf.png --trajectory golf.csv
+      sandbox run golf --trajectory golf.csv --every 0.05 --columns acceleration,forces,energy
       sandbox run golf --frames frames --fps 30 --size 1920x1080
       sandbox run golf --compare golf/headwind --compare golf/moon --poster three.png
       sandbox run my-shot.toml --accuracy precise --check --json
@@ -73,6 +85,7 @@ def run(
 
     chosen = load(scene, changes)
     files = outputs.requested(paths, size, fps)
+    sampled = _sampling(every, columns, paths["trajectory"])
     with bar("seconds simulated") as progress:
         try:
             done = simulate(chosen, progress=progress)
@@ -84,9 +97,36 @@ def run(
         said = report.as_json(chosen, done, checked, list(others.values()))
     else:
         said = "\n".join(report.card(chosen, done, checked, others))
-    outputs.write(files, outputs.Drawn(done, size, fps, others))
+        if paths["momentum"] is not None:
+            from sandbox.rows import impact_lines
+
+            said = "\n".join([said, "", *impact_lines(done)])
+    outputs.write(files, outputs.Drawn(done, size, fps, others, *sampled))
     written = [] if as_json else [f"wrote {path}" for path in files.values()]
     say("\n".join([said, *written]))
+
+
+def _sampling(every: str | None, columns: str | None, path: Path | None) -> tuple[float | None, tuple[str, ...]]:
+    """The interval in s and the added columns of a trajectory. Raises RequestError."""
+    from sandbox import units
+    from sandbox.rows import MORE
+
+    for option, given in (("--every", every), ("--columns", columns)):
+        if given is not None and path is None:
+            raise RequestError(f"{option} {given}: requires --trajectory F.csv")
+    step = None
+    if every is not None:
+        try:
+            step = units.parse(every, "s")
+        except ValueError as error:
+            raise RequestError(f'--every "{every}" {error}') from None
+        if not 1e-9 <= step < inf:
+            raise RequestError(f"--every {every}: must be at least 1e-9 s, and finite")
+    names = tuple(name.strip() for name in (columns or "").split(",")) if columns is not None else ()
+    for name in names:
+        if name not in MORE:
+            raise RequestError(f'--columns {columns}: there is no "{name}"; choose from {", ".join(MORE)}')
+    return step, names
 
 
 def _comparable(scene: Scene, source: str, changes: dict[str, Any]) -> Scene:

@@ -65,8 +65,16 @@ class ChartData:
         return bool(known.size and (known == np.round(known)).all() and np.ptp(known) <= _MOST_COUNTS)
 
 
-def check_plot(plan: Plan, of: str | None) -> None:
+def check_plot(plan: Plan, of: str | None, family: str | None = None) -> None:
     """Raise RequestError, before any work is done, if the chart cannot be drawn."""
+    if family is not None:
+        if family not in plan.keys:
+            raise RequestError(f"--family {family}: is not swept over; choose from {', '.join(plan.keys)}")
+        if len(plan.axes) != 2 or not plan.is_grid:
+            raise RequestError(f"--family {family}: a family of curves needs a grid over two parameters")
+        curves = plan.shape[plan.keys.index(family)]
+        if curves > _MOST_CURVES:
+            raise RequestError(f"--family {family}: {curves} values are too many curves; the most is {_MOST_CURVES}")
     if len(plan.axes) > 2:
         raise RequestError(f"--plot shows one or two parameters, not {len(plan.axes)}: {', '.join(plan.keys)}")
     if any(len(axis.values) < 2 for axis in plan.axes if isinstance(axis, Values)):
@@ -75,13 +83,17 @@ def check_plot(plan: Plan, of: str | None) -> None:
         raise RequestError(f"--of {of}: {no_such_result(of, plan.columns[:-1])}")
 
 
-def draw_sweep(plan: Plan, rows: Iterable[Row], path: Path, of: str | None = None) -> None:
-    """A chart of these rows; ``of`` names the column, by default the verdict or the first result."""
+def draw_sweep(plan: Plan, rows: Iterable[Row], path: Path, of: str | None = None, family: str | None = None) -> None:
+    """A chart of these rows; ``of`` names the column, by default the verdict or the first result; over two parameters a
+    map, or for each value of ``family``, one of them, a curve with its greatest value marked. Raises RequestError for a
+    family of what is not a number."""
     found = read(plan, rows, of)
+    if family is not None and found.numbers is None:
+        raise RequestError(f"--family {family}: curves need a number, and {found.label} is not one; name another --of")
     shots = f"{plan.samples:,} shots at random" if plan.samples else f"{plan.size:,} shots"
     about = f"{shots}; all other parameters as in the scene file"
     with chart(path, f"{plan.scene.title}: {found.label.partition(' (')[0]}", about) as (axes, colours):
-        shown = _curves(axes, plan, found) if found.numbers is not None else None
+        shown = _curves(axes, plan, found, family) if found.numbers is not None else None
         if shown is None:
             shown = list(range(len(plan.axes)))
             (_map if plan.is_grid or len(shown) != 2 else _cloud)(axes, plan, found, colours)
@@ -186,28 +198,38 @@ def own_place(plan: Plan) -> list[float] | None:
 # ---------------------------------------------------------------------------------------------------------------------
 
 
-def _curves(axes: Any, plan: Plan, found: ChartData) -> list[int] | None:
-    """A number over one axis, with a curve for each word of the other, if there is one. Returns the place of the axis
-    that runs along, or None if this is not such a chart."""
-    words = [axis for axis in plan.axes if not has_numbers(axis)]
-    along, names = 0, [""]
+def _curves(axes: Any, plan: Plan, found: ChartData, family: str | None) -> list[int] | None:
+    """A number over one axis, with a curve for each value of the other: of words, if there is one, or of the family.
+    Returns the place of the axis that runs along, or None if this is not such a chart."""
+    several = [axis for axis in plan.axes if axis.key == family or (family is None and not has_numbers(axis))]
+    along, values, names = 0, np.zeros(1), [""]
     if len(plan.axes) == 2:
-        if not plan.is_grid or len(words) != 1 or not isinstance(words[0], Values):
+        if not plan.is_grid or len(several) != 1 or not isinstance(several[0], Values):
             return None
-        if len(words[0].values) > _MOST_CURVES:
+        if len(several[0].values) > _MOST_CURVES:
             return None
-        along, names = 1 - plan.axes.index(words[0]), [cell(value) for value in words[0].values]
+        along = 1 - plan.axes.index(several[0])
+        values = np.unique(found.axes[1 - along])
+        named = values.tolist() if has_numbers(several[0]) else several[0].distinct
+        names = [f"{value:g}" if isinstance(value, float) else cell(value) for value in named]
     assert found.numbers is not None
-    for place, name in enumerate(names):
-        here = found.axes[1 - along] == place if len(plan.axes) == 2 else np.full(len(found.numbers), True)
+    for place, value in enumerate(values):
+        here = found.axes[1 - along] == value if len(plan.axes) == 2 else np.full(len(found.numbers), True)
         order = np.argsort(found.axes[along][here])
         style = "-" if has_numbers(plan.axes[along]) else ""
-        dots = "o" if len(order) <= _MOST_DOTS else ""
+        dots = "o" if len(order) <= _MOST_DOTS and family is None else ""
         x, y = found.axes[along][here][order], found.numbers[here][order]
-        axes.plot(x, y, linestyle=style, marker=dots, markersize=3.5, label=name)
+        name = names[place]
+        (line,) = axes.plot(x, y, linestyle=style, marker=dots, markersize=3.5, label=name)
+        if family is not None and np.isfinite(y).any():
+            best = int(np.nanargmax(y))
+            if 0 < best < len(y) - 1:
+                axes.plot(x[best], y[best], "o", markersize=7, color=line.get_color())
+                axes.annotate(significant(float(x[best]), 3), (x[best], y[best]), xytext=(0, 9),
+                              textcoords="offset points", ha="center", fontsize=9.5, bbox=PLATE)  # fmt: skip
     axes.grid(axis="y")
     if len(plan.axes) == 2:
-        legend(axes, title=label(plan.scene, words[0].key), alignment="left")
+        legend(axes, title=label(plan.scene, several[0].key), alignment="left")
     return [along]
 
 

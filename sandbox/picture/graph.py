@@ -28,8 +28,8 @@ from sandbox.units import convert
 TRACES = palette("trace")["colours"]
 #: A run is sampled at so many even times.
 PIECES = 300
-#: Panels next to each other; on a picture narrower than so many px per row, fewer.
-COLUMNS, NARROW = 4, 1.3
+#: Panels next to each other, whichever leaves fewer gaps; on a picture narrower than so many px per row, two.
+COLUMNS, NARROW = (3, 4), 1.3
 #: Share of its colour that another run's curve has; lightening of a curve on dark ground, compared with its trace.
 PALE, LIGHTER = 0.75, 0.25
 
@@ -78,7 +78,8 @@ def motion(run: SceneRun, view: View[Any]) -> tuple[np.ndarray, dict[str, tuple[
     else:
         way = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))])
         places = {"y": ("m", y), "distance": ("m", way)}
-    return times, {"x": ("m", x), **places, "speed": ("m/s", np.hypot(vx, vy)), "spin": ("rpm", spin * 30 / pi)}
+    speeds = {"v_x": ("m/s", vx), "v_y": ("m/s", vy), "speed": ("m/s", np.hypot(vx, vy))}
+    return times, {"x": ("m", x), **places, **speeds, "spin": ("rpm", spin * 30 / pi)}
 
 
 def _panels(run: SceneRun, curve: Curve) -> Iterator[Panel]:
@@ -156,7 +157,8 @@ def graph(
     row = sheet.frame.top + letters.height(sheet.head) + gap
     for i, name in enumerate(runs):
         across = sheet.write(name, "small", (across, row), _colour(i), bold=True).right + 3 * gap
-    columns = COLUMNS if size[0] > NARROW * size[1] else 2
+    wide_enough = size[0] > NARROW * size[1]
+    columns = min(COLUMNS, key=lambda count: (-len(panels) % count, -count)) if wide_enough else 2
     rows = ceil(len(panels) / columns)
     top = row + letters.height("small") + 3 * gap
     wide, tall = (sheet.frame.width + 3 * gap) / columns, (sheet.frame.bottom - top + 2 * gap) / rows
