@@ -360,7 +360,7 @@ def test_one_of_a_list_may_be_set(call, monkeypatch):
             ["run", "golf", "--set", "launch.speed=150", "mph"],
             'a value with a space goes in quotes: launch.speed="150 m',
         ),
-        (["run", "golf", "--bogus"], "No such option '--bogus'.\nsandbox run --help shows its arguments"),
+        (["run", "golf", "--xyzzy"], "No such option '--xyzzy'.\nsandbox run --help shows its arguments"),
         (["run", "golf", "--fps"], "Option '--fps' requires an argument.\nsandbox run --help shows its arguments"),
         (["run"], "Missing argument 'SCENE'"),
         (["bogus"], "No such command 'bogus'.\nsandbox --help shows its arguments"),
