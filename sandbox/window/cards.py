@@ -13,6 +13,7 @@ from sandbox.sport.amounts import metres
 from sandbox.window.background import KeyedCache, LatestJob
 from sandbox.window.canvas import Canvas
 from sandbox.window.charts import Charts
+from sandbox.window.fan_card import fan_forms
 from sandbox.window.fan_of_shot import FanOfShot
 from sandbox.window.game import Game
 from sandbox.window.layout import Layout
@@ -96,7 +97,9 @@ class Cards:
             found = self.fan.of(shot)
             share, spread = found.said if found is not None else (_why_none(self.fan.job, "the fan"), "")
             colour = CARD["text" if self.fan.matches(shot) else "quiet"]
-            note("fan", (share, colour), *[(spread, CARD["quiet"])] * bool(spread))
+            lines = [(share, colour), *[(spread, CARD["quiet"])] * bool(spread)]
+            bars = found.bars if found is not None else None
+            layout.put("fan", fan_forms(sheet, lines, bars), corner, "topright")
         if "map" in shown.on and not shown.hides_path:
             known = self.map.of(shot)
             if known is None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from itertools import islice
-from math import log1p, sqrt
+from math import log1p
 from time import process_time
 from typing import Any, NamedTuple
 
@@ -13,10 +13,13 @@ import numpy as np
 from sandbox import parameters as declared
 from sandbox.lab.runs import fly_together, runs
 from sandbox.lab.spread.causes import players_spread
+from sandbox.lab.spread.statistics import Numbers, Share
 from sandbox.picture.camera import Camera
 from sandbox.picture.palette import Colour
 from sandbox.picture.path import points
 from sandbox.scene import Scene
+from sandbox.sport.amounts import amount, significant
+from sandbox.window.fan_card import Bars, bars_of
 from sandbox.window.shots import Shot
 
 SHOTS = 100
@@ -53,6 +56,7 @@ class Cloud(NamedTuple):
     shots: int
     scored: int
     left: int  # shots that are still to be computed, to their end and at the scene's accuracy
+    bars: Bars | None = None  # the histogram of the number that is shown
 
 
 def within(parameter: declared.Parameter, values: np.ndarray) -> np.ndarray:
@@ -127,8 +131,13 @@ def _fan(scene: Scene, spread: _Spread, asked: Sequence[str], quick: bool = Fals
 
 
 def _asked(scene: Scene) -> list[str]:
-    """The facts that a fan shows."""
-    return [fact for fact in (scene.controls.scores, scene.controls.fan_fact) if fact]
+    """The facts that a fan shows: whether a shot scores, and a number, by default the first that is known as soon."""
+    controls, facts = scene.controls, scene.facts
+    number = controls.fan_fact
+    if not number and controls.scores:
+        by = facts[controls.scores].final_when
+        number = next((key for key, it in facts.items() if it.label and it.unit and it.final_when == by), "")
+    return [fact for fact in (controls.scores, number) if fact]
 
 
 def shots_from_end(scene: Scene, width: float, left: int) -> list[FanShot | None]:
@@ -170,23 +179,39 @@ def cloud(
     sigmas = [f"{key.rpartition('.')[2]} ± {short(sigma)} {p.unit or ''}" for key, (p, sigma) in spread.items()]
     said = _said(scene, asked, shots), ", ".join(map(str.rstrip, sigmas))
     scored, left = sum(shot.scored for shot in shots), max(0, fan.left - len(elsewhere))
-    return Cloud(*_drawn(good, rest, colours), said, len(shots), scored, SHOTS if quick else left)
+    left = SHOTS if quick else left
+    return Cloud(*_drawn(good, rest, colours), said, len(shots), scored, left, _bars(scene, asked, shots))
 
 
 def _said(scene: Scene, asked: Sequence[str], shots: Sequence[FanShot]) -> str:
-    """Text: how many score, and the mean and spread of the last number that was asked for."""
+    """Text: how many score, with the 95 % interval of Wilson; else the mean and sd of the number that was asked for."""
     count = len(shots)
     text = f"{count} shots" if count else "no such shot could be computed"
     if any(shot.result.get(scene.controls.scores) is not None for shot in shots):
         scored = sum(shot.scored for shot in shots)
-        p = scored / count
-        text = f"{scored} of {count} score: {100 * p:.0f} ± {max(1.0, 100 * sqrt(p * (1 - p) / count)):.0f} %"
-    fact = scene.facts.get(asked[-1]) if asked else None
-    values = [shot.result[fact.key] for shot in shots] if fact is not None else []
-    values = [value for value in values if isinstance(value, float)]
-    if fact is not None and len(values) > 1:
-        text += f"; {fact.label} {np.mean(values):.1f} ± {np.std(values):.1f} {fact.unit}"
-    return text
+        low, high = Share(scored, count).interval
+        text = f"{scored} of {count} score: {100 * low:.0f} to {100 * high:.0f} %"
+    elif (found := _numbers(asked, shots))[0]:
+        fact, numbers = scene.facts[asked[-1]], Numbers(np.array(found[0]))
+        text += f"; {fact.label} {amount(numbers.mean, fact.unit, fact.digits)} ± {significant(numbers.sd)} {fact.unit}"
+    return text.rstrip()
+
+
+def _numbers(asked: Sequence[str], shots: Sequence[FanShot]) -> tuple[list[float], list[bool]]:
+    """The values of the last fact that was asked for, of the shots that have it as a number; and whether they score."""
+    rows = [(shot.result.get(asked[-1]), shot.scored) for shot in shots] if asked else []
+    known = [
+        (float(value), scored)
+        for value, scored in rows
+        if isinstance(value, float | int) and not isinstance(value, bool)
+    ]
+    return [value for value, _ in known], [scored for _, scored in known]
+
+
+def _bars(scene: Scene, asked: Sequence[str], shots: Sequence[FanShot]) -> Bars | None:
+    """The histogram of the last fact that was asked for, if it is a number."""
+    values, scored = _numbers(asked, shots)
+    return bars_of(scene.facts[asked[-1]], values, scored) if values else None
 
 
 def short(sigma: float) -> str:

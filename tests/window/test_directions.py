@@ -16,7 +16,8 @@ WINDOW = Path(sandbox.window.__file__).parent
 ROWS = (
     {"background", "history", "layout", "memory", "messages", "sound"},
     {"canvas", "jobs", "shots"},
-    {"bar", "charts", "fan", "measure", "session", "stage"},
+    {"bar", "charts", "fan_card"},
+    {"fan", "measure", "session", "stage"},
     {"aim", "export", "handles", "overlay", "pad", "replay", "score_map"},
     {"hand", "menu", "table", "worker"},
     {"find", "path", "watching"},

@@ -12,6 +12,7 @@ from sandbox.scene import listings
 from sandbox.window import commands
 from sandbox.window.app import App
 from sandbox.window.fan import Cloud
+from sandbox.window.fan_card import Bars
 from sandbox.window.fan_of_shot import FanKey, FanOfShot
 from sandbox.window.game import Game
 from sandbox.window.layout import Form, Layout
@@ -24,14 +25,15 @@ from .test_game import Here
 
 SCENES = sorted(item.name for item in listings() if "/" not in item.name)
 SIZES = ((640, 400), (1280, 720), (1920, 1080))
-SAID = "37 of 100 score: 37 ± 5 %; entry angle 45.2 ± 1.4 deg", "speed ± 0.087 m/s, angle ± 0.62 deg"
+SAID = "37 of 100 score: 28 to 47 %", "speed ± 0.087 m/s, angle ± 0.62 deg"
+BARS = Bars("entry angle 45.2°, 90 % 42.1° to 48.0°", ("41.0°", "49.5°"), (1, 4, 9, 3), (3, 2, 0, 5), 0.48)
 CELLS = np.arange(13 * 9, dtype=np.uint8).reshape(13, 9) % 2
 
 
 def known(view: View) -> None:
     """A fan and a map as if they had been computed."""
     shot, camera = view.game.shot, view.stages.latest.camera
-    cloud = Cloud((0, 0), (0, 0), b"", SAID, 100, 37, 0)
+    cloud = Cloud((0, 0), (0, 0), b"", SAID, 100, 37, 0, BARS)
     view.fan.job.key, view.fan.job.value = FanKey(shot, 1.0, camera, False, 0), cloud
     speed, angle = shot.aim
     view.map.job.key = MapKey(shot.scene_without_aim, shot.scene, 1)

@@ -16,6 +16,7 @@ import pytest
 from sandbox.errors import RunError
 from sandbox.lab.runs import runs
 from sandbox.lab.spread.causes import players_spread
+from sandbox.lab.spread.statistics import wilson
 from sandbox.picture.camera import Camera
 from sandbox.picture.lettering import Lettering
 from sandbox.scene import load, simulate
@@ -73,8 +74,12 @@ class TestTheFan:
         assert fan.shots == SHOTS
         assert 0 < fan.scored < SHOTS
         share, spread = fan.said
-        assert share.startswith(f"{fan.scored} of {SHOTS} score: {100 * fan.scored / SHOTS:.0f} ±")
+        low, high = wilson(fan.scored / SHOTS, SHOTS)
+        assert share == f"{fan.scored} of {SHOTS} score: {100 * low:.0f} to {100 * high:.0f} %"
         assert "angle ± 1 deg" in spread
+        assert "side ± 0.8 deg" in spread
+        assert (sum(fan.bars.good), sum(fan.bars.rest)) == (fan.scored, SHOTS - fan.scored)
+        assert fan.bars.title.startswith("entry angle 4")
 
     def test_its_shots_score_as_often_as_they_do_alone(self):
         session = Session("basketball", {"launch.speed": 7.5})

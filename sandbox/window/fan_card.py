@@ -1,0 +1,88 @@
+"""The card of a fan: how many of the shots score, and the histogram of their most important number."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+import pygame
+
+from sandbox.lab.spread.statistics import Numbers
+from sandbox.picture.palette import Colour, palette
+from sandbox.sport.amounts import amount
+from sandbox.sport.facts import Fact
+from sandbox.window.canvas import Canvas
+from sandbox.window.layout import Form
+
+CARD = palette("card")
+
+#: Height of the bars and least width of the card, px on 720 rows; the number of bars.
+HEIGHT, WIDE, BARS = 44, 210, 20
+#: The shares of the shots between which a range is given.
+RANGE = (0.05, 0.95)
+
+
+class Bars(NamedTuple):
+    """A histogram of the shots of a fan."""
+
+    title: str  # mean and range
+    ends: tuple[str, str]  # the lowest and the highest value, with its unit
+    good: tuple[int, ...]  # shots that score, in each bar
+    rest: tuple[int, ...]
+    mean: float  # its place, as a share of the width
+
+
+def bars_of(fact: Fact, values: Sequence[float], scored: Sequence[bool]) -> Bars | None:
+    """The histogram of a number over the shots that have it; None if it does not vary."""
+    found, hits = Numbers(np.array(values, float)), np.array(scored)
+    if found.count < 2 or not found.varies:
+        return None
+    counts, edges = found.histogram(BARS)
+    good = np.histogram(found.values[hits], edges)[0]
+    low, high = (amount(each, fact.unit, fact.digits) for each in found.quantiles(RANGE).values())
+    title = f"{fact.label} {amount(found.mean, fact.unit, fact.digits)}, 90 % {low} to {high}"
+    ends = amount(float(edges[0]), fact.unit, fact.digits), amount(float(edges[-1]), fact.unit, fact.digits)
+    place = (found.mean - edges[0]) / (edges[-1] - edges[0])
+    return Bars(title, ends, tuple(good.tolist()), tuple((counts - good).tolist()), float(place))
+
+
+def fan_forms(sheet: Canvas, lines: Sequence[tuple[str, Colour]], bars: Bars | None) -> list[Form]:
+    """The texts with the histogram below them, wide and narrower; and the texts alone."""
+    texts = sheet.notes(lines)
+    if bars is None:
+        return texts
+    return [
+        *(_with_bars(sheet, form, bars) for form in texts if form.whole),
+        *(it._replace(whole=False) for it in texts),
+    ]
+
+
+def _with_bars(sheet: Canvas, text: Form, bars: Bars) -> Form:
+    letters, gap, unit = sheet.lettering, sheet.gap, sheet.unit
+    row, tall = letters.height("small"), round(HEIGHT * unit)
+    below = letters.width("".join(bars.ends), "small") + 2 * gap
+    wide = max(text.size[0], round(WIDE * unit), 4 * gap + max(below, letters.width(bars.title, "small")))
+
+    def draw(card: pygame.Rect) -> None:
+        sheet.painter.panel(card, CARD["background"], 0.9, 8 * unit)
+        text.draw(pygame.Rect(card.topleft, text.size))
+        left, right = card.left + 2 * gap, card.right - 2 * gap
+        top = card.top + text.size[1]
+        letters.write(sheet.surface, bars.title, "small", (left, top), CARD["text"])
+        foot = top + row + gap // 2 + tall
+        most = max(map(sum, zip(bars.good, bars.rest, strict=True)))
+        each = (right - left) / len(bars.good)
+        for place, counts in enumerate(zip(bars.good, bars.rest, strict=True)):
+            begin, end = round(left + place * each), round(left + (place + 1) * each)
+            base = foot
+            for count, colour in zip(counts, (CARD["good"], CARD["quiet"]), strict=True):
+                high = round(tall * count / most)
+                sheet.surface.fill(colour, (begin, base - high, end - begin - 1, high))
+                base -= high
+        thin = max(1, round(2 * unit))
+        sheet.surface.fill(CARD["accent"], (round(left + bars.mean * (right - left)), foot - tall, thin, tall))
+        letters.write(sheet.surface, bars.ends[0], "small", (left, foot), CARD["quiet"])
+        letters.write(sheet.surface, bars.ends[1], "small", (right, foot), CARD["quiet"], "topright")
+
+    return Form((wide, text.size[1] + 2 * row + tall + 2 * gap), draw)
