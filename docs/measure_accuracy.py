@@ -25,7 +25,7 @@ from sandbox.lab import chart
 from sandbox.lab.reference import REFERENCE, apart, places
 from sandbox.lab.stress import FAILED, Outcome, stress, summary
 from sandbox.lab.tables import length, length_or_below, time
-from sandbox.lab.teeth import as_text as teeth_text
+from sandbox.lab.teeth import summary as summary_of_teeth
 from sandbox.lab.teeth import teeth
 from sandbox.lab.trade import TARGETS, Trade, trade
 from sandbox.lab.validate import COUNTED, KINDS, Compared, cells, counted, validate
@@ -105,8 +105,8 @@ def validated() -> dict[str, list[str]]:
     readme, count = re.subn(COUNT, f"\\g<1>{counted(rows)}", README.read_text("utf-8"))
     assert count == 1
     README.write_text(readme, "utf-8")
-    said = " ".join(teeth_text(teeth(rows)))
-    return {"kinds": kinds(rows), "teeth": [said], "published": published(rows), "not held": not_held(rows)}
+    said = summary_of_teeth(teeth(rows))
+    return {"kinds": kinds(rows), "teeth": [f"{said}."], "published": published(rows), "not held": not_held(rows)}
 
 
 def checked() -> dict[str, list[str]]:

@@ -30,6 +30,7 @@ from sandbox.scene.scene_run import SceneRun
 
 #: Factors of an effect, and how they are called.
 FACTORS = {0.0: "off", 0.8: "-20 %", 1.2: "+20 %"}
+FIFTH = (FACTORS[0.8], FACTORS[1.2])
 
 
 @dataclass(frozen=True)
@@ -49,23 +50,17 @@ class Tried:
     row: Compared
     trials: list[Trial]
 
-    @property
-    def holds_without(self) -> list[str]:
-        """The effects that it does not show."""
+    def not_shown(self, *changes: str) -> list[str]:
+        """The effects that it does not show by these changes, or by another setting; by default by any change."""
         effects = dict.fromkeys(trial.effect for trial in self.trials)
-        shown = {trial.effect for trial in self.trials if trial.falls}
+        by = {*(changes or FACTORS.values()), *effects}
+        shown = {trial.effect for trial in self.trials if trial.falls and trial.change in by}
         return [effect for effect in effects if effect not in shown]
 
     @property
     def has_teeth(self) -> bool:
         """True if it names an effect, and shows all that it names."""
-        return bool(self.trials) and not self.holds_without
-
-    @property
-    def shows_a_fifth(self) -> bool:
-        """True if it falls with each effect changed by a fifth, or set to another value."""
-        shown = {trial.effect for trial in self.trials if trial.falls and trial.change != FACTORS[0.0]}
-        return bool(self.trials) and all(trial.effect in shown for trial in self.trials)
+        return bool(self.trials) and not self.not_shown()
 
 
 def teeth(
@@ -156,18 +151,26 @@ def as_json(rows: Sequence[Compared], tried: Sequence[Tried]) -> list[dict[str, 
 
 
 def as_text(tried: Sequence[Tried]) -> list[str]:
-    """The rows that hold though an effect that they name is changed, then how many do not."""
-    blunt = [one for one in tried if not one.has_teeth]
+    """The rows that hold though an effect that they name is left out; those that hold with a fifth of it more and less;
+    and how many do not."""
     lines = []
-    if blunt:
-        rows = table(("case", "result", "effect"), map(_cells, blunt), "lll")
-        lines += ["rows that hold whatever their effect is", *rows, ""]
-    fifth = sum(one.shows_a_fifth for one in tried)
-    sharp = len(tried) - len(blunt)
-    said = f"{sharp} of {len(tried)} rows that hold fall without their effect, {fifth} with a fifth more or less of it"
-    return [*lines, *paragraph(said, "")]
+    for title, found in {
+        "rows that hold whatever their effect is": [(one, one.not_shown()) for one in tried if not one.has_teeth],
+        "rows that fall only without it": [(one, one.not_shown(*FIFTH)) for one in tried if one.has_teeth],
+    }.items():
+        rows = [_cells(one, effects) for one, effects in found if effects or not one.trials]
+        lines += [title, *table(("case", "result", "effect"), rows, "lll"), ""] if rows else []
+    return [*lines, *paragraph(summary(tried), "")]
 
 
-def _cells(one: Tried) -> tuple[str, ...]:
+def summary(tried: Sequence[Tried]) -> str:
+    """How many fall, in a sentence."""
+    sharp = [one for one in tried if one.has_teeth]
+    fifth = sum(not one.not_shown(*FIFTH) for one in sharp)
+    without = f"{len(sharp)} of {len(tried)} rows that hold fall without their effect"
+    return f"{without}, {fifth} with a fifth more or less of it"
+
+
+def _cells(one: Tried, effects: Sequence[str]) -> tuple[str, ...]:
     case, result, *_ = cells(one.row)
-    return f"{one.row.scene.partition('/')[0]} {case}", result, ", ".join(one.holds_without) or "none named"
+    return f"{one.row.scene.partition('/')[0]} {case}", result, ", ".join(effects) or "none named"

@@ -49,7 +49,7 @@ def test_a_row_without_teeth_is_listed():
     carry = [row for row in validate("golf") if (row.name, row.result) == ("PGA 7i", "carry")]
     blunt = [replace(row, tolerance=100.0) for row in carry]
     (one,) = tried = teeth(blunt)
-    assert (one.has_teeth, one.holds_without) == (False, ["lift"])
+    assert (one.has_teeth, one.not_shown()) == (False, ["lift"])
     assert "PGA 7i" in as_text_of_teeth(tried)[2]
     assert as_json(blunt, tried)[0]["has_teeth"] is False
 
