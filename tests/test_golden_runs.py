@@ -44,6 +44,7 @@ RUNS = {
     "minigolf": None,
     "minigolf/blocked": None,
     "minigolf/gate": None,
+    "minigolf/back-down": None,
     "curling/double": None,
     "baseball": None,
     "baseball-pitch": None,

@@ -22,6 +22,8 @@ from sandbox.engine.paths.arc import Arc
 from sandbox.engine.paths.phase import SetByHand
 from sandbox.engine.paths.run import Run
 from sandbox.physics.integrators import INTEGRATORS, State
+from sandbox.physics.plane import Plane, strip
+from sandbox.physics.slope import Slope
 
 #: Gauss-Legendre nodes and weights on [0, 1]: exact for polynomials of degree 9.
 _NODES = (0.04691007703066802, 0.23076534494715845, 0.5, 0.7692346550528415, 0.953089922969332)
@@ -69,7 +71,11 @@ def ledger(run: Run) -> Ledger:
                 impacts[met.partner(ball.name, *arc.contact) or ""] += gain
                 continue
             if setup.plane is not None:
-                contacts[setup.plane_of(ball.name).name] += gain
+                plane = setup.plane_of(ball.name)
+                pulled = _pulled(strip(plane, arc.start)[0], ball, arc)
+                if pulled:
+                    work["slope"] += pulled
+                contacts[plane.name] += gain - pulled
             elif isinstance(arc.contact, InHeap):
                 lifted = -_work_of_forces(ball, arc, arc.contact)
                 contacts["position correction"] += lifted
@@ -144,6 +150,14 @@ class _Impacts:
         if own is None:
             return None
         return " and ".join(sorted((own.ball, own.partner))) if own.partner in self._balls else own.partner
+
+
+def _pulled(law: Plane, ball: Ball, arc: Arc) -> float:
+    """The work in J of the pull of a slope along an arc; 0 elsewhere."""
+    if not isinstance(law, Slope):
+        return 0.0
+    (x0, y0), (x1, y1) = arc.start[:2], arc.state(arc.t1)[:2]
+    return ball.mass * (law.pull_x * (x1 - x0) + law.pull_y * (y1 - y0))
 
 
 def _driven_off(run: Run, ball: Ball, after: Arc) -> str | None:

@@ -7,12 +7,15 @@ from functools import cached_property
 import numpy as np
 
 from sandbox.kit import AboveView, Box, Look, plan, scene_colours, seams, table
+from sandbox.picture.palette import mix
 
 from .scene import BOARD, Parameters
 
 COLOURS = scene_colours(__file__)
 #: Width in m of the boards around the lane, and radius of the post of a windmill.
 FRAME, POST = 0.09, 0.04
+#: Shades of a ramp.
+BANDS = 24
 
 
 class Picture(AboveView[Parameters]):
@@ -47,9 +50,29 @@ class Picture(AboveView[Parameters]):
             table.Rails(half, (x + FRAME, y + FRAME), COLOURS["wood"], COLOURS["wood"][0]),
             plan.Stripes(table.around(half), COLOURS["felt"], 0.3),
             *([plan.Ground(Box(start, -y, end, y), COLOURS["rough"])] if felt.rough_end > felt.rough_start else []),
+            *_ramp(felt.ramp_start, felt.ramp_end, felt.ramp_rise, (x, y)),
             plan.Spot(tee, 2.2 * it.ball.radius, COLOURS["chalk"], 0.006),
             plan.Spot((hole.x, hole.y), hole.radius, COLOURS["rim"], 0.008),
             plan.Spot((hole.x, hole.y), hole.radius - 0.006, COLOURS["hole"]),
             *(plan.Line(((wall.x1, wall.y1), (wall.x2, wall.y2)), 2 * BOARD, COLOURS["board"]) for wall in it.walls),
             *(plan.Spot((mill.x, mill.y), POST, COLOURS["post"]) for mill in it.mills),
         )
+
+
+def _ramp(start: float, end: float, rise: float, half: tuple[float, float]) -> plan.Plan:
+    """A ramp across the lane: lighter the higher it is, with arrows that point up."""
+    if end <= start or rise == 0.0:
+        return ()
+    low, high = COLOURS["low"], COLOURS["high"]
+    edges = np.linspace(start, end, BANDS + 1).tolist()
+    shades = [mix(low, high, (i + 0.5) / BANDS) for i in range(BANDS)][:: 1 if rise > 0.0 else -1]
+    bands = [
+        plan.Ground(Box(a, -half[1], b, half[1]), shade) for a, b, shade in zip(edges, edges[1:], shades, strict=False)
+    ]
+    way, size, middle = (1.0 if rise > 0.0 else -1.0), min(0.09, 0.15 * (end - start)), 0.5 * (start + end)
+    arrows = [
+        plan.Line(((at - way * size, y - size), (at, y), (at - way * size, y + size)), 0.022, COLOURS["arrow"])
+        for at in (middle - 0.25 * (end - start), middle, middle + 0.25 * (end - start))
+        for y in (-0.5 * half[1], 0.5 * half[1])
+    ]
+    return (*bands, *arrows)

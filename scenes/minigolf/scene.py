@@ -1,10 +1,10 @@
-"""Minigolf from above: a putt on felt, off boards, past blades that turn and gates that move, into the hole.
+"""Minigolf from above: a putt off boards, past blades that turn and gates that move, up ramps, into the hole.
 
-Models: sliding on felt until the ball rolls, rolling, a strip of slower felt; boards; blades and gates driven as given,
-whatever meets them; a hole that holds a ball only if it is slow enough, the slower the farther from its middle
-(Holmes 1991, Penner 2002).
-Leaves out: slopes, jumps, and the lip of the hole, which turns a ball that just misses or is just too fast. Not
-validated: boards and blades, whose numbers are assumed.
+Models: sliding on felt until the ball rolls, rolling, a strip of slower felt; a ramp, as the pull of gravity along it;
+boards; blades and gates driven as given, whatever meets them; a hole that holds a ball only if it is slow enough, the
+slower the farther from its middle (Holmes 1991, Penner 2002).
+Leaves out: jumps, and the lip of the hole, which turns a ball that just misses or is just too fast. Not validated:
+boards and blades, whose numbers are assumed, and ramps.
 """
 
 from __future__ import annotations
@@ -43,6 +43,7 @@ from sandbox.kit import (
     rectangle,
     roughly,
 )
+from sandbox.physics.slope import Slope
 from sandbox.physics.turf import stimp_resistance
 
 #: Half the thickness in m of boards within the lane, of blades and of gates; s after which a putt is ended.
@@ -84,6 +85,9 @@ class Felt(Group):
     rough_start: float = quantity(..., "m", -25, 25, "where the strip begins")
     rough_end: float = quantity(..., "m", -25, 25, "where it ends; not beyond its start: there is none")
     rough_stimp: float = quantity(..., "m", 0.05, 12, "reading of a stimpmeter on the strip")
+    ramp_start: float = quantity(..., "m", -25, 25, "where a ramp across the lane begins")
+    ramp_end: float = quantity(..., "m", -25, 25, "where it ends; not beyond its start: there is none")
+    ramp_rise: float = quantity(..., "m", -2, 2, "how much higher its end is than its start")
 
 
 class Hole(Group):
@@ -145,7 +149,7 @@ class Parameters(SceneParameters):
 
 CONTROLS = Controls(
     full_pull_speed=8.0,
-    sliders=("launch.speed", "launch.angle", "mills[0].angle", "mills[0].rate", "felt.stimp", "hole.fastest"),
+    sliders=("launch.speed", "launch.angle", "mills[0].angle", "mills[0].rate", "felt.stimp", "felt.ramp_rise"),
     handles=(
         Handle("hole.x", "hole.y"),
         Handle("ball.x", "ball.y"),
@@ -196,15 +200,28 @@ def _driven(parameters: Parameters) -> list[Surface]:
 
 
 def _felt(parameters: Parameters) -> Cloth | Strips:
+    """The felt, the strip and the ramp. Raises RequestError for a ramp on which no ball would roll."""
     felt = parameters.felt
 
-    def cloth(stimp: float) -> Cloth:
-        return Cloth(felt.sliding, stimp_resistance(stimp), felt.spinning, parameters.gravity, name="felt")
+    rough, ramp = (felt.rough_start, felt.rough_end), (felt.ramp_start, felt.ramp_end)
+    uphill = felt.ramp_rise / (ramp[1] - ramp[0]) if ramp[1] > ramp[0] else 0.0
 
-    if felt.rough_end <= felt.rough_start:
-        return cloth(felt.stimp)
-    usual = cloth(felt.stimp)
-    return Strips((felt.rough_start, felt.rough_end), (usual, cloth(felt.rough_stimp), usual))
+    def law(x: float) -> Cloth:
+        """What holds at x m along the lane."""
+        resistance = stimp_resistance(felt.rough_stimp if rough[0] < x < rough[1] else felt.stimp)
+        usual = felt.sliding, resistance, felt.spinning, parameters.gravity
+        if not ramp[0] < x < ramp[1] or uphill == 0.0:
+            return Cloth(*usual, name="felt")
+        try:
+            return Slope(*usual, name="felt", pull_x=-parameters.gravity * uphill)
+        except ValueError as error:
+            raise RequestError(f"felt.ramp_rise = {felt.ramp_rise:g} m: {error}") from None
+
+    edges = sorted({edge for ends in (rough, ramp) if ends[1] > ends[0] for edge in ends})
+    if not edges:
+        return law(0.0)
+    middles = [edges[0] - 1.0, *(0.5 * (a + b) for a, b in pairwise(edges)), edges[-1] + 1.0]
+    return Strips(edges, [law(x) for x in middles])
 
 
 def holed(run: Run, parameters: Parameters) -> bool:

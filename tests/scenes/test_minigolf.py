@@ -87,3 +87,17 @@ def test_the_verdict_counts():
 def test_a_hole_off_the_lane_is_refused():
     with pytest.raises(RequestError, match=r"hole\.y = 0\.6 m: the lane is from -0\.45 to 0\.45 m"):
         putt(hole__y=0.6)
+
+
+def test_a_ramp_decides():
+    """Up a rise h a ball that rolls needs v^2 = 2 g h / (1 + k), and what friction takes."""
+    ramp = {"felt__ramp_start": -1.0, "felt__ramp_end": 0.0, "felt__ramp_rise": 0.2, "mills": [], "launch__roll": 1.0}
+    needed = sqrt(2.0 * (9.81 * 0.2 / 1.4 + 1.83**2 / (2.0 * 3.048) * 2.7))
+    over, back = putt(**ramp, launch__speed=needed + 1e-6), putt(**ramp, launch__speed=needed - 1e-6)
+    assert over.result["to_hole"] < 2.5
+    assert back.state("ball", back.duration).x < -1.0
+    assert putt("minigolf/ramp").result["holed"]
+    with pytest.raises(
+        RequestError, match=r"felt\.ramp_rise = 2 m: felt: a slope that pulls by 19\.6 m/s\^2 must pull"
+    ):
+        putt(**ramp | {"felt__ramp_rise": 2.0})
