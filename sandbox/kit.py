@@ -55,7 +55,7 @@ from sandbox.renamed import raise_if_old
 from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.air import Air, ConstantDrag, NoForce, OutdoorAir, Weather, wind_in
 from sandbox.sport.amounts import amount, in_two_units, metres, roughly, round_number_above, signed
-from sandbox.sport.controls import Controls, Goal, Handle, Spin, Spread
+from sandbox.sport.controls import Controls, Goal, Handle, Held, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact, cached_per_run
 from sandbox.sport.flight import DEGREE, RPM, Directed, Flight, Launch, Release, Sphere, forces_in_flight, height_on
 from sandbox.sport.readings import (
@@ -144,6 +144,7 @@ __all__ = [
     "Gravity",
     "Group",
     "Handle",
+    "Held",
     "InTurn",
     "Inside",
     "Launch",

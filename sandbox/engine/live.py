@@ -324,7 +324,8 @@ class LiveSimulation(Simulation):
         around = Surroundings(change.setup, self._accuracy.skin)
         for ball, state in others if "surfaces" in change.given else put:
             deep = TOUCHING_GAP if (ball, state) in put else SLIGHT * ball.radius
-            for obstacle, met in surfaces_met(ball, around.obstacles[ball.radius], state, -deep):
+            here = [obstacle.at(t) for obstacle in around.obstacles[ball.radius]]
+            for obstacle, met in surfaces_met(ball, here, state, -deep):
                 raise _overlap(t, ball, state, obstacle.surface.name, -met.gap)
 
 

@@ -7,12 +7,12 @@ from collections.abc import Mapping
 from math import isfinite
 from pathlib import Path
 from types import MappingProxyType
-from typing import NamedTuple, Unpack
+from typing import Any, NamedTuple, Unpack
 
 from sandbox.engine.checkpoint import Checkpoint
 from sandbox.engine.live import LiveSimulation, Record
 from sandbox.engine.model.accuracy import Accuracy, resolve
-from sandbox.engine.model.change import Changes
+from sandbox.engine.model.change import Changes, changes_between
 from sandbox.engine.model.event import Event
 from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.setup_errors import setup_errors_named
@@ -70,6 +70,7 @@ class World:
                 'a world needs accuracy.method = "exact": the plain method cannot be stopped and changed'
             )
         self._scene = scene
+        self._built = setup  # from the parameters of the scene
         self._t = 0.0  # s
         self._events: list[Event] = []
         self._unreported: list[Event] = []  # of contacts that last beyond the present
@@ -124,15 +125,24 @@ class World:
         self._events = [event for event in waiting if event.t <= self._t]
         self._unreported = waiting[len(self._events) :]
 
-    def apply(self, **changes: Unpack[Changes]) -> None:
+    def apply(self, parameters: Mapping[str, Any] | None = None, /, **changes: Unpack[Changes]) -> None:
         """Change something now: forces, torques, velocity, spin, position and impulse of balls; ``add`` and ``remove``
-        balls; and the fields of the setup, all as in ``Run.fork``.
+        balls; and the fields of the setup, all as in ``Run.fork``; and other ``parameters`` of the scene from now on.
 
         A ball in a simulated contact with others (some 0.1 ms) goes through it first. Raises RequestError for a change
         that cannot be; nothing has changed then.
         """
+        scene, built, given = self._scene, self._built, Changes()
+        if parameters is not None:
+            if scene is None:
+                raise RequestError("this world is of a setup: only one of a scene has parameters")
+            scene = scene.changed(parameters, "apply")
+            built = scene.build()
+            given = changes_between(self._built, built)
+        given.update(changes)
         with setup_errors_named():
-            self._simulation.change(self._t, changes)
+            self._simulation.change(self._t, given)
+        self._scene, self._built = scene, built
 
     def run(self) -> Run:
         """Return the run so far, which can be drawn and asked as any other; that of a scene has a result."""
@@ -168,4 +178,5 @@ class World:
         with setup_errors_named():
             self._simulation = found.record.at(found.t)
         self._scene, self._t, self._events, self._unreported = found.scene, found.t, found.events, found.unreported
+        self._built = self._simulation.record.setup if found.scene is None else found.scene.build()
         self._seen = len(self._simulation.noted_since(0))

@@ -78,6 +78,18 @@ class Goal:
     vary: Mapping[str, tuple[float, float]] = field(default_factory=dict)
 
 
+@dataclass(frozen=True)
+class Held:
+    """A key that the player holds while the shot runs, which moves something at once: ``key`` is the name that pygame
+    has for it, ``times`` the parameter that lists when it is held, in s: ``[[from, to], ...]``, and ``name`` what it
+    moves. Such a scene is played live: each press and each release changes the parameters of the rest of the run.
+    """
+
+    key: str
+    times: str
+    name: str
+
+
 @with_old_fields_named
 @dataclass(frozen=True)
 class Controls:
@@ -100,13 +112,16 @@ class Controls:
     fan_fact: str = ""  # the fact whose mean and spread a fan reports
     fan_shots: int = 0  # more than usual, where they differ much
     landing: tuple[str, ...] = ()  # two facts, in m, that say where it lands, where a shot scatters in two directions
+    #: Keys that the player holds while the shot runs: it is simulated as it is played.
+    held: tuple[Held, ...] = ()
     #: From a run and its parameters to the changes with which the next shot begins; without it, every shot begins the
     #: same way.
     next_start: Callable[[Any, Any], Mapping[str, Any]] | None = None
 
     def problem(self, schema: type[Group], facts: Sequence[str]) -> str | None:
         """The problem with these controls for a scene with such parameters and facts, in a line; or None."""
-        for name, kind in (("sliders", str), ("handles", Handle), ("spins", Spin), ("spread", Spread)):
+        kinds = ("sliders", str), ("handles", Handle), ("spins", Spin), ("spread", Spread), ("held", Held)
+        for name, kind in kinds:
             entries = getattr(self, name)
             if not isinstance(entries, tuple | list) or not all(isinstance(entry, kind) for entry in entries):
                 what = "keys" if kind is str else kind.__name__
@@ -137,4 +152,5 @@ class Controls:
                 key.partition("[")[0] for it in self.handles for key in (it.x, it.y, *it.with_y, it.where) if key
             ],
             "spread": [key for spread in self.spread for key in (spread.key, spread.sd) if key],
+            "held": [held.times for held in self.held],
         }

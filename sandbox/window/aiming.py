@@ -123,12 +123,27 @@ class Aiming:
     # Shooting
 
     def shoot(self) -> None:
-        """Let go: the shot is watched, as soon as it is computed."""
+        """Let go: the shot is watched, as soon as it is computed; or it is played live."""
+        if self.session.controls.held:
+            scene, changes = self.session.scene, self.session.changes
+            self.messages.reporting_errors(lambda: self.watching.play(scene, changes))
+            return
         self.watching.awaited = True
         if self.path.settled:
             self.watching.awaited = False
             if self.path.shot is not None and (self.path.runs.error is None or self.watching.playback is not None):
                 self.keep(self.path.shot)
+
+    def end_live(self) -> None:
+        """Count a shot that was played live, once it is over; it can be watched again."""
+        live = self.watching.live
+        if live is None or not live.over:
+            return
+        if live.error is not None:
+            self.messages.tell(reason(live.error), bad=True)
+        self.keep(live.whole)
+        if self.watching.playback is not None:
+            self.watching.playback.seek(live.duration)
 
     def keep(self, shot: Shot) -> None:
         """Count a shot, and watch it."""

@@ -123,6 +123,8 @@ class App:
     def handle(self, event: pygame.event.Event) -> None:
         """One event of the window, the mouse or the keyboard."""
         view = self.view
+        if self._moves(event):
+            return
         if event.type == pygame.KEYDOWN:
             typing = view.shown.has_panel and view.panel.typing is not None and view.shown.overlay is None
             if not self._fresh(event, typing):
@@ -130,8 +132,6 @@ class App:
             if typing:
                 view.panel.type(event)
                 return
-        elif event.type == pygame.KEYUP:
-            self.held.discard(event.key)
         match event.type:
             case pygame.QUIT:
                 self.game.running = False
@@ -151,6 +151,19 @@ class App:
                     commands.do(view, found[0].name, found[1])
             case _:
                 self.pointer.handle(event)
+
+    def _moves(self, event: pygame.event.Event) -> bool:
+        """True if a key moves something in what is played live."""
+        down, watching = event.type == pygame.KEYDOWN, self.game.watching
+        if event.type == pygame.WINDOWFOCUSLOST and watching.live is not None:
+            watching.live.let_go()
+        if event.type == pygame.KEYUP:
+            self.held.discard(event.key)
+        if not (down or event.type == pygame.KEYUP) or (down and event.mod & MODIFIED):
+            return False
+        if down and (self.view.shown.overlay is not None or self.view.panel.typing is not None):
+            return False
+        return watching.hold(pygame.key.name(event.key), down)
 
     def _fresh(self, event: pygame.event.Event, typing: bool) -> bool:
         """True if a key was pressed, or is held to type or for a command that repeats, at most once a frame: after a

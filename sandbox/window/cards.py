@@ -62,9 +62,13 @@ class Cards:
         if self.shown.hides_path:
             text, colour, entries = "Where will it go?", CARD["text"], [("aimed", shot.aimed)]
         if playback is not None and not playback.over:
-            text, colour, entries = f"{playback.t:.2f} s", CARD["text"], stage.picture.live(playback.t)
+            text, colour, entries = f"{playback.t:.2f} s", CARD["text"], stage.picture_of(shot).live(playback.t)
             forces = ()  # they are among them
-        self.draw_head(sheet, layout, text, [*self._notes(shot), *stage.notes], colour)
+        live = self.game.watching.live is not None
+        if playback is not None and live:
+            text, _ = stage.picture_of(shot).progress(playback.t)
+        notes = self._notes(shot) if live else [*self._notes(shot), *stage.notes]
+        self.draw_head(sheet, layout, text, notes, colour)
         numbers, overlay = pygame.Rect(0, sheet.card_row(), *sheet.size), self.shown.overlay
         if overlay is None or not overlay.place(self.screen.whole).colliderect(numbers):
             sheet.numbers([*entries, *forces])
@@ -78,11 +82,16 @@ class Cards:
             return ["Shift goes in steps, Esc to cancel"]
         if playback is None:
             return ["pull back anywhere and let go, or press Space"]
+        if game.watching.live is not None:
+            names = ", ".join(f"{held.key.capitalize()}: {held.name}" for held in game.session.controls.held)
+            return [names if playback.playing else "paused, Space goes on"]
         notes = [f"{'replay' if shot.recorded else 'shot'} {shot.number}"]
         if playback.slowed:
             notes.append(f"slow motion, {round(1 / playback.rate)} times slower (+ for faster)")
         if playback.over:
             again = "continue" if game.session.controls.next_start is not None else "aim again"
+            if game.session.controls.held:
+                return [f"Space to play again, Enter to {again}", *notes, "R to see it again"]
             notes.append(f"Enter to {again}, R to see it again")
         return notes
 
@@ -107,7 +116,7 @@ class Cards:
             else:
                 forms = map_forms(sheet, known, shot.aim, lambda cells: self.targets.cards.update({"map": cells}))
                 layout.put("map", forms, corner, "topright")
-        if "charts" in shown.on and not shown.hides_path:
+        if "charts" in shown.on and not shown.hides_path and game.watching.live is None:
             charts: Charts = self._once("charts", (shot, game.memory.look), lambda: Charts(shot, stage.picture))
             t = shown.time if game.watching.playback is not None else None
             left = sheet.frame.left, layout.room.bottom

@@ -105,11 +105,13 @@ def _watching(view: View, action: str, *arguments: Any) -> None:
 
 
 def _go(view: View, by: float) -> None:
-    if view.game.watching.playback is None:
-        view.game.grasp.let_go()
-        view.game.aiming.shoot()
+    game = view.game
+    playback, live = game.watching.playback, bool(game.session.controls.held)
+    if playback is None or (live and playback.over):
+        game.grasp.let_go()
+        game.aiming.shoot()
     else:
-        view.game.watching.playback.toggle()
+        playback.toggle()
 
 
 def _pick(view: View, by: float) -> None:

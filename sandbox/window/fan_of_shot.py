@@ -49,7 +49,7 @@ class FanOfShot:
     def wanted(self) -> FanKey | None:
         """The key of the fan that is still to be computed: a quick one while the shot changes."""
         game, stage, known = self.game, self.stages.latest, self.job
-        ready = game.failure is None and self.stages.up_to_date
+        ready = game.failure is None and self.stages.up_to_date and game.watching.live is None
         if "fan" not in self.shown.on or not ready or stage is None or game.shot is None:
             return None
         moving = game.grasp.pull is not None or game.still < AT_REST

@@ -83,6 +83,8 @@ class Game:
     def ghosts(self) -> list[Shot]:
         """The earlier shots that are drawn with the one that is watched or aimed."""
         shots, playback, before = self.shots, self.watching.playback, self.path.before_save
+        if self.session.controls.held:
+            return []  # each crosses the whole place
         if playback is not None:
             return shots.earlier(playback.shot.start, but=playback.shot)
         earlier = shots.earlier((self.session.base.folder, *self.session.changes.start))
@@ -122,7 +124,9 @@ class Game:
         self._compute(self.workers.patience)
         self.jobs.advance()
         self.still, self._last = self.still + dt if self.shot is self._last else 0.0, self.shot
-        return (0.0, 0.0) if hold else self.watching.advance(dt)
+        played = (0.0, 0.0) if hold else self.watching.advance(dt)
+        self.aiming.end_live()
+        return played
 
     def settle(self) -> None:
         """Wait until the shot is that of the parameters: for tests and programs, never in a window."""

@@ -50,10 +50,17 @@ def without(scene: Scene, keys: Iterable[str]) -> tuple[Any, ...]:
 
 
 def scene_without_controls(scene: Scene) -> tuple[Any, ...]:
-    """A scene without what a player aims with: speed, angle, spins, and how the shot begins."""
+    """A scene without what a player aims with: speed, angle, spins, how the shot begins, which keys are held."""
     controls = scene.controls
     return without(
-        scene, {controls.speed, controls.angle, *controls.set_on_pull, *(spin.key for spin in controls.spins)}
+        scene,
+        {
+            controls.speed,
+            controls.angle,
+            *controls.set_on_pull,
+            *(spin.key for spin in controls.spins),
+            *(held.times for held in controls.held),
+        },
     )
 
 

@@ -91,6 +91,9 @@ class Shown:
         """The time until which the path is shown, in s; None for all of it."""
         if self.game.watching.playback is not None:
             return self.time
+        driven = {each.name for each in shot.run.setup.surfaces if each.motion is not None}
+        if driven and self.game.session.controls.held:  # what the player's keys move decides from there on
+            return next((e.t for e in shot.run.events if e.kind == "impact" and e.partner in driven), None)
         if self.ahead == "to the first contact":
             return next((e.t for e in shot.run.events if e.kind == "impact" and e.ball == shot.ball and e.t > 0), None)
         if self.ahead == "the first metre":

@@ -153,7 +153,7 @@ class Stage:
     def clear_of(self, shot: Shot, t: float) -> list[pygame.Rect]:
         """The balls at time t in s, and what is aimed at, as far as they are seen."""
         whole = pygame.Rect((0, 0), self.size)
-        return [rect for rect in self._picture_of(shot).kept_clear(self.camera, t) if rect.colliderect(whole)]
+        return [rect for rect in self.picture_of(shot).kept_clear(self.camera, t) if rect.colliderect(whole)]
 
     def along(self, shot: Shot) -> list[pygame.Rect]:
         """Squares along the path of a shot, in px: cards leave it free where they can."""
@@ -185,9 +185,9 @@ class Stage:
     def draw_balls(self, sheet: Canvas, shot: Shot, t: float, until: float | None = None) -> None:
         """The balls of a shot at time t in s; in a lens their paths until a time in s, or all of them."""
         ahead = shot.run.duration if until is None else until
-        self._picture_of(shot).draw_balls(sheet.painter, self.camera, t, ahead)
+        self.picture_of(shot).draw_balls(sheet.painter, self.camera, t, ahead)
 
-    def _picture_of(self, shot: Shot) -> Picture[Any]:
+    def picture_of(self, shot: Shot) -> Picture[Any]:
         """The picture of a shot from the same place, as this stage's camera shows it and on the same ground."""
         if shot.run is self.shot.run:
             return self.picture
@@ -214,8 +214,11 @@ class Stage:
 
     def _contacts(self, sheet: Canvas, shot: Shot, until: float | None) -> None:
         marked: list[tuple[float, float]] = []
+        begins = shot.track(shot.ball)[0, 0]
         for event in shot.run.events:
             if event.kind != "impact" or event.ball != shot.ball or (until is not None and event.t > until):
+                continue
+            if event.t < begins:
                 continue
             x, y = self.pixels(np.array([[event.x, event.y]]))[0].tolist()
             if all(dist((x, y), other) >= NEAR * sheet.unit for other in marked):

@@ -47,10 +47,15 @@ class Stages:
 
     def of(self, shot: Shot) -> Stage | None:
         """The stage on which a shot may be drawn: when watched only its own, when aimed one of its place."""
-        stage, watched = self.fitting, self.game.watching.playback is not None
+        stage, watched = self.fitting, self._watched
         if stage is None or not (stage.shows(shot, stage.chosen) or (not watched and stage.is_place_of(shot))):
             return None
         return stage
+
+    @property
+    def _watched(self) -> bool:
+        """True if a shot is watched that has happened."""
+        return self.game.watching.playback is not None and self.game.watching.live is None
 
     @property
     def up_to_date(self) -> bool:
@@ -97,9 +102,11 @@ class Stages:
     def _may_wait(self) -> bool:
         """True if the shot can be drawn on the latest stage, and its aim still changes."""
         game, shot = self.game, self.game.shot
-        stage = self.of(shot) if shot is not None and game.watching.playback is None else None
+        stage = self.of(shot) if shot is not None and not self._watched else None
         if stage is None or shot is None or stage.chosen != self.chosen or game.grasp.grip is not None:
             return False
+        if game.watching.live is not None:
+            return True
         moving = game.grasp.pull is not None or not game.path.settled or game.still < AT_REST
         return moving and (stage.holds(shot) or self._age < STEADY)
 

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from sandbox.scene import Scene
 from sandbox.window.background import Workers
+from sandbox.window.history import Changes
 from sandbox.window.jobs import Jobs
+from sandbox.window.live import Live
 from sandbox.window.messages import Messages
 from sandbox.window.replay import compared
 from sandbox.window.shots import Playback, Played, Shot, Shots
@@ -22,6 +25,19 @@ class Watching:
         """Play one of the shots so far from its start."""
         self.awaited = False
         self.playback = Playback(shot, self.playback.chosen if self.playback is not None else None)
+
+    @property
+    def live(self) -> Live | None:
+        """The shot that is played live, if one is."""
+        return self.playback if isinstance(self.playback, Live) else None
+
+    def play(self, scene: Scene, changes: Changes) -> None:
+        """Begin to play a shot live."""
+        self.awaited, self.playback = False, Live(scene, changes)
+
+    def hold(self, key: str, down: bool) -> bool:
+        """The player presses a key, or lets it go; returns whether it moves something in what is played live."""
+        return self.live is not None and self.live.hold(key, down)
 
     def watch_other(self, by: int) -> None:
         """Play the shot ``by`` places after the one that is watched; after the last one if none is."""

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 import sandbox
-from sandbox import RequestError, Setup, Touches, World
+from sandbox import Ball, InTurn, Moving, RequestError, Segment, Setup, Surface, Touches, Turning, World
 from sandbox.scene.finding import listings
 from tests.engine.test_fork import FLOOR, SCENES, ball, heap_of_three
 
@@ -228,3 +228,31 @@ def test_what_the_docs_show_works(tmp_path, monkeypatch, capsys):
     assert "[]" in juggler
     assert min(map(int, re.findall(r": (\d+)", juggler))) >= 8
     assert (tmp_path / "dribble.png").is_file()
+
+
+def test_a_world_of_a_scene_takes_parameters():
+    """A gust from 1 s on, as a fork has it; a world of a setup has no parameters."""
+    world = World("golf")
+    world.step(1.0)
+    world.apply({"air.wind": [-15.0, 0.0]})
+    world.step(1.0)
+    assert world.state["ball"] == sandbox.simulate("golf").fork(1.0, {"air.wind": [-15.0, 0.0]}).state("ball", 2.0)
+    restored = World("golf")
+    restored.restore(world.save())
+    for each in (world, restored):
+        each.step(0.5)
+    assert restored.run().scene.parameters.air.wind == (-15.0, 0.0)  # type: ignore[attr-defined]
+    assert world.state == restored.state
+    with pytest.raises(RequestError, match="of a setup: only one of a scene has parameters"):
+        World(Setup([ball()], [FLOOR])).apply({"air.wind": [0.0, 0.0]})
+
+
+def test_surfaces_that_move_are_where_they_are_when_they_change():
+    """A blade that has turned away from where it is drawn, and goes on otherwise: the ball there is not in it."""
+    blade = Surface("blade", Segment((0.0, 0.0), (1.0, 0.0)), 0.5, 0.3)
+    turns, stops = Turning((0.0, 0.0), 1.0, 0.3), Turning((0.0, 0.0), 0.0, 0.9)
+    world = World(Setup([Ball("ball", 0.5, 0.05, (0.5, -0.03), (0.0, 0.06))], [Moving(blade, turns)], duration=9.0))
+    world.step(0.5)
+    world.apply(surfaces=[Moving(blade, InTurn([(0.0, turns), (0.6, stops)]))])
+    world.step(0.5)
+    assert world.state["ball"].y == pytest.approx(0.03, abs=1e-9)

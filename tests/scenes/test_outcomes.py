@@ -44,6 +44,8 @@ PRESETS = {
     "minigolf/over-and-back": ("", "Hole in one, off 1 board"),
     "minigolf/rough": ("", "Hole in one"),
     "minigolf/tap-in": ("", "Hole in one"),
+    "pinball/no-hands": ("", "1,640 points, lost after 7 s"),
+    "pinball/soft-plunge": ("", "840 points, lost after 11 s"),
     "curling/guard": ("", "Lies 3.6 m from the tee; red lies 1"),
     "curling/take-out": ("", "Takes out 1 and stays; red lies 1"),
     "curling/swept-draw": ("", "Lies 0.40 m from the tee; red lies 1"),

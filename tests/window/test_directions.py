@@ -17,7 +17,7 @@ ROWS = (
     {"background", "history", "layout", "memory", "messages", "sound"},
     {"canvas", "jobs", "shots"},
     {"bar", "charts", "fan_card"},
-    {"fan", "measure", "session", "stage"},
+    {"fan", "live", "measure", "session", "stage"},
     {"aim", "export", "handles", "overlay", "pad", "replay", "score_map"},
     {"hand", "menu", "table", "worker"},
     {"find", "path", "watching"},

@@ -30,6 +30,9 @@ from sandbox.physics.integrators import Acceleration, State
 #: a size; the shortest and the longest in s.
 _FITS, _DRIFT, _ROUNDING, _SHORTEST, _LONGEST = 1e-11, 1e-9, 1e-13, 1e-7, 1.0
 
+#: A piece of a motion that lasts no longer than this, in s, and as a share of the time, is rounding.
+_INSTANT = 1e-13
+
 #: Degree of the arcs; they match the motion at so many nodes.
 _DEGREE, _NODES = 7, (0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0)
 
@@ -77,8 +80,10 @@ class DrivenPath:
 
     def _arc_from(self, t: float) -> Arc:
         motion, until = piece_of(self._motion, t)
+        if until - t <= _INSTANT * (1.0 + t):
+            motion, until = piece_of(self._motion, until)
         h = min(self._next, until - t)
-        while h > _SHORTEST:
+        while h > _SHORTEST or h == until - t:
             arc, fits = self._fitted(motion, t, h)
             if fits:
                 self._next = min(2.0 * h, _LONGEST)

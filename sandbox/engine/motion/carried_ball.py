@@ -132,18 +132,23 @@ class CarriedBall(MovingBall):
 
     def _hop(self, t: float, near: Sequence[Near], frame: Frame, applied: Acceleration, height: float) -> None:
         """Leave what turns by a hop where it would stay on it."""
-        x, y, *_, spin, _ = frame.arc.state(t)
+        x, y, vx, vy, spin, _ = frame.arc.state(t)
         (ax, ay), turning = frame.arc.acceleration(t), frame.angular_acceleration(t)
         for obstacle, touch in near:
             if not obstacle.moves:
                 continue
-            dx, dy = self.state[0] - x, self.state[1] - y
-            against = applied[0] - ax + turning * dy + spin**2 * dx, applied[1] - ay - turning * dx + spin**2 * dy, 0.0
-            by = press(self.state, against, touch.nx, touch.ny, 0.0)
+            u, v, ux, uy, *spins = self.state
+            dx, dy = u - x, v - y
+            seen = u, v, ux - vx + spin * dy, uy - vy - spin * dx
+            inertial = (
+                applied[0] - ax + turning * dy + spin**2 * dx + 2.0 * spin * seen[3],
+                applied[1] - ay - turning * dx + spin**2 * dy - 2.0 * spin * seen[2],
+                0.0,
+            )
+            by = press(seen, inertial, touch.nx, touch.ny, touch.curvature)
             short = takeoff_speed(by, max(height, HOP)) - self._leaving((obstacle, touch))
             if by > PUSH and short >= 0.0:
-                u, v, vx, vy, *spins = self.state
-                self.state = (u, v, vx + short * touch.nx, vy + short * touch.ny, *spins)
+                self.state = (u, v, ux + short * touch.nx, uy + short * touch.ny, *spins)
 
     def _refuse_wedged(self, t: float, near: Sequence[Near], frame: Frame) -> None:
         """Raise RunError if what carries it presses it on something else."""
