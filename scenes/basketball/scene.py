@@ -162,9 +162,13 @@ class Parameters(Flight):
     def section(self) -> Hoop:
         """The ring as a ball meets it that flies past its middle at a distance: two tubes nearer to each other, so that
         the ball's centre has as much room between them as in the round ring."""
+        return self.hoop.model_copy(update={"inner_diameter": self.width})
+
+    @property
+    def width(self) -> Any:
+        """The inner diameter of that section, in m."""
         narrows = (self.room > 0.0) & (self.free > 0.0) & (self.beside != 0.0)
-        narrower = where(narrows, 2.0 * (self.room - self.free), 0.0)
-        return self.hoop.model_copy(update={"inner_diameter": self.hoop.inner_diameter - narrower})
+        return self.hoop.inner_diameter - where(narrows, 2.0 * (self.room - self.free), 0.0)
 
     @property
     def board(self) -> tuple[float, float, float, float]:
@@ -310,7 +314,7 @@ def made(run: Run, parameters: Parameters) -> bool:
 
 def inside(state: State, parameters: Parameters) -> bool:
     """True if the ball's centre is between the inner edges."""
-    return bool(abs(state[0] - parameters.hoop.distance) < 0.5 * parameters.section.inner_diameter)
+    return bool(abs(state[0] - parameters.hoop.distance) < 0.5 * parameters.width)
 
 
 def on_side(t: float, run: Run, parameters: Parameters) -> bool:

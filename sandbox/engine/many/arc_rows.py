@@ -72,14 +72,14 @@ class Paths:
     def passages(self, path: ArcRows, curve: Curve) -> list[Passage]:
         """Each time and state at which a curve becomes negative along a path. All paths are computed together as soon
         as a second one is asked for the same curve."""
-        if curve not in self._passages and self._asked.setdefault(curve, path.number) == path.number:
-            return [passage for _, passage in self._passing(path.first, path.last, curve)]
-        if curve not in self._passages:
-            found: list[list[Passage]] = [[] for _ in self._bounds]
+        found = self._passages.get(curve)  # once: the hash of a curve takes as long as the rest
+        if found is None:
+            if self._asked.setdefault(curve, path.number) == path.number:
+                return [passage for _, passage in self._passing(path.first, path.last, curve)]
+            found = self._passages[curve] = [[] for _ in self._bounds]
             for number, passage in self._passing(0, len(self.rows), curve):
                 found[number].append(passage)
-            self._passages[curve] = found
-        return self._passages[curve][path.number]
+        return found[path.number]
 
     def _passing(self, first: int, last: int, curve: Curve) -> Iterator[tuple[int, Passage]]:
         """The number of the path, and the passage, for the arcs in these rows; of each path in order, as in
@@ -138,9 +138,10 @@ class ArcRows(Path):
 
     def state_before(self, t: float) -> State:
         """The state just before t; where an arc ends, as its row has it."""
-        index = bisect_left(self.stops, t)
-        if index < len(self) and self.stops[index] == t:
-            return tuple(self._rows[index, END].tolist())
+        stops = self.paths.stops
+        row = bisect_left(stops, t, self.first, self.last)
+        if row < self.last and stops[row] == t:
+            return tuple(self.paths.rows[row, END].tolist())
         return super().state_before(t)
 
     def pieces(self) -> Iterator[tuple[float, float, list[float], list[float]]]:
