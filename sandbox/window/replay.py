@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+from collections.abc import Mapping
 from dataclasses import asdict
 from math import isfinite
 from pathlib import Path
@@ -13,6 +14,7 @@ import numpy as np
 
 # A replay restores each arc with its contact, so that it is drawn and read like the run that was recorded: the surface
 # that is touched and where, the direction of the motion along it, and the spin rate. Those are types of the engine.
+from sandbox.engine.contact.driven import DrivenPath, MovingObstacle
 from sandbox.engine.contact.touch import Obstacle, Touching
 from sandbox.engine.model.accuracy import Accuracy
 from sandbox.engine.model.ball import Ball
@@ -136,7 +138,10 @@ def run_of(scene: Scene, record: dict[str, Any]) -> SceneRun:
     balls = {ball.name: ball for ball in setup.balls}
     if record["arcs"].keys() != balls.keys() or not all(record["arcs"].values()) or not _is_time(record["duration"]):
         raise ValueError("not all balls have a path")
-    arcs = {name: Arcs([_arc(item, setup, balls[name]) for item in items]) for name, items in record["arcs"].items()}
+    driven = {place: DrivenPath(each) for place, each in enumerate(setup.surfaces) if each.motion is not None}
+    arcs = {
+        name: Arcs([_arc(item, setup, balls[name], driven) for item in items]) for name, items in record["arcs"].items()
+    }
     events = [Event(*item) for item in record["events"]]
     if record["duration"] > max(path[-1].t1 for path in arcs.values()):
         raise ValueError("no path lasts as long as the run")
@@ -170,7 +175,7 @@ def _arc_data(arc: Arc, places: dict[int, int]) -> tuple[Any, ...]:
     return arc.t0, arc.t1, arc.start, arc.curves, contact, arc.end
 
 
-def _arc(item: Any, setup: Setup, ball: Ball) -> Arc:
+def _arc(item: Any, setup: Setup, ball: Ball, driven: Mapping[int, DrivenPath]) -> Arc:
     t0, t1, start, curves, contact, end = item
     numbers = [start, *curves, *([] if end is None else [end])]
     if not all(map(_is_time, (t0, t1))) or not all(_is_number(part) for curve in numbers for part in curve):
@@ -184,7 +189,9 @@ def _arc(item: Any, setup: Setup, ball: Ball) -> Arc:
         phase, place, (gap, nx, ny, curvature, center, feature), direction, spin_rate = contact
         touching = Touching(gap, nx, ny, curvature, tuple(center), feature)
         kind = BodyPointContact if ball.rotates else SustainedContact
-        contact = kind(Phase(phase), Obstacle(setup.surfaces[place], ball.radius), touching, direction, spin_rate)
+        surface, path = setup.surfaces[place], driven.get(place)
+        on = Obstacle(surface, ball.radius) if path is None else MovingObstacle(surface, path, ball.radius)
+        contact = kind(Phase(phase), on, touching, direction, spin_rate)
     last = None if end is None else tuple(end)
     return Arc(t0, t1, tuple(start), tuple(map(tuple, curves)), contact, last)
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from math import hypot, sqrt
+from collections.abc import Sequence
+from math import hypot, nan, sqrt
 
 import pytest
 
@@ -101,3 +102,23 @@ def test_a_ramp_decides():
         RequestError, match=r"felt\.ramp_rise = 2 m: felt: a slope that pulls by 19\.6 m/s\^2 must pull"
     ):
         putt(**ramp | {"felt__ramp_rise": 2.0})
+
+
+@pytest.mark.parametrize(
+    ("name", "key", "values"),
+    [
+        ("minigolf", "mills[0].angle", range(25, 95, 5)),
+        ("hockey/glove-save", "launch.angle", [8.0 + 0.4 * i for i in range(14)]),
+        ("soccer-curl/dive", "launch.angle", [-16.0 + 0.3 * i for i in range(16)]),
+    ],
+)
+def test_many_with_what_moves_are_as_each_alone(name: str, key: str, values: Sequence[float]):
+    facts = [fact for fact in sandbox.load(name).units if fact not in ("touches", "ended")]
+    together = sandbox.simulate_many(name, {key: list(values)}, facts=facts)
+    alone = [sandbox.simulate(sandbox.load(name, {key: value})).result for value in values]
+    assert len({tuple(sorted(map(str, result.values()))) for result in alone}) > 5
+    for fact in facts:
+        expected = [
+            nan if result[fact] is None and isinstance(together[fact][0], float) else result[fact] for result in alone
+        ]
+        assert [*together[fact]] == pytest.approx(expected, abs=1e-12, nan_ok=True), fact

@@ -12,9 +12,11 @@ import pytest
 from PIL import Image
 
 import sandbox
+from sandbox import Ball, Gravity, Moving, Segment, Setup, Surface, Swinging
 from sandbox.engine.ledger import ledger
 from sandbox.engine.motion.moving_ball import InCluster, InHeap
 from sandbox.errors import RequestError
+from sandbox.scene.setup_scene import with_scene
 from sandbox.window import export, replay, sound
 from sandbox.window.session import Session
 
@@ -55,6 +57,17 @@ class TestReplays:
         assert sum(isinstance(contact, InCluster | InHeap) for contact in contacts[1]) > 10
         assert [*map(type, contacts[1])] == [*map(type, contacts[0])]
         assert ledger(again) == ledger(run)
+
+    def test_it_knows_what_carried_a_ball(self):
+        """A lift: it rests, it is driven, and it flies off."""
+        floor = Surface("lift", Segment((-9.0, 0.0), (9.0, 0.0)), 0.3, 0.4)
+        ball = Ball("ball", 1.0, 0.1, (0.0, 0.3), forces=[Gravity(9.81)])
+        lift = Moving(floor, Swinging((0.0, 0.0), 0.0, 1.0, shift=(0.0, 0.2)))
+        run = with_scene(sandbox.simulate(Setup([ball], [lift], duration=3.0)))
+        again = replay.run_of(run.scene, json.loads(json.dumps(replay.data_of(run))))
+        assert any(arc.contact for arc in again.arcs["ball"])
+        assert ledger(again).work == pytest.approx(ledger(run).work, rel=1e-7)
+        assert ledger(again).contacts == pytest.approx(ledger(run).contacts, abs=1e-7)
 
     def test_simulated_again_it_is_the_same(self, recorded):
         assert "identical to the last bit" in replay.compared(recorded[0].run, replay.read(recorded[1]).run)
