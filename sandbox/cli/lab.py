@@ -145,7 +145,7 @@ def spread(
       sandbox spread billiards/nine-ball-break --by cue.speed=3% --samples 256 --page breaks.html
     """
     from sandbox.files import check_distinct
-    from sandbox.lab.spread import report, spread_of
+    from sandbox.lab.spread import check_scipy, report, spread_of
     from sandbox.lab.spread.causes import causes_of, parse_cause
     from sandbox.lab.spread.needs import parse_within
     from sandbox.progress import bar
@@ -167,6 +167,7 @@ def spread(
         check_file("--page", page, ".html")
         check_installed("--page", "matplotlib")
     check_distinct({"--plot": plot, "--page": page})
+    check_scipy()
     with bar("spread") as progress:
         found = spread_of(chosen, causes, of, samples, seed, sampling, not no_causes, widths, progress)
     if plot is not None:

@@ -67,12 +67,13 @@ class Canvas(Sheet):
             tip = 0.6 * mark * half
             self.painter.polygon([(x - half, y - tip), (x + half, y - tip), (x, y + tip)], colour)
 
-    def text(self, lines: Iterable[tuple[str, Any]]) -> Form:
-        """A small card of lines: each is a text with its colour, or a label and a value."""
+    def text(self, lines: Iterable[tuple[str, Any]], least: int = 0, below: int = 0) -> Form:
+        """A small card of lines: each is a text with its colour, or a label and a value; at ``least`` so wide, with so
+        much room ``below`` them, in px."""
         letters, gap, lines = self.lettering, self.gap, list(lines)
         row = letters.height("small") + gap // 2
         values = [letters.width(value, "small", bold=True) + 3 * gap for _, value in lines if isinstance(value, str)]
-        wide = max(letters.width(text, "small") for text, _ in lines) + max(values, default=0) + 4 * gap
+        wide = max(least, max(letters.width(text, "small") for text, _ in lines) + max(values, default=0) + 4 * gap)
 
         def draw(rect: pygame.Rect) -> None:
             self.painter.panel(rect, CARD["background"], 0.9, 8 * self.unit)
@@ -83,7 +84,7 @@ class Canvas(Sheet):
                 if is_value:
                     letters.write(self.surface, value, "small", (right, top), CARD["text"], "topright", bold=True)
 
-        return Form((wide, len(lines) * row + 2 * gap - gap // 2), draw)
+        return Form((wide, len(lines) * row + 2 * gap - gap // 2 + below), draw)
 
     def card(self, lines: Iterable[tuple[str, Any]], anchor: str, at: tuple[float, float]) -> None:
         """A small card whose side or corner ``anchor`` (named as by pygame.Rect) is at a place in px, moved inside."""
@@ -92,8 +93,9 @@ class Canvas(Sheet):
         setattr(rect, anchor, (round(at[0]), round(at[1])))
         form.draw(rect.clamp(self.surface.get_rect()))
 
-    def notes(self, lines: Sequence[tuple[str, Colour]]) -> list[Form]:
-        """A small card of texts with their colours: wide, narrower and higher, and with less and less of it."""
+    def notes(self, lines: Sequence[tuple[str, Colour]], least: int = 0, below: int = 0) -> list[Form]:
+        """A small card of texts with their colours: wide, narrower and higher, and with less and less of it; at
+        ``least`` so wide, with so much room ``below`` them, in px."""
         wrapped = self.lettering.wrapped
         rooms = [round(share * self.frame.width) - 4 * self.gap for share in (1.0, 0.45, 0.3, 0.2)]
         texts = [[(part, ink) for text, ink in lines for part in wrapped(text, "small", room)] for room in rooms]
@@ -101,7 +103,7 @@ class Canvas(Sheet):
         shorter = [[(part, ink) for part in wrapped(first, "small", room)] for room in rooms]
         shortest = [[(self.shortened(first, "small", room), ink)] for room in rooms]
         less = [self.text(each)._replace(whole=False) for each in (*shorter, *shortest)]
-        return [*map(self.text, texts), *less]
+        return [*(self.text(each, least, below) for each in texts), *less]
 
     def messages(self, layout: Layout, messages: Sequence[tuple[str, bool]]) -> None:
         """Messages over the bottom of the picture, each with whether it is bad, in up to ten lines; where there is no

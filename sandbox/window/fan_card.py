@@ -52,23 +52,22 @@ def fan_forms(sheet: Canvas, lines: Sequence[tuple[str, Colour]], bars: Bars | N
     texts = sheet.notes(lines)
     if bars is None:
         return texts
-    return [
-        *(_with_bars(sheet, form, bars) for form in texts if form.whole),
-        *(it._replace(whole=False) for it in texts),
-    ]
+    letters, gap = sheet.lettering, sheet.gap
+    longest = max(letters.width(bars.title, "small"), letters.width("".join(bars.ends), "small") + 2 * gap)
+    below = 2 * letters.height("small") + round(HEIGHT * sheet.unit) + gap
+    forms = sheet.notes(lines, max(round(WIDE * sheet.unit), longest + 4 * gap), below)
+    shorter = [form._replace(whole=False) for form in texts]
+    return [*(_with_bars(sheet, form, bars, below) for form in forms if form.whole), *shorter]
 
 
-def _with_bars(sheet: Canvas, text: Form, bars: Bars) -> Form:
+def _with_bars(sheet: Canvas, card_form: Form, bars: Bars, below: int) -> Form:
     letters, gap, unit = sheet.lettering, sheet.gap, sheet.unit
     row, tall = letters.height("small"), round(HEIGHT * unit)
-    below = letters.width("".join(bars.ends), "small") + 2 * gap
-    wide = max(text.size[0], round(WIDE * unit), 4 * gap + max(below, letters.width(bars.title, "small")))
 
     def draw(card: pygame.Rect) -> None:
-        sheet.painter.panel(card, CARD["background"], 0.9, 8 * unit)
-        text.draw(pygame.Rect(card.topleft, text.size))
+        card_form.draw(card)
         left, right = card.left + 2 * gap, card.right - 2 * gap
-        top = card.top + text.size[1]
+        top = card.bottom - below
         letters.write(sheet.surface, bars.title, "small", (left, top), CARD["text"])
         foot = top + row + gap // 2 + tall
         most = max(map(sum, zip(bars.good, bars.rest, strict=True)))
@@ -85,4 +84,4 @@ def _with_bars(sheet: Canvas, text: Form, bars: Bars) -> Form:
         letters.write(sheet.surface, bars.ends[0], "small", (left, foot), CARD["quiet"])
         letters.write(sheet.surface, bars.ends[1], "small", (right, foot), CARD["quiet"], "topright")
 
-    return Form((wide, text.size[1] + 2 * row + tall + 2 * gap), draw)
+    return card_form._replace(draw=draw)

@@ -41,7 +41,7 @@ SAMPLES, FEWEST, MOST = 1024, 16, 1_000_000
 #: The certainties that are asked for unless others are: of shares, and of means in standard deviations.
 _OF_SHARES, _OF_MEANS = (0.05, 0.01), 0.1
 
-#: Most points at which the whole ball's places are read.
+#: Directions, or coordinates of a place.
 _TWO = 2
 
 
@@ -141,6 +141,8 @@ class Spread:
         """Where each ball comes to lie, of those that move in two directions."""
         found = {}
         for name, values in self.runs.facts.items():
+            if self.scene.units[name] != "m":  # a velocity is no place
+                continue
             rows = [row for row in values[: self.samples].tolist() if isinstance(row, Mapping)]
             for ball in dict.fromkeys(ball for row in rows for ball in row):
                 places = [row[ball] for row in rows if _is_place(row.get(ball))]
@@ -283,6 +285,14 @@ def spread(
     return spread_of(chosen, causes_of(chosen, given, "by"), facts, samples, seed, sampling, causes, within, progress)
 
 
+def check_scipy() -> None:
+    """Import what points and indices are made by, which takes a while. Raises RequestError where it is missing."""
+    try:
+        import scipy.stats  # noqa: F401
+    except ImportError:
+        raise RequestError("sandbox spread needs scipy, which is not installed: pip install scipy") from None
+
+
 def spread_of(
     scene: Scene,
     by: Sequence[Cause],
@@ -295,10 +305,7 @@ def spread_of(
     progress: Progress = no_progress,
 ) -> Spread:
     """Like ``spread``, for causes already parsed."""
-    try:
-        import scipy  # noqa: F401
-    except ImportError:
-        raise RequestError("sandbox spread needs scipy, which is not installed: pip install scipy") from None
+    check_scipy()
     if not isinstance(samples, int) or not FEWEST <= samples <= MOST:
         raise RequestError(f"samples = {samples}: must be from {FEWEST} to {MOST:,}")
     if not isinstance(seed, int) or seed < 0:

@@ -133,7 +133,10 @@ def causes_of(scene: Scene, given: Sequence[Cause], option: str) -> list[Cause]:
         always = {item.key for item in scene.controls.spread if item.sd} - set(keys)
         own = {key: each for key, each in own.items() if key in always}
     elif not own:
-        raise RequestError(f"nothing scatters: give {option} KEY=SD, for example {option} launch.speed=1%")
+        why = (
+            "this shot does not start from the player's controls" if scene.controls.set_on_pull else "nothing scatters"
+        )
+        raise RequestError(f"{why}: give {option} KEY=SD, for example {option} launch.speed=1%")
     return [
         *given,
         *(
