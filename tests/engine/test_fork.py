@@ -33,6 +33,8 @@ MORE = {
     "collisions/bowl": {"duration": 0.7},
     "collisions/dominoes": {"duration": 0.1},
     "basketball/rattle": {},
+    "hockey/glove-save": {},
+    "minigolf/back-down": {"felt.ramp_rise": 0.2},
 }
 SCENES = {**{each.name: {} for each in listings() if "/" not in each.name}, **MORE}
 

@@ -38,7 +38,8 @@ def stepped(world, until, rate):
 
 
 @pytest.mark.parametrize(
-    "name", ["basketball/rattle", "billiards/nine-ball-break", "collisions/bowl", "golf", "minigolf"]
+    "name",
+    ["basketball/rattle", "billiards/nine-ball-break", "collisions/bowl", "golf", "minigolf", "hockey/glove-save"],
 )
 @pytest.mark.parametrize("rate", [60, 144, "random"])
 def test_frames_change_nothing(name, rate):
