@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 
 #: Events from one checkpoint to the next: at least so many, and so many for each ball. Fewer: runs take more time and
 #: memory; more: a fork first resolves more events again.
-_EVENTS, _EVENTS_OF_A_BALL = 16, 4
+_EVENTS, _EVENTS_OF_A_BALL = 32, 4
 
 #: A cluster, which takes as long as so many other events.
 _EVENTS_OF_A_CLUSTER = 64
