@@ -86,6 +86,16 @@ def test_nothing_passes_through_what_moves(run: Run):
     assert max(each["overlap"] for each in found) < 1e-6
 
 
+def test_games_of_pinball_end_without_an_error(opened: Callable[[str], ModuleType]):
+    """One with random keys, one that tries to hit the ball: nothing passes through, no energy is from nowhere."""
+    pinball = opened("pinball")
+    for seed in (0, 1):
+        found = pinball.measure(seed, longest=3.0)
+        assert not found["error"]
+        assert found["overlap"] < 1e-9
+        assert found["created_j"] < 1e-9 * found["moved_j"]
+
+
 def test_what_passes_through_is_noticed(opened: Callable[[str], ModuleType]):
     """The same case with the surface out of the way, measured as if it were there."""
     moving = opened("moving")
