@@ -82,13 +82,15 @@ class Picture(AboveView[Parameters]):
 
     def inset(self, sheet: Sheet, camera: Camera, t: float | None) -> pygame.Rect:
         """The table itself: what is written stands beside it."""
-        return plan.on_pixels(camera, self.aims[0])
+        (left, bottom), (right, top) = self.seen.tolist()
+        return plan.on_pixels(camera, Box(left, bottom, right, top))
 
     @property
     def aims(self) -> list[Box]:
-        """The table: nothing in the window covers it."""
+        """The table: nothing in the window covers it, but its arch where there is little room beside it."""
         (left, bottom), (right, top) = self.seen.tolist()
-        return [Box(left, bottom, right, top)]
+        beside = self.camera.pixel(left, bottom)[0] > 0.3 * self.size[0]
+        return [Box(left, bottom, right, top if beside else ARCH)]
 
     @cached_property
     def plan(self) -> plan.Plan:
