@@ -51,7 +51,7 @@ from sandbox.kit import (
 HALF, OUTER, ARCH, WALL, BAT = 0.235, 0.279, 0.74, 0.004, 0.009
 #: The plunger: its height in m and the middle of its lane.
 PLUNGER, LANE = 0.12, 0.5 * (HALF + OUTER)
-#: A flipper's pivot and length in m, so that the largest ball is not pinched between the two; s after which a game is ended.
+#: A flipper's pivot and length in m, which leave room for the largest ball between the two; s after which a game ends.
 PIVOT, LENGTH, LONGEST = (0.087, 0.130), 0.063, 600.0
 #: A ball that rolls without slipping falls with so much of gravity's share along the table: 1 / (1 + 2/5).
 ROLLING = 5.0 / 7.0
