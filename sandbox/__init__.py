@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from sandbox.engine.paths.run import Numerics, Run, State
     from sandbox.errors import RequestError, RunError, SandboxError
     from sandbox.lab.aim import Aim, aim
+    from sandbox.lab.fit import Fit, fit
     from sandbox.lab.many import Runs, simulate_many
     from sandbox.lab.spread import Spread, spread
     from sandbox.lab.sweep import Sweep, sweep
@@ -61,6 +62,7 @@ _MODULES = {
     **dict.fromkeys(("Numerics", "Run", "State"), "sandbox.engine.paths.run"),
     **dict.fromkeys(("RequestError", "RunError", "SandboxError"), "sandbox.errors"),
     **dict.fromkeys(("Aim", "aim"), "sandbox.lab.aim"),
+    **dict.fromkeys(("Fit", "fit"), "sandbox.lab.fit"),
     **dict.fromkeys(("Runs", "simulate_many"), "sandbox.lab.many"),
     **dict.fromkeys(("Spread", "spread"), "sandbox.lab.spread"),
     **dict.fromkeys(("Sweep", "sweep"), "sandbox.lab.sweep"),
@@ -92,6 +94,7 @@ __all__ = [
     "Drag",
     "Ellipse",
     "Event",
+    "Fit",
     "Force",
     "ForceRegion",
     "Given",
@@ -133,6 +136,7 @@ __all__ = [
     "capsule",
     "check",
     "disc",
+    "fit",
     "load",
     "regular",
     "simulate",

@@ -1,4 +1,4 @@
-"""The commands that measure: ``aim``, ``spread``, ``sweep``, ``trade``, ``stress``, ``validate``."""
+"""The commands that measure: ``aim``, ``fit``, ``spread``, ``sweep``, ``trade``, ``stress``, ``validate``."""
 
 from __future__ import annotations
 
@@ -84,6 +84,31 @@ def aim(
     else:
         written = [] if show is None else [f"wrote {show}"]
         say("\n".join([*report.as_text(found), *written]))
+
+
+@click.command()
+@scene_argument
+@click.argument("track", metavar="TRACK.csv", type=Path, help="Measured positions: columns t (s), x, y (m), and ball.")
+@click.option(
+    "--vary", metavar="KEY[=LO:HI]", multiple=True, required=True, help="A number to fit, and its range; repeatable."
+)
+@changes_options
+@json_option
+def fit(scene: str, track: Path, vary: tuple[str, ...], changes: dict[str, Any], as_json: bool) -> None:
+    """Find the parameters that explain a measured track.
+
+    Each has its 95 % interval. Times are since the launch, positions as in the scene.
+
+    \b
+    Examples:
+      sandbox fit basketball track.csv --vary launch.speed=6:9 --vary floor.restitution
+    """
+    from sandbox.lab.fit import fit_track, parse_varied, read_track, report
+
+    chosen = load(scene, changes)
+    spans = [parse_varied(chosen, text) for text in vary]
+    found = fit_track(chosen, read_track("track", track), spans)
+    say(json_text(report.as_json(found)) if as_json else report.text(found))
 
 
 @click.command()

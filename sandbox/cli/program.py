@@ -19,7 +19,7 @@ from sandbox.text import one_line, printable
 COMMANDS = {
     "scenes": ("list", "schema", "new", "play"),
     "run": ("run",),
-    "lab": ("aim", "spread", "sweep", "trade", "stress", "validate"),
+    "lab": ("aim", "fit", "spread", "sweep", "trade", "stress", "validate"),
 }
 
 

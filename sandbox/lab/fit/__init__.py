@@ -1,0 +1,88 @@
+"""Fit: the parameters of a scene that explain a measured track.
+
+Least squares by scipy over runs that are computed together. Times of impact are exact, so positions are smooth in the
+parameters through bounces too, and differences of neighbouring runs are good derivatives.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from sandbox.errors import RequestError
+from sandbox.lab.axes import Span, as_axis, checked
+from sandbox.lab.fit.squares import Fit, solve
+from sandbox.lab.fit.track import Track, as_track, read_track
+from sandbox.parameters import walk
+from sandbox.scene import Scene, as_scene
+from sandbox.text import check_mapping
+
+__all__ = ["Fit", "Track", "fit", "fit_track", "parse_varied", "read_track"]
+
+
+def fit(
+    scene: Scene | str | Path,
+    track: Mapping[str, Sequence[float]] | str | Path,
+    vary: Mapping[str, tuple[Any, Any] | None],
+) -> Fit:
+    """The values of parameters that explain a measured track, with 95 % intervals.
+
+    ``track`` is a CSV file or columns: t in s since the launch, x and y in m as in the scene, and optionally ball.
+    ``vary`` gives each parameter its range, or None for its declared bounds. Raises RequestError for an invalid
+    request, and RunError if no run near the best values could be completed.
+
+    >>> import sandbox
+    >>> track = {"t": [0.0, 0.2, 0.4], "x": [0.0, 1.0, 2.0], "y": [2.1, 2.9, 3.3]}
+    >>> list(sandbox.fit("basketball", track, {"launch.speed": (6, 9)}).values)
+    ['launch.speed']
+    """
+    chosen = as_scene(scene)
+    check_mapping("vary", vary, '{"launch.speed": (5, 15)}')
+    measured = as_track(track) if isinstance(track, Mapping) else read_track("track", Path(track))
+    spans = [_span(chosen, "vary", key, given) for key, given in vary.items()]
+    return fit_track(chosen, measured, spans)
+
+
+def fit_track(scene: Scene, track: Track, spans: Sequence[Span]) -> Fit:
+    """Like ``fit``, for a track and ranges already read."""
+    try:
+        import scipy  # noqa: F401
+    except ImportError:
+        raise RequestError("sandbox fit needs scipy, which is not installed: pip install scipy") from None
+    keys = [span.key for span in spans]
+    twice = next((key for key in keys if keys.count(key) > 1), None)
+    if twice is not None:
+        raise RequestError(f"--vary {twice}: given twice")
+    if len(track) <= len(keys):
+        raise RequestError(f"{len(track)} points for {len(keys)} parameters: a fit needs more points than parameters")
+    return solve(scene, track, spans)
+
+
+def parse_varied(scene: Scene, text: str) -> Span:
+    """``KEY=LO:HI``, or ``KEY`` for the declared bounds. Raises RequestError."""
+    key, equals, body = (part.strip() for part in text.partition("="))
+    parts = body.split(":")
+    if equals and len(parts) != 2:
+        raise RequestError(f"--vary {text}: write it as KEY or KEY=LO:HI, for example --vary launch.speed=5:15")
+    return _span(scene, "--vary", key, (parts[0].strip(), parts[1].strip()) if equals else None)
+
+
+def _span(scene: Scene, option: str, key: str, given: Any) -> Span:
+    """The range of a parameter, its declared bounds if none is given. Raises RequestError."""
+    if given is None:
+        known = next((one for one in walk(scene.parameters, entries=True) if one.key == key), None)
+        if known is None:
+            checked(scene, option, key, 0.0)  # says what is wrong with the key
+        if known is None or known.low is None or known.high is None:
+            raise RequestError(f"{option} {key}: has no bounds to search in; give a range, {key}=LO:HI")
+        return Span(key, known.low, known.high)
+    low, high = given
+    if option == "--vary":
+        from sandbox.toml import toml_value
+
+        low, high = toml_value(low), toml_value(high)
+    axis = as_axis(scene, key, (low, high), option)
+    if not isinstance(axis, Span):
+        raise RequestError(f"{option} {key}: only numbers can be fitted")
+    return axis
