@@ -83,7 +83,8 @@ def test_every_preset_describes_itself_ends_and_stays_finite(listing: Any):
         assert np.isfinite(run.trajectory(ball.name)).all()
     numbers = {key: value for key, value in run.result.items() if isinstance(value, float)}
     assert all(math.isfinite(number) for number in numbers.values())
-    assert {key for key in numbers if not scene.units[key]} <= {"smash_factor", "speed_kept"}  # ratios
+    ratios = {"smash_factor", "speed_kept", "drag_coefficient", "lift_coefficient"}
+    assert {key for key in numbers if not scene.units[key]} <= ratios
     assert scene.rows(run)
     assert scene.verdict(run)
 

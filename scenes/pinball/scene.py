@@ -1,4 +1,4 @@
-"""A pinball table: plunger, arch, three bumpers that kick, slings, targets, and two flippers that the player moves.
+"""A pinball table: plunger, arch, bumpers that kick, slings, targets, and two flippers that the player moves.
 
 Models: a steel ball that rolls down an inclined table; flippers driven at a constant rate, whatever they hit; the work
 of flippers, bumpers, slings and of the spring that sends back a ball in the lane, which is in the energy ledger.

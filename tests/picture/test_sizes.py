@@ -27,7 +27,8 @@ def test_a_poster_and_a_frame_of_any_size_are_legible(name, size):
     picture = poster_of(name, size)
     assert_legible(picture.sheet)
     texts, rows = [text for text, _ in picture.sheet.written], picture.run.scene.rows(picture.run)
-    assert picture.run.scene.verdict(picture.run) in " ".join(texts)
+    # a long headline goes on in smaller letters after its comma
+    assert picture.run.scene.verdict(picture.run).replace(", ", " ") in " ".join(texts).replace(", ", " ")
     assert sum(label in texts for label, *_ in rows) >= min(len(rows), 3 if size[0] < 400 else 5)
     assert np.ptp(picture.trace, axis=0).max() > 0.08 * size[0]
     assert picture.frame(0.6 * picture.run.duration).get_size() == size

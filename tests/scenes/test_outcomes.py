@@ -52,6 +52,7 @@ PRESETS = {
     "curling/raise": ("", "Lies 1.9 m from the tee; red lies 2"),
     "baseball/bat": ("", "Off the fence, 0.22 m below its top"),
     "baseball/denver": ("", "Home run, 138 m"),
+    "soccer-curl/dive": ("saved", "Saved by the keeper"),
     "baseball-pitch/changeup": ("", "Strike, 0.73 m over the plate"),
     "baseball-pitch/curve": ("", "Strike, 0.69 m over the plate"),
     "billiards/newtons-cradle": ("", "Nothing potted, the 5 rolls 2.1 m"),

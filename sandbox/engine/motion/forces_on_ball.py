@@ -70,7 +70,7 @@ def acceleration_function(ball: Ball) -> AccelerationFunction:
 
 def _called(term: Any) -> Any:
     """Return a force or torque as Python calls it fastest: the bound ``__call__`` of one that is data."""
-    return term.__call__ if is_dataclass(type(term)) else term
+    return term.__call__ if callable(term) and is_dataclass(type(term)) else term
 
 
 def _is_constant(force: Any) -> bool:
