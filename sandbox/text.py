@@ -39,6 +39,11 @@ def shortened(text: str, most: int = 80) -> str:
     return text if len(text) <= most else text[: most - 3] + "..."
 
 
+def counted(count: int, what: str) -> str:
+    """``1 point``, ``40 points``, ``1,000 points``."""
+    return f"{count:,} {what}{'s' * (count != 1)}"
+
+
 def check_mapping(name: str, value: object, example: str) -> None:
     """Raise RequestError if the argument of this name is no mapping, such as the ``example``."""
     if not isinstance(value, Mapping):

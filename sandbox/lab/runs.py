@@ -41,13 +41,16 @@ def runs(
     points: Sequence[Sequence[Any]],
     finer: bool = False,
     asked: Sequence[str] = (),
+    until: float | None = None,
 ) -> Iterator[SceneRun | Exception]:
     """The run at each of the points, in order, with its result; or the exception it ended with.
 
     Similar shots are computed together. ``finer`` halves the steps, to estimate errors. If only some facts are
-    ``asked`` for, each run ends when these are final, and its result contains only these.
+    ``asked`` for, each run ends when these are final, and its result contains only these. If only paths ``until`` a
+    time in s are, each run ends then, also where the scene would end it earlier, and its result is empty.
     """
-    build, read, varied = builder(scene, asked), scene.reader(asked), Varied(scene, keys)
+    build, varied = builder(scene, asked) if until is None else _until(scene, until), Varied(scene, keys)
+    read = scene.reader(asked) if until is None else _nothing
     parameters: dict[int, SceneParameters] = {}
     found: dict[int, Iterator[Run | Exception]] = {}
     for places, many in varied.together(points):
@@ -105,6 +108,19 @@ def builder(scene: Scene, asked: Sequence[str]) -> Build:
         return replace(setup, until=_AllFinal(untils, setup.until))
 
     return build
+
+
+def _until(scene: Scene, time: float) -> Build:
+    """The scene's ``build``, whose runs end at this time in s, or at rest."""
+
+    def build(parameters: SceneParameters) -> Setup:
+        return replace(replace(scene, parameters=parameters).build(), until=None, duration=time)
+
+    return build
+
+
+def _nothing(run: Run, parameters: Any) -> dict[str, Any]:
+    return {}
 
 
 def built_at_once(build: Build, many: SceneParameters, each: Sequence[SceneParameters]) -> Stack | None:

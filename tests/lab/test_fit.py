@@ -23,7 +23,7 @@ def test_a_noisy_track_through_bounces_gives_back_the_truth():
         half = 0.5 * (one.high - one.low)
         assert 0.0 < half < 0.05
         assert abs(one.value - TRUE[key]) < 1.5 * half
-    assert found.residual_sd == pytest.approx((0.005, 0.005), rel=0.4)
+    assert found.residual_sd == pytest.approx({"x": 0.005, "y": 0.005}, rel=0.4)
 
 
 @pytest.mark.parametrize(
@@ -32,7 +32,7 @@ def test_a_noisy_track_through_bounces_gives_back_the_truth():
         ("t,x\n0,1\n", "column y"),
         ("t,x,y\n0,0,0\n0.2,1,1\n0.1,2,2\n", "row 3, t = 0.1 s is before 0.2 s"),
         ("t,x,y\n0,0,3 ft\n", "is not a number"),
-        ("t,x,y\n0,0,0\n", "1 points for 1 parameters"),
+        ("t,x,y\n0,0,0\n", "1 point for 1 parameter"),
         ("t,x,y,ball\n0,0,0,puck\n1,1,1,puck\n", "no ball 'puck'"),
     ],
 )

@@ -1,6 +1,6 @@
 """Fit: the parameters of a scene that explain a measured track.
 
-Least squares by scipy over runs that are computed together. Times of impact are exact, so positions are smooth in the
+Least squares over runs that are computed together. Times of impact are exact, so positions are smooth in the
 parameters through bounces too, and differences of neighbouring runs are good derivatives.
 """
 
@@ -12,6 +12,7 @@ from typing import Any
 
 from sandbox.errors import RequestError
 from sandbox.lab.axes import Span, as_axis, checked
+from sandbox.lab.fit.measured import Measured
 from sandbox.lab.fit.squares import Fit, solve
 from sandbox.lab.fit.track import Track, as_track, read_track
 from sandbox.parameters import walk
@@ -44,19 +45,13 @@ def fit(
     return fit_track(chosen, measured, spans)
 
 
-def fit_track(scene: Scene, track: Track, spans: Sequence[Span]) -> Fit:
-    """Like ``fit``, for a track and ranges already read."""
-    try:
-        import scipy  # noqa: F401
-    except ImportError:
-        raise RequestError("sandbox fit needs scipy, which is not installed: pip install scipy") from None
+def fit_track(scene: Scene, measured: Measured, spans: Sequence[Span], robust: bool = False) -> Fit:
+    """Like ``fit``, for data and ranges already read."""
     keys = [span.key for span in spans]
     twice = next((key for key in keys if keys.count(key) > 1), None)
     if twice is not None:
         raise RequestError(f"--vary {twice}: given twice")
-    if len(track) <= len(keys):
-        raise RequestError(f"{len(track)} points for {len(keys)} parameters: a fit needs more points than parameters")
-    return solve(scene, track, spans)
+    return solve(scene, measured, spans, robust)
 
 
 def parse_varied(scene: Scene, text: str) -> Span:

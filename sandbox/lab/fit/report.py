@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from sandbox.lab.axes import unit_of
 from sandbox.lab.fit.squares import Fit
+from sandbox.text import counted
 
 #: Two values whose errors are correlated more strongly than this cannot be told apart.
 CORRELATED = 0.95
@@ -13,43 +13,39 @@ CORRELATED = 0.95
 
 def text(found: Fit) -> str:
     """The fit for people."""
-    x, y = found.residual_sd
-    lines = [f"{found.scene.title}: {len(found.track)} points"]
+    measured = found.measured
+    lines = [f"{found.scene.title}: {counted(measured.count, measured.what)}, {found.loss}"]
     for key, one in found.values.items():
-        unit = unit_of(found.scene, key)
-        line = f"  {key} = {one.value:.6g}{' ' * bool(unit)}{unit}  95 %: {one.low:.6g} to {one.high:.6g}"
+        line = f"  {key} = {one.value:.6g}{' ' * bool(one.unit)}{one.unit}  95 %: {one.low:.6g} to {one.high:.6g}"
         lines.append(line + ("; at an end of its range, so the interval does not hold" if one.at_bound else ""))
-    lines.append(f"  standard deviation of the residuals: {x:.3g} m in x, {y:.3g} m in y")
+    sds = zip(found.residual_sd.items(), measured.units, strict=True)
+    said = ", ".join(f"{sd:.3g} {unit} in {name}" for (name, sd), unit in sds)
+    lines.append(f"  standard deviation of the residuals: {said}")
     for (first, second), value in found.correlations.items():
         if abs(value) > CORRELATED:
             lines.append(f"  {first} and {second} can hardly be told apart (correlation {value:.3f})")
     if found.outliers:
         lines.append(f"  outliers: row {', '.join(map(str, found.outliers))}")
-    if found.late:
-        lines.append(
-            f"  later than the end of the run, and compared with where the ball was then: points: {found.late}"
-        )
-    lines.append("  assumed: errors of the points are independent, and alike in x and y")
+    lines += [f"  {remark}" for remark in found.remarks]
     return "\n".join(lines)
 
 
 def as_json(found: Fit) -> dict[str, Any]:
     """The fit in JSON's types."""
-    x, y = found.residual_sd
     return {
         "values": {
             key: {
                 "value": one.value,
                 "low": one.low,
                 "high": one.high,
-                "unit": unit_of(found.scene, key),
+                "unit": one.unit,
                 "at_bound": one.at_bound,
+                "unknown": one.unknown,
             }
             for key, one in found.values.items()
         },
-        "residual_sd": {"x": x, "y": y},
+        "residual_sd": dict(found.residual_sd),
         "correlations": {f"{one}, {other}": value for (one, other), value in found.correlations.items()},
         "outliers": list(found.outliers),
-        "points": len(found.track),
-        "late": found.late,
+        "points": found.measured.count,
     }

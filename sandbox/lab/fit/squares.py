@@ -1,43 +1,48 @@
-"""The least squares of a fit: residuals over many runs, several starts, and intervals of the values."""
+"""A fit: the best values, how well they are known, and what is odd about them."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import combinations
+from typing import Any
 
 import numpy as np
 
 from sandbox.errors import RequestError, RunError
 from sandbox.lab.axes import Span
-from sandbox.lab.fit.track import Track
-from sandbox.lab.many import simulate_many
-from sandbox.parameters import value_at
+from sandbox.lab.fit.descent import Place, descend
+from sandbox.lab.fit.intervals import Errors, errors_of, group_sds, pooled
+from sandbox.lab.fit.loss import HUBERS, SQUARES, TUKEYS, Loss
+from sandbox.lab.fit.measured import Measured
+from sandbox.lab.fit.problem import Problem
+from sandbox.lab.fit.search import ALIKE, ENOUGH, neumann, robust_sds, search
 from sandbox.scene import Scene
-from sandbox.scene.scene_run import SceneRun
-
-#: Difference of neighbouring runs, as a share of the range; starts that are tried, and of these, solved from.
-STEP, TRIED, SOLVED = 1e-6, 32, 3
-
-#: Shares of the points, from the first, that are fitted one after another from each start: the path before the first
-#: bounces leads to the right number of bounces later.
-WINDOWS = (0.25, 0.5, 1.0)
+from sandbox.text import counted
 
 #: A residual beyond so many robust standard deviations is an outlier.
 OUTLIER = 4.0
 
-#: The residual in m of a point whose run failed: worse than any track.
-FAILED = 1e4
+#: Rounds in which values and standard deviations of the groups are found one from the other.
+ROUNDS = 3
+
+#: A share of its range within which a value is at its end.
+AT_END = 1e-6
+
+#: A fit whose residuals have a pattern, and on average this share of the extent of the data, explains nothing.
+NOTHING = 0.15
 
 
 @dataclass(frozen=True)
 class Value:
-    """A fitted value with its 95 % interval, in the parameter's unit."""
+    """A fitted value with its 95 % interval, in its unit."""
 
     value: float
     low: float
     high: float
-    at_bound: bool  # the fit stopped at an end of the range, so the interval does not hold
+    unit: str
+    at_bound: bool = False  # the fit stopped at an end of the range, so the interval does not hold
+    unknown: bool = False  # the data do not say: the interval is the whole range
 
 
 @dataclass(frozen=True)
@@ -51,114 +56,114 @@ class Fit:
     """
 
     scene: Scene  # with the fitted values
-    track: Track
+    measured: Measured
     values: dict[str, Value]
     correlations: dict[tuple[str, str], float]  # of the errors of two values, -1 to 1
-    residuals: np.ndarray = field(repr=False)  # m, shape (points, 2): measured minus computed
-    outliers: tuple[int, ...] = ()  # rows of the track, the first is 1
-    late: int = 0  # points after the end of the fitted run, compared with where the ball was then
+    residuals: np.ndarray = field(repr=False)  # measured minus computed, shape (residuals,); units as in ``measured``
+    residual_sd: dict[str, float]  # of the errors of each group, such as x and y, in its unit
+    pooled: bool  # whether groups in one unit were weighted alike
+    loss: str  # "least squares", "Tukey's biweight"
+    outliers: tuple[int, ...]  # rows of the data, the first is 1
+    pattern: bool  # whether the residuals have one: the model does not explain the data
+    remarks: tuple[str, ...]
 
     @property
-    def residual_sd(self) -> tuple[float, float]:
-        """The standard deviation of the residuals in x and y, in m."""
-        freedom = max(len(self.track) - 0.5 * len(self.values), 1.0)
-        x, y = np.sqrt((self.residuals**2).sum(axis=0) / freedom).tolist()
-        return x, y
+    def free(self) -> list[float]:
+        """The values of what belongs to the measurement itself."""
+        return [self.values[one.key].value for one in self.measured.free]
+
+    @property
+    def freedom(self) -> int:
+        """Residuals without those that the values use up."""
+        return len(self.residuals) - len(self.values)
 
 
-class Residuals:
-    """Measured minus computed positions, for many candidates at once."""
-
-    def __init__(self, scene: Scene, track: Track, spans: Sequence[Span]) -> None:
-        self.scene, self.track, self.spans = scene, track, spans
-        self.low = np.array([span.low for span in spans])
-        self.width = np.array([span.high - span.low for span in spans])
-        names = [ball.name for ball in scene.build().balls]
-        self.balls = tuple(ball or names[0] for ball in track.balls)
-        unknown = next((ball for ball in self.balls if ball not in names), None)
-        if unknown is not None:
-            raise RequestError(f"track: no ball {unknown!r} in {scene.title}; it has {', '.join(names)}")
-
-    def many(self, shares: np.ndarray) -> np.ndarray:
-        """Residuals in m, shape (candidates, 2 points), of candidates as shares of the ranges."""
-        values = self.low + np.clip(shares, 0.0, 1.0) * self.width
-        found = simulate_many(self.scene, {s.key: values[:, n] for n, s in enumerate(self.spans)}, paths=True)
-        return np.array([self.of(run) for run in found.runs])
-
-    def of(self, run: SceneRun | None) -> np.ndarray:
-        if run is None:
-            return np.full(2 * len(self.track), FAILED)
-        places = np.empty((len(self.track), 2))
-        for ball in set(self.balls):
-            rows = [row for row, name in enumerate(self.balls) if name == ball]
-            places[rows] = run.states(ball, np.minimum(self.track.t[rows], run.duration))[:, :2]
-        return np.asarray(self.track.positions - places).ravel()
-
-    def one(self, share: np.ndarray) -> np.ndarray:
-        return self.many(share[None])[0]
-
-    def slopes(self, share: np.ndarray) -> np.ndarray:
-        """Derivatives of the residuals by the shares, by central differences, shape (2 points, parameters)."""
-        count = len(share)
-        up, down = (np.clip(share + sign * STEP * np.eye(count), 0.0, 1.0) for sign in (1.0, -1.0))
-        found = self.many(np.vstack([up, down]))
-        return ((found[:count] - found[count:]) / np.diag(up - down)[:, None]).T
-
-
-def solve(scene: Scene, track: Track, spans: Sequence[Span]) -> Fit:
-    """The best fit from several starts: the scene's own values, and the best of evenly spread points."""
-    from scipy.optimize import least_squares
-    from scipy.stats import qmc
-
-    residuals = Residuals(scene, track, spans)
-    own = np.array([float(value_at(scene.parameters, span.key)) for span in spans])
-    spread = qmc.Sobol(len(spans), seed=0).random(TRIED)
-    starts = np.clip(np.vstack([(own - residuals.low) / residuals.width, spread]), 1e-3, 1.0 - 1e-3)
-    costs = (residuals.many(starts) ** 2).sum(axis=1)
-    chosen = [0, *(place for place in np.argsort(costs).tolist() if place)][:SOLVED]
-    best = None
-    for place in chosen:
-        share = starts[place]
-        for window in WINDOWS:
-            part = Residuals(scene, track.first(max(round(window * len(track)), len(spans) + 1)), spans)
-            tried = least_squares(part.one, share, part.slopes, bounds=(0.0, 1.0), x_scale="jac")
-            share = np.clip(tried.x, 1e-9, 1.0 - 1e-9)
-        if best is None or tried.cost < best.cost:
-            best = tried
-    assert best is not None
-    if best.fun.max() >= FAILED:
+def solve(scene: Scene, measured: Measured, spans: Sequence[Span], robust: bool = False) -> Fit:
+    """The best fit. Raises RequestError for too few rows, and for data that no run comes near; RunError if no run could
+    be completed."""
+    measured.check(scene)
+    problem = Problem(scene, measured, spans)
+    if measured.count <= len(problem):
+        rows, values = counted(measured.count, measured.what), counted(len(problem), "parameter")
+        raise RequestError(f"{rows} for {values}: a fit needs more {measured.what}s than parameters")
+    place = search(problem, robust)
+    if place is None:
         raise RunError(f"no run of {scene.title} in these ranges could be completed")
-    return _finished(residuals, best.x, best.fun)
+    place, sds, loss = _refined(problem, place, robust)
+    _, slopes = problem.around(place.share, problem.last, both_sides=True)
+    place = Place(place.share, place.residuals, slopes, place.cost)
+    return _finished(problem, place, sds, loss)
 
 
-def _finished(residuals: Residuals, share: np.ndarray, left: np.ndarray) -> Fit:
-    """The fit with intervals, from the slopes at the best values."""
-    from scipy.stats import t as student
+def _refined(problem: Problem, place: Place, robust: bool) -> tuple[Place, np.ndarray, Loss]:
+    """The place with each group weighted by its own scatter, the scale of each residual, and the loss."""
+    groups, everywhere = problem.measured.groups, np.ones(len(problem.measured.groups), bool)
+    if robust:
+        sds = robust_sds(place.residuals, groups, everywhere)
+        for loss in (HUBERS, HUBERS, TUKEYS, TUKEYS):
+            place = descend(problem, place.share, 1.0 / sds, loss)
+            sds = robust_sds(place.residuals, groups, everywhere)
+        return place, sds, TUKEYS
+    counts, units, used = np.bincount(groups), problem.measured.units, np.ones(len(groups))
+    for _ in range(ROUNDS):
+        by_group = pooled(group_sds(place.residuals, place.slopes, used, groups), counts, units)
+        by_group = np.maximum(by_group, max(1e-9 * float(by_group.max()), 1e-300))
+        sds = by_group[groups]
+        if np.ptp(sds / used) <= 0.02 * float((sds / used).min()):
+            break
+        used = sds
+        place = descend(problem, place.share, 1.0 / used, SQUARES)
+    return place, sds, SQUARES
 
-    slopes, count = residuals.slopes(share), len(share)
-    freedom = len(left) - count
-    # x and y of a track may be measured unequally well, but are weighted alike
-    covariance = np.linalg.pinv(slopes.T @ slopes) * (left @ left) / freedom
-    half = student.ppf(0.975, freedom) * np.sqrt(np.diag(covariance)) * residuals.width
-    values = residuals.low + share * residuals.width
-    keys = [span.key for span in residuals.spans]
-    ends = (share < 1e-6) | (share > 1.0 - 1e-6)
-    sds = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
-    off = left.reshape(-1, 2)
-    middle = 1.4826 * np.median(np.abs(off), axis=0)
-    outliers = np.flatnonzero((np.abs(off) > OUTLIER * np.maximum(middle, 1e-12)).any(axis=1)) + 1
-    best = residuals.scene.changed({key: float(v) for key, v in zip(keys, values, strict=True)})
-    duration = simulate_many(best, {keys[0]: values[:1]}, paths=True).runs[0]
-    late = 0 if duration is None else int((residuals.track.t > duration.duration).sum())
+
+def _finished(problem: Problem, place: Place, sds: np.ndarray, loss: Loss) -> Fit:
+    """The fit with intervals and warnings. Raises RequestError where nothing is explained."""
+    measured, count = problem.measured, len(problem)
+    errors = errors_of(place.residuals, place.slopes, sds, measured.groups, loss)
+    scatter = group_sds(place.residuals, place.slopes, sds, measured.groups)
+    if loss is not SQUARES:
+        scatter = np.array([sds[measured.groups == group][0] for group in range(len(measured.names))])
+    kept = np.abs(place.residuals) <= OUTLIER * np.maximum(
+        robust_sds(place.residuals, measured.groups, np.ones(len(sds), bool)), 1e-12
+    )
+    _check(problem, place.residuals)
+    keys, values = problem.keys, problem.values(place.share).tolist()
+    best = problem.scene.changed(dict(zip(problem.scene_keys, values, strict=False)))
+    correlated = errors.covariance / np.maximum(np.outer(errors.sds, errors.sds), 1e-300)
     return Fit(
         best,
-        residuals.track,
-        {
-            k: Value(float(v), float(v - h), float(v + h), bool(e))
-            for k, v, h, e in zip(keys, values, half, ends, strict=True)
-        },
-        {(keys[i], keys[j]): float(covariance[i, j] / (sds[i] * sds[j])) for i, j in combinations(range(count), 2)},
-        off,
-        tuple(outliers.tolist()),
-        late,
+        measured,
+        _values(problem, place.share, errors),
+        {(keys[i], keys[j]): float(correlated[i, j]) for i, j in combinations(range(count), 2)},
+        place.residuals,
+        dict(zip(measured.names, scatter.tolist(), strict=True)),
+        bool(np.ptp(sds) == 0.0),
+        loss.name,
+        tuple(np.unique(measured.rows[~kept]).tolist()),
+        0.0 < neumann(problem, np.where(kept, place.residuals, 0.0)) < ALIKE,
+        measured.remarks(best, values[len(problem.scene_keys) :]),
     )
+
+
+def _values(problem: Problem, share: np.ndarray, errors: Errors) -> dict[str, Value]:
+    found: dict[str, Value] = {}
+    columns: Any = zip(problem.keys, problem.units, share, errors.half_widths, problem.low, problem.width, strict=True)
+    for key, unit, at, half, low, width in columns:
+        value, error = float(low + at * width), float(half * width)
+        ends = max(float(low), value - error), min(float(low + width), value + error)
+        found[key] = Value(value, *ends, unit, not AT_END < at < 1.0 - AT_END, bool(half >= 1.0))
+    return found
+
+
+def _check(problem: Problem, residuals: np.ndarray) -> None:
+    """Raise RequestError if no run comes near the data."""
+    points = problem.measured.points(problem.scene, [one.start for one in problem.measured.free])
+    if points is None or len(points.positions) < ENOUGH:
+        return
+    off = float(np.sqrt((residuals**2).mean()))
+    extent = float(np.sqrt(((points.positions - points.positions.mean(axis=0)) ** 2).mean()))
+    if off > NOTHING * extent and neumann(problem, residuals) < ALIKE:
+        raise RequestError(
+            f"no run of {problem.scene.title} in these ranges comes near this track: the best is off by {off:.3g} m on "
+            "average. Is it of this scene, in m and s from its origin, and are the ranges wide enough?"
+        )

@@ -12,6 +12,9 @@ import numpy as np
 
 from sandbox.errors import RequestError
 from sandbox.files import reason
+from sandbox.lab.fit.flown import flown
+from sandbox.lab.fit.measured import Free, Points
+from sandbox.scene import Scene
 
 #: Most points of a track: more is taken as a mistake in the request.
 MOST_POINTS = 100_000
@@ -25,17 +28,65 @@ class Track:
     positions: np.ndarray  # m, shape (points, 2): x, y
     balls: tuple[str, ...]  # the ball of each point; "" if the file names none
 
+    what = "point"
+    names = ("x", "y")
+    units = ("m", "m")
+    free: tuple[Free, ...] = ()
+
     def __len__(self) -> int:
         return len(self.t)
 
-    def first(self, count: int) -> Track:
-        """The earliest points, in the order of time."""
-        rows = np.argsort(self.t, kind="stable")[:count]
-        return (
-            self
-            if count >= len(self)
-            else Track(self.t[rows], self.positions[rows], tuple(self.balls[n] for n in rows))
-        )
+    @property
+    def count(self) -> int:
+        """The points."""
+        return len(self)
+
+    @property
+    def rows(self) -> np.ndarray:
+        """The row of each residual: x and y of the first point, of the second, and so on."""
+        return np.repeat(np.arange(1, len(self) + 1), 2)
+
+    @property
+    def groups(self) -> np.ndarray:
+        """0 for residuals in x, 1 in y."""
+        return np.tile([0, 1], len(self))
+
+    @property
+    def times(self) -> np.ndarray:
+        """The time of each residual in s."""
+        return np.repeat(self.t, 2)
+
+    def check(self, scene: Scene) -> None:
+        """Raise RequestError if it is of a ball that the scene does not have."""
+        names = [ball.name for ball in scene.build().balls]
+        unknown = next((ball for ball in self.balls if ball and ball not in names), None)
+        if unknown is not None:
+            raise RequestError(f"track: no ball {unknown!r} in {scene.title}; it has {', '.join(names)}")
+
+    def residuals(self, scene: Scene, keys: Sequence[str], values: np.ndarray, until: float) -> np.ndarray:
+        """Measured minus computed places in m, shape (candidates, 2 points)."""
+        balls, t = self._named(scene), np.minimum(self.t, until)
+        found = np.full((len(values), len(self), 2), np.nan)
+        for place, run in enumerate(flown(scene, keys, values, float(t.max()))):
+            if run is not None:
+                for ball in dict.fromkeys(balls):
+                    rows = [row for row, name in enumerate(balls) if name == ball]
+                    states = run.states(ball, np.minimum(t[rows], run.duration))
+                    found[place, rows] = self.positions[rows] - states[:, :2]
+        return found.reshape(len(values), -1)
+
+    def points(self, scene: Scene, free: Sequence[float]) -> Points:
+        """The measured places."""
+        return Points(self.t, self.positions, self._named(scene))
+
+    def remarks(self, scene: Scene, free: Sequence[float]) -> tuple[str, ...]:
+        """What is odd about it."""
+        return ()
+
+    def _named(self, scene: Scene) -> tuple[str, ...]:
+        """The ball of each point; the scene's first where none is named."""
+        first = scene.build().balls[0].name
+        return tuple(ball or first for ball in self.balls)
 
 
 def read_track(option: str, path: Path) -> Track:

@@ -1,0 +1,83 @@
+"""What a fit needs of measured data: residuals for many candidates at once, and which of them scatter alike."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from sandbox.scene import Scene
+
+
+@dataclass(frozen=True)
+class Free:
+    """A number that belongs to the measurement and not to the scene, such as the time of the launch on a film."""
+
+    key: str  # "track.time"
+    low: float
+    high: float
+    start: float
+    unit: str
+
+
+@dataclass(frozen=True)
+class Points:
+    """Measured places in the scene's coordinates, for pictures."""
+
+    t: np.ndarray  # s, shape (points,); NaN if not measured
+    positions: np.ndarray  # m, shape (points, 2)
+    balls: tuple[str, ...]  # the name of each point's ball
+
+
+class Measured(Protocol):
+    """Measured data: a track of positions, or a table of launches and results."""
+
+    @property
+    def count(self) -> int:
+        """Rows of the data: points of a track, launches of a table."""
+
+    @property
+    def what(self) -> str:
+        """A row by name: ``"point"``, ``"launch"``."""
+
+    @property
+    def rows(self) -> np.ndarray:
+        """The row of each residual, the first is 1; integers, shape (residuals,)."""
+
+    @property
+    def groups(self) -> np.ndarray:
+        """The place in ``names`` of each residual: those of one group scatter alike; shape (residuals,)."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """What was measured, by group: ``("x", "y")``, ``("carry", "apex")``."""
+
+    @property
+    def units(self) -> tuple[str, ...]:
+        """The unit of each group."""
+
+    @property
+    def times(self) -> np.ndarray:
+        """When each residual was measured, in s since the launch, NaN if unknown; shape (residuals,)."""
+
+    @property
+    def free(self) -> tuple[Free, ...]:
+        """Numbers of the measurement itself that are fitted too."""
+
+    def check(self, scene: Scene) -> None:
+        """Raise RequestError if this cannot be compared with runs of the scene."""
+
+    def residuals(self, scene: Scene, keys: Sequence[str], values: np.ndarray, until: float) -> np.ndarray:
+        """Measured minus computed of each candidate, shape (candidates, residuals); a row of NaN for a run that failed.
+
+        ``values`` has the parameters ``keys`` of the scene, then ``free``, shape (candidates, keys + free), in their
+        units. Residuals measured after ``until`` in s are not read, so runs may end there.
+        """
+
+    def points(self, scene: Scene, free: Sequence[float]) -> Points | None:
+        """The measured places with these values of ``free``; None for what has no places."""
+
+    def remarks(self, scene: Scene, free: Sequence[float]) -> tuple[str, ...]:
+        """Sentences on the data, compared with the fitted scene; and on what was assumed in reading it."""

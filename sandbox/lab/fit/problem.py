@@ -1,0 +1,72 @@
+"""A fit as a problem of numbers: residuals of candidates, which are shares of the ranges of what is fitted."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+
+import numpy as np
+
+from sandbox.lab.axes import Span, unit_of
+from sandbox.lab.fit.measured import Measured
+from sandbox.parameters import value_at
+from sandbox.scene import Scene
+
+#: Differences of neighbouring runs: as a share of the value, but at least and at most this share of its range.
+STEP, LEAST_STEP, MOST_STEP = 1e-5, 1e-8, 1e-5
+
+#: Ranges so many times as wide as the scene's own value are searched near that value only.
+WIDE = 20.0
+
+
+class Problem:
+    """Residuals of measured data as a function of shares, from 0 to 1, of the ranges of what is fitted."""
+
+    def __init__(self, scene: Scene, measured: Measured, spans: Sequence[Span]) -> None:
+        self.scene, self.measured, free = scene, measured, measured.free
+        self.scene_keys = [span.key for span in spans]
+        self.keys = [*self.scene_keys, *(one.key for one in free)]
+        self.units = [*(unit_of(scene, key) for key in self.scene_keys), *(one.unit for one in free)]
+        ranges = [(span.low, span.high) for span in spans] + [(one.low, one.high) for one in free]
+        self.low, high = np.array(ranges).T
+        self.width = high - self.low
+        starts = [float(value_at(scene.parameters, key)) for key in self.scene_keys]
+        self.own = np.clip((np.array([*starts, *(one.start for one in free)]) - self.low) / self.width, 0.0, 1.0)
+        self.times = np.nan_to_num(measured.times, nan=0.0)  # without a time: in every window
+        self.last = float(self.times.max())  # s
+
+    def __len__(self) -> int:
+        return len(self.keys)
+
+    def values(self, shares: np.ndarray) -> np.ndarray:
+        """Candidates in their units, of any shape (..., parameters)."""
+        return np.clip(self.low + shares * self.width, self.low, self.low + self.width)
+
+    def residuals(self, shares: np.ndarray, until: float | None = None) -> np.ndarray:
+        """Residuals of candidates, shape (candidates, residuals): up to a time in s, by default all."""
+        until = self.last if until is None else until
+        return self.measured.residuals(self.scene, self.scene_keys, self.values(shares), until)
+
+    def around(self, share: np.ndarray, until: float, both_sides: bool = False) -> tuple[np.ndarray, np.ndarray]:
+        """Residuals at a candidate, and their slopes by the shares, shape (residuals, parameters), computed together.
+
+        Slopes are from differences to one side, or to both, which is more accurate. A run that fails gives no slope.
+        """
+        steps = np.clip(STEP * np.abs(self.values(share)) / self.width, LEAST_STEP, MOST_STEP)
+        steps = np.where(share + steps > 1.0, -steps, steps)
+        ahead = share + np.diag(steps)
+        behind = np.clip(share - np.diag(steps), 0.0, 1.0) if both_sides else np.empty((0, len(share)))
+        found = self.residuals(np.vstack([share, ahead, behind]), until)
+        count = len(share)
+        start = found[1 + count :] if both_sides else found[:1]
+        apart = np.diag(ahead - behind) if both_sides else steps
+        return found[0], np.nan_to_num((found[1 : 1 + count] - start) / apart[:, None]).T
+
+    @cached_property
+    def starts_within(self) -> tuple[np.ndarray, np.ndarray]:
+        """The shares between which starts are searched: all of a range, unless it is far wider than the own value."""
+        own = np.abs(self.values(self.own))
+        near = (own > 0.0) & (self.width > WIDE * own)
+        reach = 2.0 * own / self.width
+        low, high = np.where(near, self.own - reach, 0.0), np.where(near, self.own + reach, 1.0)
+        return np.clip(low, 0.0, 1.0), np.clip(high, 0.0, 1.0)
