@@ -1,4 +1,4 @@
-"""Which room may import which: ``physics <- engine <- scene <- picture, lab, workers <- window <- cli``."""
+"""Which room may import which: ``physics <- engine <- scene <- picture, lab, tasks, workers <- window <- cli``."""
 
 from __future__ import annotations
 
@@ -34,6 +34,7 @@ FLOORS = {
     "scene": 3,
     "picture": 4,
     "lab": 4,
+    "tasks": 4,
     "record": 4,
     "kit": 5,  # for scenes only
     "page": 5,

@@ -50,7 +50,7 @@ def folder_of(source: str | Path) -> Path | None:
 
 def is_installed(folder: Path) -> bool:
     """True if a scene came with the sandbox or with an installed package."""
-    return installed_folder(folder.name) == folder or folder in _named_folders().values()
+    return installed_folder(folder.name) == folder or folder in installed_folders().values()
 
 
 def installed_folder(name: str) -> Path | None:
@@ -79,7 +79,7 @@ class Listing:
 
 def listings() -> Iterator[Listing]:
     """Every installed scene, each followed by its presets."""
-    for name, folder in sorted(_named_folders().items()):
+    for name, folder in sorted(installed_folders().items()):
         yield from _listed(name, folder)
 
 
@@ -194,7 +194,7 @@ def _offered(name: str = "") -> dict[str, Path]:
     return {found: folder for found, folder in folders.items() if folder is not None}
 
 
-def _named_folders() -> dict[str, Path]:
+def installed_folders() -> dict[str, Path]:
     """The folders of all installed scenes, by their names."""
     return _offered() | {path.parent.name: path.parent for path in resources.folder("scenes").glob("*/scene.py")}
 

@@ -1,0 +1,101 @@
+"""What a task file holds, as it is written; ``task.py`` reads it against its scene."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Literal
+
+from pydantic import Field
+
+from sandbox import parameters as declared
+from sandbox.errors import RequestError
+from sandbox.files import from_here
+from sandbox.parameters import Group, choice, group, groups
+from sandbox.toml import read_toml
+
+#: Most attempts at a task, and most shots of one attempt.
+MOST_ATTEMPTS = 100
+
+#: How much of the path is shown while the player aims.
+SHOWN = ("all", "first contact", "one metre", "nothing")
+
+#: How the fact of each shot becomes a score.
+HOW = ("sum", "greatest", "nearest", "points", "fewest")
+
+#: Keys that no scene file has: a file with one of them is taken for a task.
+_ONLY_OF_TASKS = ("attempts", "controls", "score", "stars", "pass", "shown")
+
+
+class StartEntry(Group):
+    """One parameter that is drawn anew for each attempt: evenly from a range, or one of several values."""
+
+    key: str = Field(description="the parameter, such as hoop.distance")
+    low: Any = Field(None, description="lowest value, in the parameter's unit")
+    high: Any = Field(None, description="highest value")
+    values: list[Any] | None = Field(None, description="or the values, of which one is drawn")
+
+
+class ControlEntry(Group):
+    """One parameter that the player sets."""
+
+    key: str = Field(description="the parameter, such as launch.angle")
+    low: Any = Field(description="lowest value, in the parameter's unit")
+    high: Any = Field(description="highest value")
+    default: Any = Field(None, description="where it stands before the player sets it; left out: in the middle")
+    noise: Any = Field(0.0, description="standard deviation of his aim: a number in the unit, or 1% of the value")
+
+
+class ScoreEntry(Group):
+    """What counts."""
+
+    fact: str = Field(description="a fact of the scene, or made: the one that says that the shot scored")
+    how: Literal["sum", "greatest", "nearest", "points", "fewest"] = choice("sum", "how the shots become a score")
+    target: Any = Field(0.0, description="nearest, points: the value of the fact that is aimed at, in its unit")
+    rings: list[tuple[Any, float]] = Field(
+        default_factory=list, description="points: pairs of a distance from the target and what it is worth"
+    )
+    wanted: dict[str, Any] = Field(default_factory=dict, description="facts without which a shot counts nothing")
+
+
+class TaskFile(Group):
+    """A task file."""
+
+    scene: str = Field(description="scene or preset, or the path of a scene of your own")
+    goal: str = Field(description="the goal, in one sentence", min_length=1, max_length=120)
+    level: int = Field(1, description="order among the tasks of its scene", ge=1, le=99, strict=True)
+    attempts: int = Field(description="how often the player may try", ge=1, le=MOST_ATTEMPTS, strict=True)
+    shots: int = Field(1, description="most shots of one attempt", ge=1, le=MOST_ATTEMPTS, strict=True)
+    shown: Literal["all", "first contact", "one metre", "nothing"] = choice("all", "how much of the path is shown")
+    stars: list[Any] = Field(description="the scores for one, two and three stars", min_length=3, max_length=3)
+    passing: Any = Field(description="the score that passes")
+    goes_on: dict[str, Any] = Field(default_factory=dict, description="facts without which the attempt ends")
+    ends: dict[str, Any] = Field(default_factory=dict, description="facts with which the attempt ends")
+    set: dict[str, Any] = Field(default_factory=dict, description="what is not as in the scene, as in a scene file")
+    start: list[StartEntry] = groups([], "what is drawn anew for each attempt")
+    controls: list[ControlEntry] = groups(..., "what the player sets")
+    score: ScoreEntry = group(..., "what counts")
+
+
+def looks_like_task(values: Mapping[str, Any]) -> bool:
+    """True if the tables of a file are those of a task and not of a scene."""
+    return isinstance(values.get("goal"), str) or any(key in values for key in _ONLY_OF_TASKS)
+
+
+def read_task_file(path: Path) -> TaskFile:
+    """The task in a file. Raises RequestError, in a line with file, key and bound."""
+    values, where = read_toml(path), from_here(path)
+    score = values.get("score")
+    if isinstance(score, str):  # score = "made"
+        values["score"] = {"fact": score}
+    if "passing" in values:
+        raise RequestError(f"{where}: passing: unknown key; did you mean pass?")
+    if "pass" in values:
+        values["passing"] = values.pop("pass")
+    try:
+        found = declared.validate(TaskFile, values, where)
+    except RequestError as error:
+        raise RequestError(str(error).replace(f"{where}: passing", f"{where}: pass")) from None
+    if not found.controls:
+        raise RequestError(f"{where}: controls: the player sets nothing; add [[controls]] with key, low and high")
+    return found

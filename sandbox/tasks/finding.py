@@ -1,0 +1,73 @@
+"""Finding tasks: those in the folders of installed scenes, and files of one's own."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+
+from sandbox.errors import RequestError
+from sandbox.scene.finding import installed_folders
+from sandbox.tasks.file import looks_like_task, read_task_file
+from sandbox.text import nearest, shortened
+from sandbox.toml import read_toml
+
+
+@dataclass(frozen=True)
+class TaskListing:
+    """One task as ``sandbox tasks`` shows it."""
+
+    name: str
+    scene: str
+    goal: str
+    attempts: int
+    score: str
+
+
+@lru_cache(maxsize=1)
+def _files() -> dict[str, Path]:
+    """The files of all installed tasks by name, scene by scene in rising order of difficulty."""
+    found: dict[str, Path] = {}
+    for _, folder in sorted(installed_folders().items()):
+        files = [(read_task_file(file).level, file.stem, file) for file in (folder / "tasks").glob("*.toml")]
+        found |= {name: file for _, name, file in sorted(files) if name not in found}
+    return found
+
+
+def tasks() -> list[str]:
+    """The names of all installed tasks, scene by scene in rising order of difficulty."""
+    return list(_files())
+
+
+def find_task(source: str | Path) -> Path:
+    """The file of the task with that name, or at that path. Raises RequestError."""
+    known = _files()
+    if isinstance(source, str) and source in known:
+        return known[source]
+    path = Path(source)
+    if path.suffix == ".toml" or path.is_file():
+        return path
+    near = nearest(str(source), tasks())
+    hint = f"did you mean {near}?" if near else "sandbox tasks lists them all"
+    raise RequestError(f"unknown task {shortened(str(source))}; {hint}")
+
+
+def is_task(source: str | Path) -> bool:
+    """True if a name or file is that of a task and not of a scene."""
+    if isinstance(source, str) and "/" not in source and not source.endswith(".toml"):
+        return source in _files()
+    path = Path(source)
+    try:
+        return path.suffix == ".toml" and path.is_file() and looks_like_task(read_toml(path))
+    except (OSError, RequestError):
+        return False
+
+
+def listed() -> Iterator[TaskListing]:
+    """Every installed task, scene by scene in rising order of difficulty."""
+    from sandbox.tasks.reading import load
+
+    for name in tasks():
+        task = load(name)
+        yield TaskListing(name, task.scene.title, task.goal, task.attempts, task.score.said)

@@ -1,0 +1,200 @@
+"""Reading a task file against its scene: every key, fact, bound and unit in it is checked."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from math import inf, isfinite
+from pathlib import Path
+from typing import Any
+
+from sandbox import parameters as declared
+from sandbox import scene as scenes
+from sandbox import units
+from sandbox.errors import RequestError
+from sandbox.files import from_here
+from sandbox.tasks.file import ScoreEntry, TaskFile, read_task_file
+from sandbox.tasks.finding import find_task
+from sandbox.tasks.scoring import Score, Wanted
+from sandbox.tasks.task import Control, Start, Task
+from sandbox.text import nearest, no_such_result
+from sandbox.toml import shown
+
+#: The distance from a target, over the one that passes, that counts for a shot that has none.
+FARTHEST = 10.0
+
+
+def load(source: str | Path) -> Task:
+    """The task of that name, or in that file. Raises RequestError, in a line with file, key and bound."""
+    path = find_task(source)
+    return _Reader(path, read_task_file(path)).task()
+
+
+class _Reader:
+    """Reads a task file against its scene; messages name the file and the key."""
+
+    def __init__(self, path: Path, file: TaskFile) -> None:
+        self.file, self.path, self.where = file, path, from_here(path)
+        written = file.scene
+        source = path.parent / written if written.startswith(("./", "../")) else written
+        try:
+            base = scenes.load(source)
+        except RequestError as error:
+            raise RequestError(f"{self.where}: scene = {shown(written)}: {error}") from None
+        self.scene = scenes.load(source, file.set, overrides_from=f"{self.where}: set") if file.set else base
+        self.declared = {it.key: it for it in declared.walk(self.scene.parameters, entries=True)}
+
+    def task(self) -> Task:
+        file = self.file
+        start = tuple(self.start(place) for place in range(len(file.start)))
+        controls = tuple(self.control(place) for place in range(len(file.controls)))
+        keys = [*(each.key for each in start), *(each.key for each in controls)]
+        twice = next((key for key in keys if keys.count(key) > 1), None)
+        if twice is not None:
+            raise self.wrong(f"{twice}: is given twice in start and controls")
+        score, stars, passing = self.scored()
+        if file.shots > 1 and self.scene.controls.next_start is None:
+            raise self.wrong(f"shots = {file.shots}: a shot of {self.scene.name} does not go on from the one before")
+        goes_on, ends = (tuple(self.wanted(name, getattr(file, name))) for name in ("goes_on", "ends"))
+        return Task(
+            name=self.path.stem,
+            goal=file.goal,
+            scene=self.scene,
+            start=start,
+            controls=controls,
+            shown=file.shown,
+            attempts=file.attempts,
+            shots=file.shots,
+            score=score,
+            stars=stars,
+            passing=passing,
+            goes_on=goes_on,
+            ends=ends,
+            file=self.path,
+        )
+
+    def scored(self) -> tuple[Score, tuple[float, float, float], float]:
+        """What counts, and the scores for stars and to pass. Raises RequestError."""
+        file, score = self.file, self.score(self.file.score)
+        first, second, third = (self.number("stars", value, score.total_unit) for value in file.stars)
+        passing = self.number("pass", file.passing, score.total_unit)
+        if [first, second, third] != sorted((first, second, third), reverse=score.lower_is_better):
+            order = "falling: a smaller score is better" if score.lower_is_better else "rising"
+            raise self.wrong(f"stars = {shown(file.stars)}: must be {order}")
+        if score.how == "nearest":
+            score = replace(score, farthest=FARTHEST * passing)
+        return score, (first, second, third), passing
+
+    def wrong(self, message: str) -> RequestError:
+        return RequestError(f"{self.where}: {message}")
+
+    def parameter(self, what: str, key: str) -> declared.Parameter:
+        """The scene's parameter with this key. Raises RequestError."""
+        found = self.declared.get(key)
+        if found is None:
+            near = nearest(key, list(self.declared))
+            hint = f"did you mean {near}?" if near else f"sandbox schema {self.scene.name} shows all keys"
+            raise self.wrong(f'{what} = "{key}": {self.scene.name} has no such parameter; {hint}')
+        return found
+
+    def start(self, place: int) -> Start:
+        entry, what = self.file.start[place], f"start[{place}]"
+        known = self.parameter(f"{what}.key", entry.key)
+        if entry.values is not None:
+            if entry.low is not None or entry.high is not None or not entry.values:
+                raise self.wrong(f"{what}, {entry.key}: give either low and high, or a list of values")
+            return Start(entry.key, known.unit or "", values=tuple(self.valid(what, known, it) for it in entry.values))
+        low, high = self.range(what, known, entry.low, entry.high)
+        return Start(entry.key, known.unit or "", low, high)
+
+    def control(self, place: int) -> Control:
+        entry, what = self.file.controls[place], f"controls[{place}]"
+        known = self.parameter(f"{what}.key", entry.key)
+        low, high = self.range(what, known, entry.low, entry.high)
+        default = 0.5 * (low + high)
+        if entry.default is not None:
+            default = self.number(f"{what}.default", entry.default, known.unit or "")
+            if not low <= default <= high:
+                raise self.wrong(
+                    f"{what}.default = {default:g}: must be from {low:g} to {high:g} {known.unit}".rstrip()
+                )
+        sd, share = self.noise(f"{what}.noise", entry.noise, known.unit or "")
+        bounds = (-inf if known.low is None else known.low, inf if known.high is None else known.high)
+        return Control(known.key, known.unit or "", known.meaning, low, high, default, sd, share, bounds)
+
+    def valid(self, what: str, known: declared.Parameter, value: Any) -> Any:
+        """A value that the scene takes for a parameter. Raises RequestError."""
+        changed = self.scene.changed({known.key: value}, f"{self.where}: {what},")
+        return declared.value_at(changed.parameters, known.key)
+
+    def range(self, what: str, known: declared.Parameter, low: Any, high: Any) -> tuple[float, float]:
+        """The ends of a range within the scene's bounds. Raises RequestError."""
+        if known.low is None or known.high is None:
+            raise self.wrong(f"{what}, {known.key}: is not a number, and has no range; give values")
+        ends = []
+        for name, given in (("low", low), ("high", high)):
+            if given is None:
+                raise self.wrong(f"{what}, {known.key}: {name} is missing")
+            number = self.number(f"{what}.{name}", given, known.unit or "")
+            if not known.low <= number <= known.high:
+                bounds = f"from {known.low:g} to {known.high:g} {known.unit}".rstrip()
+                raise self.wrong(f"{what}.{name} = {shown(given)}: {known.key} must be {bounds}")
+            ends.append(number)
+        if ends[0] >= ends[1]:
+            raise self.wrong(f"{what}, {known.key}: low = {ends[0]:g} must be below high = {ends[1]:g}")
+        return ends[0], ends[1]
+
+    def noise(self, what: str, given: Any, unit: str) -> tuple[float, float]:
+        """A standard deviation, and one as a share of the value. Raises RequestError."""
+        is_share = isinstance(given, str) and given.strip().endswith("%") and unit != "%"
+        number = self.number(what, given.strip()[:-1] if is_share else given, "" if is_share else unit)
+        if number < 0.0:
+            raise self.wrong(f"{what} = {shown(given)}: a standard deviation is 0 or more")
+        return (0.0, 0.01 * number) if is_share else (number, 0.0)
+
+    def number(self, what: str, given: Any, unit: str) -> float:
+        """A number in a unit, which text may have of its own. Raises RequestError."""
+        try:
+            value = units.parse(given, unit) if isinstance(given, str) else given
+        except ValueError as error:
+            raise self.wrong(f"{what} = {shown(given)}: {error}") from None
+        if isinstance(value, bool) or not isinstance(value, int | float) or not isfinite(value):
+            raise self.wrong(f"{what} = {shown(given)}: must be a number" + (f" in {unit}" if unit else ""))
+        return float(value)
+
+    def fact(self, what: str, name: str) -> str:
+        """A fact of the scene; ``made`` is the one that says that a shot scored. Raises RequestError."""
+        facts = self.scene.facts
+        if name not in facts and name == "made" and self.scene.controls.scores:
+            return self.scene.controls.scores
+        if name not in facts:
+            raise self.wrong(f'{what} = "{name}": {no_such_result(name, list(facts))}')
+        return name
+
+    def score(self, entry: ScoreEntry) -> Score:
+        name = self.fact("score.fact", entry.fact)
+        unit = self.scene.facts[name].unit
+        target = self.number("score.target", entry.target, unit)
+        rings = sorted((self.number("score.rings", distance, unit), points) for distance, points in entry.rings)
+        if (entry.how == "points") != bool(rings):
+            need = "needs rings, such as [[0.1, 10], [0.5, 5]]" if entry.how == "points" else "has no rings"
+            raise self.wrong(f'score.how = "{entry.how}": {need}')
+        wanted = tuple(self.wanted("score.wanted", entry.wanted))
+        return Score(name, unit, entry.how, target, tuple(rings), wanted)
+
+    def wanted(self, what: str, table: Mapping[str, Any]) -> Iterator[Wanted]:
+        """What facts must be. Raises RequestError."""
+        for name, given in table.items():
+            fact = self.fact(what, name)
+            unit = self.scene.facts[fact].unit
+            if isinstance(given, list):
+                if len(given) != 2:
+                    raise self.wrong(f"{what}.{name} = {shown(given)}: a range is a list of its two ends")
+                low, high = (self.number(f"{what}.{name}", end, unit) for end in given)
+                yield Wanted(fact, within=(low, high))
+            elif isinstance(given, str) and unit:
+                yield Wanted(fact, self.number(f"{what}.{name}", given, unit))
+            elif isinstance(given, bool | str | int | float):
+                yield Wanted(fact, given)
+            else:
+                raise self.wrong(f"{what}.{name} = {shown(given)}: must be a number, a word, true, false or a range")
