@@ -20,6 +20,7 @@ FILES = sorted(
     for name in ("scenes", "template", "template_above")
     for file in resources.folder(name).rglob("*.toml")
     if file.name not in ("colours.toml", "tables.toml")  # of a picture; of billiards
+    and file.parent.name != "tasks"
 )
 
 

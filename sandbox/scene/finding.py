@@ -224,6 +224,8 @@ def _of_file(path: Path) -> SceneSource:
     values = read_toml(path)
     if "scene" not in values:
         raise RequestError(f'{path}: needs a line that names its scene, such as scene = "golf"{_own_folder(path)}')
+    if isinstance(values.get("goal"), str) and "attempts" in values:
+        raise RequestError(f"{path}: is a task, not a scene: sandbox play and sandbox run take it")
     name, folder, _ = _meant(path, values["scene"])
     is_preset = path.resolve().parent == folder / "presets"
     return SceneSource(name, folder, _files(path, name, folder), path.stem if is_preset else None)
