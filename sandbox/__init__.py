@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from sandbox.physics.cloth import Cloth
     from sandbox.physics.forces import Drag, Gravity, Magnus, SpinDecay
     from sandbox.physics.ice import CurlingIce, Glide
+    from sandbox.physics.slope import Slope
     from sandbox.scene import Check, Scene, check, load, simulate
     from sandbox.scene.scene_run import SceneRun
     from sandbox.scene.world import World
@@ -70,6 +71,7 @@ _MODULES = {
     **dict.fromkeys(("Cloth",), "sandbox.physics.cloth"),
     **dict.fromkeys(("Drag", "Gravity", "Magnus", "SpinDecay"), "sandbox.physics.forces"),
     **dict.fromkeys(("CurlingIce", "Glide"), "sandbox.physics.ice"),
+    **dict.fromkeys(("Slope",), "sandbox.physics.slope"),
     **dict.fromkeys(("Check", "Scene", "check", "load", "simulate"), "sandbox.scene"),
     **dict.fromkeys(("SceneRun",), "sandbox.scene.scene_run"),
     **dict.fromkeys(("World",), "sandbox.scene.world"),
@@ -118,6 +120,7 @@ __all__ = [
     "Segment",
     "Setup",
     "Sliding",
+    "Slope",
     "SpinDecay",
     "Spread",
     "State",

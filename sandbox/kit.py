@@ -51,6 +51,7 @@ from sandbox.physics.forces import Drag, Gravity, Inside, Magnus, SpinDecay
 from sandbox.physics.ice import CurlingIce, Glide
 from sandbox.physics.integrators import State
 from sandbox.physics.plane import Strips
+from sandbox.physics.slope import Slope
 from sandbox.renamed import raise_if_old
 from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.air import Air, ConstantDrag, NoForce, OutdoorAir, Weather, wind_in
@@ -165,6 +166,7 @@ __all__ = [
     "Segment",
     "Setup",
     "Sliding",
+    "Slope",
     "Solid",
     "Sphere",
     "Spin",

@@ -2,12 +2,12 @@
 
 A scene declares its parameters as nested groups::
 
-    class Launch(Group):
+    class Throw(Group):
         speed: float = quantity(76.44, "m/s", low=0, high=340, meaning="ball speed after impact")
         angle: float = quantity(10.4, "deg", low=-90, high=180, meaning="above the horizontal")
 
     class Parameters(SceneParameters):
-        launch: Launch = group(Launch(), "how the ball starts")
+        launch: Throw = group(Throw(), "how the ball starts")
 
 That declaration feeds the reading of scene files, ``--set``, the JSON schema, sliders and documentation. A default of
 ``...`` is in the scene's own file, ``<name>.toml``, on which every other file of the scene is based.
@@ -177,7 +177,7 @@ def group(default: Group | EllipsisType, meaning: str) -> Any:
 
 
 def groups(default: list[Any] | EllipsisType, meaning: str) -> Any:
-    """A list of groups, ``[[balls]]`` in a file; declare it as ``list[Spot]``. A file replaces the whole list."""
+    """A list of groups, ``[[balls]]`` in a file; declare it as ``list[Target]``. A file replaces the whole list."""
     return Field(default, description=meaning)
 
 

@@ -34,7 +34,7 @@ MASS, RADIUS, FROM_END = 0.0459, 0.02135, 0.4  # of a golf ball, in kg and m; of
 
 
 # Parameters: quantity(default, unit, lowest, highest, meaning). A default of ... is in template_above.toml.
-class Launch(Directed):
+class Putt(Directed):
     """The ball as it leaves the putter."""
 
     speed: float = quantity(..., "m/s", 0, 20, "ball speed")
@@ -54,7 +54,7 @@ class Lane(Group):
 class Parameters(SceneParameters):
     """All parameters of a putt."""
 
-    launch: Launch = group(..., "the ball as it leaves the putter")
+    launch: Putt = group(..., "the ball as it leaves the putter")
     lane: Lane = group(..., "the lane")
 
 

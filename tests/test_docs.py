@@ -14,6 +14,7 @@ import subprocess
 import sys
 import textwrap
 from collections.abc import Iterator
+from enum import Enum
 from pathlib import Path
 from typing import Any
 
@@ -47,14 +48,14 @@ def modules() -> Iterator[Any]:
 
 
 def models(module: Any) -> list[str]:
-    """Public functions and classes of a module that compute something; a NamedTuple only holds it."""
+    """Public functions and classes of a module that compute something; a NamedTuple only holds it, an Enum names it."""
     found = [
         name
         for name, thing in vars(module).items()
         if (inspect.isfunction(thing) or inspect.isclass(thing))
         and not name.startswith("_")
         and thing.__module__ == module.__name__
-        and not (inspect.isclass(thing) and issubclass(thing, tuple))
+        and not (inspect.isclass(thing) and issubclass(thing, (tuple, Enum)))
     ]
     return found or ["INTEGRATORS"]
 

@@ -41,7 +41,7 @@ def scene(written: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pat
 @pytest.mark.parametrize(
     ("file", "old", "new", "expected"),
     [
-        (OF_DROP, "class Launch", "1 / 0\nclass Launch", "ZeroDivisionError: division by zero"),
+        (OF_DROP, "class Throw", "1 / 0\nclass Throw", "ZeroDivisionError: division by zero"),
         (OF_DROP, BALL, "    ball = nowhere(", "NameError: name 'nowhere' is not defined"),
         (OF_DROP, FORCE, "        return velocity[2], self", "IndexError: tuple index out of range"),
         (OF_DROP, "bounces(run, parameters) > 0", "run.events[99]", "IndexError: list index out of range"),
@@ -56,7 +56,7 @@ def scene(written: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pat
         (OF_DROP, '"m/s", low=0', '"furlong", low=0', 'ValueError: "furlong" is not a known unit; use'),
         (OF_DROP, '"m/s", low=0', '"MPH", low=0', 'ValueError: "MPH" is not a known unit; did you me'),
         (OF_DROP, "import Group,", "import Accuracies, Group,", "ImportError: cannot import name 'Accuracies'"),
-        (OF_DROP, "class Launch", "raise SystemExit(0)\nclass Launch", "ExitCalled: SystemExit(0)"),
+        (OF_DROP, "class Throw", "raise SystemExit(0)\nclass Throw", "ExitCalled: SystemExit(0)"),
         (OF_DROP, BALL, f"    exit(0)\n{BALL}", "ExitCalled: SystemExit(0)"),
         (OF_DROP, FORCE, "        raise SystemExit('well')\n        return 0", "ExitCalled: SystemExit('we"),
         (OF_DROP, FLOOR, "friction=0.5, law=lambda *_: exit(0))", "ExitCalled: SystemExit(0)"),

@@ -38,7 +38,7 @@ from sandbox.schema import json_schema
 from sandbox.toml import read_toml
 
 
-class Launch(Group):
+class Throw(Group):
     speed: float = quantity(76.44, "m/s", low=0, high=340, meaning="ball speed after impact")
     angle: float = quantity("0.2 rad", "deg", low=-90, high=180, meaning="above the horizontal")
     spin: float = quantity(2545, "rpm", low=-20000, high=20000, meaning="backspin")
@@ -78,7 +78,7 @@ class Place(Group):
 
 class Parameters(Group):
     gravity: float = quantity(9.81, "m/s^2", low=0, high=30, meaning="downwards")
-    launch: Launch = group(Launch(), "how the ball starts")
+    launch: Throw = group(Throw(), "how the ball starts")
     ball: Ball = group(Ball(mass=0.0459, drag=FittedDrag(critical=6e4)), "the ball")
     air: Air = group(Air(), "the air")
     holed: bool = switch(True, "whether there is a cup")

@@ -21,7 +21,7 @@ from sandbox.engine.contact.manifold import meeting_at
 from sandbox.engine.contact.surfaces import press, takeoff_speed
 from sandbox.engine.contact.touch import Outline
 from sandbox.engine.heap.pymunk_world import PymunkWorld, rolls, speeds_at
-from sandbox.engine.impact.impacts import after_single_contact, contact_of_two, contact_with_surface
+from sandbox.engine.impact.impact_contacts import after_single_contact, contact_of_two, contact_with_surface
 from sandbox.engine.model.accuracy import Accuracy
 from sandbox.engine.model.ball import Ball, Body
 from sandbox.engine.model.event import Event

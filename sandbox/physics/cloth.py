@@ -30,7 +30,7 @@ from math import inf
 from typing import ClassVar
 
 from sandbox.physics.checks import check
-from sandbox.physics.plane import STILL, PlanePhase, PlaneState
+from sandbox.physics.plane import STILL, PlaneMode, PlanePhase, PlaneState
 
 
 @dataclass(frozen=True)
@@ -82,12 +82,12 @@ class Cloth:
         turn = 1.0 / self.inertia
         _, _, vx, vy, _, wx, wy = state
         ux, uy = vx - radius * wy, vy + radius * wx
-        mode, stop, alphas = "resting", (inf, 0.0, 0.0), (0.0, 0.0)
+        mode, stop, alphas = PlaneMode.RESTING, (inf, 0.0, 0.0), (0.0, 0.0)
         if ux * ux + uy * uy > STILL * STILL:
-            mode, stop = "sliding", PlanePhase.stopping(ux, uy, self.strongest, 1.0 + turn)  # as it also turns
+            mode, stop = PlaneMode.SLIDING, PlanePhase.stopping(ux, uy, self.strongest, 1.0 + turn)  # as it also turns
             # torque of the force at the lowest point, over the moment of inertia
             alphas = turn * stop[2] / radius, -turn * stop[1] / radius
         elif vx * vx + vy * vy > STILL * STILL:
-            mode, stop = "rolling", PlanePhase.stopping(vx, vy, self.rolling * self.gravity)
+            mode, stop = PlaneMode.ROLLING, PlanePhase.stopping(vx, vy, self.rolling * self.gravity)
             alphas = -stop[2] / radius, stop[1] / radius
         return PlanePhase.slowed(mode, state, stop, turn * self.spinning * self.gravity / radius, alphas, radius)

@@ -16,7 +16,7 @@ _CLOSING = [(cos(k * _STEP) - cos((k + 1) * _STEP), sin((k + 1) * _STEP)) for k 
 _PARTING = [(sin((k + 1) * _STEP) - sin(k * _STEP), cos((k + 1) * _STEP)) for k in range(_STEPS)]
 
 
-class Launch(NamedTuple):
+class LaunchConditions(NamedTuple):
     """A ball just after it is struck."""
 
     vx: float  # m/s
@@ -43,7 +43,7 @@ class Head:
 
 def strike(
     head: Head, speed: float, loft: float, attack: float, height: float, ball_mass: float, radius: float
-) -> Launch:
+) -> LaunchConditions:
     """The launch of a solid ball at rest: the contact is a spring across the face and another along it.
 
     With ``speed`` V in m/s, ``loft`` L and ``attack`` A in rad (the head's path above the horizontal, negative
@@ -77,7 +77,7 @@ def strike(
     squeezed = approach / across  # N s, at the end of compression
     rubbed = _impulse_along(head, squeezed, slip, across, along, mixed)
     v_n, v_t = (1.0 + head.restitution) * squeezed / ball_mass, rubbed / ball_mass
-    return Launch(v_n * cos(loft) + v_t * sin(loft), v_n * sin(loft) - v_t * cos(loft), 2.5 * v_t / radius)
+    return LaunchConditions(v_n * cos(loft) + v_t * sin(loft), v_n * sin(loft) - v_t * cos(loft), 2.5 * v_t / radius)
 
 
 def _impulse_along(head: Head, squeezed: float, slip: float, across: float, along: float, mixed: float) -> float:

@@ -24,7 +24,7 @@ from math import copysign, inf, sqrt
 from typing import Any, ClassVar
 
 from sandbox.physics.checks import check
-from sandbox.physics.plane import STILL, PlanePhase, PlaneState
+from sandbox.physics.plane import STILL, PlaneMode, PlanePhase, PlaneState
 
 #: Speed in m/s below which a stone comes to rest on a straight line, and below which its spin decays as at this speed.
 _CREEPING, _SPINNING_IN_PLACE = 1e-4, 1e-3
@@ -36,7 +36,7 @@ _TURNING = -0.8
 def _straight(state: PlaneState, deceleration: float, spin_deceleration: float) -> PlanePhase:
     """The phase of a body with these constant decelerations (m/s^2, rad/s^2), until its motion or its spin ends."""
     _, _, vx, vy, _ = state
-    mode = "sliding" if vx * vx + vy * vy > STILL * STILL else "resting"
+    mode = PlaneMode.SLIDING if vx * vx + vy * vy > STILL * STILL else PlaneMode.RESTING
     return PlanePhase.slowed(mode, state, PlanePhase.stopping(vx, vy, deceleration), spin_deceleration)
 
 
@@ -92,7 +92,7 @@ class Glide:
             slowing = self.strongest / speed + self.drag * speed
             return -slowing * vx, -slowing * vy, turning
 
-        return PlanePhase("sliding", state, inf, *acceleration_at(0.0, state), acceleration_at=acceleration_at)
+        return PlanePhase(PlaneMode.SLIDING, state, inf, *acceleration_at(0.0, state), acceleration_at=acceleration_at)
 
 
 @dataclass(frozen=True)
@@ -153,4 +153,4 @@ class CurlingIce:
             turning = side * self.curl * self.k * speed**_TURNING
             return -slowing * vx - turning * vy, -slowing * vy + turning * vx, -side * self.s / speed
 
-        return PlanePhase("sliding", state, inf, *acceleration_at(0.0, state), acceleration_at=acceleration_at)
+        return PlanePhase(PlaneMode.SLIDING, state, inf, *acceleration_at(0.0, state), acceleration_at=acceleration_at)

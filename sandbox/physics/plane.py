@@ -9,6 +9,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from enum import Enum
 from math import copysign, inf, sqrt
 from typing import Any, NamedTuple, Protocol
 
@@ -23,6 +24,22 @@ STILL = 1e-12
 _AT_EDGE = 1e-9
 
 
+class PlaneMode(Enum):
+    """How a body moves on a plane during one phase."""
+
+    SLIDING = "sliding"
+    """It slips where it touches the plane."""
+
+    ROLLING = "rolling"
+    """It moves without slip."""
+
+    SPINNING = "spinning"
+    """It turns about the vertical in its place."""
+
+    RESTING = "resting"
+    """Nothing of it moves."""
+
+
 class PlanePhase(NamedTuple):
     """A phase of motion from a state on, lasting ``duration`` s (infinite if nothing ends it).
 
@@ -30,7 +47,7 @@ class PlanePhase(NamedTuple):
     ``acceleration_at(t, state)`` gives (ax, ay, alpha_z).
     """
 
-    mode: str  # "sliding", "rolling", "spinning" or "resting"
+    mode: PlaneMode
     state: PlaneState
     duration: float  # s
     ax: float  # m/s^2
@@ -47,7 +64,7 @@ class PlanePhase(NamedTuple):
     @classmethod
     def slowed(
         cls,
-        mode: str,
+        mode: PlaneMode,
         state: PlaneState,
         stop: tuple[float, float, float],
         spin_deceleration: float,
@@ -58,7 +75,7 @@ class PlanePhase(NamedTuple):
         ``spin_deceleration`` (rad/s^2): until one of them ends."""
         time, wz, alpha_z, spin_time = stop[0], state[4], 0.0, inf
         if abs(wz) > STILL:
-            mode = "spinning" if mode == "resting" else mode
+            mode = PlaneMode.SPINNING if mode is PlaneMode.RESTING else mode
             alpha_z = -copysign(spin_deceleration, wz)
             spin_time = abs(wz) / spin_deceleration if spin_deceleration > 0.0 else inf
         duration = min(time, spin_time)
@@ -91,7 +108,7 @@ class PlanePhase(NamedTuple):
         ended, would_reverse = t == self.duration, self.acceleration_at is not None and ux * vx + uy * vy <= 0.0
         if (ended and self.ends_spin) or (self.acceleration_at is not None and spin * wz <= 0.0):
             spin = 0.0
-        if ended and self.ends_motion and rolling and self.mode == "sliding":
+        if ended and self.ends_motion and rolling and self.mode is PlaneMode.SLIDING:
             roll = -uy / self.radius, ux / self.radius
         elif (ended and self.ends_motion) or would_reverse:
             ux = uy = 0.0

@@ -24,7 +24,7 @@ from math import hypot, inf
 
 from sandbox.physics.checks import check
 from sandbox.physics.cloth import Cloth
-from sandbox.physics.plane import STILL, PlanePhase, PlaneState
+from sandbox.physics.plane import STILL, PlaneMode, PlanePhase, PlaneState
 
 #: How far friction turns in a phase, in rad; by how much of its size what it slows changes in a phase, if not straight;
 #: speed in m/s below which that is straight; the sine of an angle that counts as none.
@@ -36,8 +36,7 @@ class Slope(Cloth):
     """Cloth on a slope, on which gravity pulls by ``pull_x`` and ``pull_y`` (m/s^2): g times the height lost per metre.
 
     >>> import sandbox
-    >>> from sandbox import Ball, Setup
-    >>> from sandbox.physics.slope import Slope
+    >>> from sandbox import Ball, Setup, Slope
     >>> ball = Ball("ball", mass=0.046, radius=0.021, position=(0, 0), velocity=(1, 0), rolling_spin=(0, 1 / 0.021))
     >>> run = sandbox.simulate(Setup([ball], plane=Slope(rolling=0.0, pull_x=-0.7), duration=4.0))
     >>> round(run.state("ball", 2.0).x, 9), round(run.state("ball", 4.0).x, 9)  # m: up 1 m, and back
@@ -67,18 +66,15 @@ class Slope(Cloth):
         if hypot(*slip) > STILL:
             time, ends, (fx, fy) = _slowed(slip, (1.0 + turn) * self.strongest, pull)
             fx, fy = fx / (1.0 + turn), fy / (1.0 + turn)
-            mode, stop, alphas = (
-                "sliding",
-                (time, pull[0] + fx, pull[1] + fy),
-                (turn * fy / radius, -turn * fx / radius),
-            )
+            mode, stop = PlaneMode.SLIDING, (time, pull[0] + fx, pull[1] + fy)
+            alphas = turn * fy / radius, -turn * fx / radius
         else:
             rolls = pull[0] / (1.0 + self.inertia), pull[1] / (1.0 + self.inertia)
             slowing = self.rolling * self.gravity
             if hypot(vx, vy) <= STILL and hypot(*rolls) <= slowing:
-                return PlanePhase.slowed("resting", state, (inf, 0.0, 0.0), spinning, (0.0, 0.0), radius)
+                return PlanePhase.slowed(PlaneMode.RESTING, state, (inf, 0.0, 0.0), spinning, (0.0, 0.0), radius)
             time, ends, (fx, fy) = _slowed((vx, vy), slowing, rolls)
-            mode, stop = "rolling", (time, rolls[0] + fx, rolls[1] + fy)
+            mode, stop = PlaneMode.ROLLING, (time, rolls[0] + fx, rolls[1] + fy)
             alphas = -stop[2] / radius, stop[1] / radius
         phase = PlanePhase.slowed(mode, state, stop, spinning, alphas, radius)
         return phase if ends else phase._replace(ends_motion=False, moves_for=0.0)

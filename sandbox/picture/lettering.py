@@ -116,10 +116,10 @@ class Lettering:
 
 
 #: A point in px and the direction, across and down, in which a label lies beyond it.
-Spot = tuple[float, float, float, float]
+LabelPlace = tuple[float, float, float, float]
 
 
-def around(at: Iterable[float], distances: Iterable[float], turns: Sequence[float]) -> list[Spot]:
+def around(at: Iterable[float], distances: Iterable[float], turns: Sequence[float]) -> list[LabelPlace]:
     """Spots so far from a point, in px, in directions in rad, counter-clockwise from the right: the nearest first."""
     x, y = at
     return [(x + far * cos(turn), y - far * sin(turn), cos(turn), -sin(turn)) for far in distances for turn in turns]

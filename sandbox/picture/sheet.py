@@ -11,7 +11,7 @@ import numpy as np
 import pygame
 
 from sandbox.picture.camera import Camera
-from sandbox.picture.lettering import Labels, Lettering, Spot
+from sandbox.picture.lettering import LabelPlace, Labels, Lettering
 from sandbox.picture.painter import Painter, blank
 from sandbox.picture.palette import Colour, palette
 from sandbox.sport.amounts import amount, round_number_above, scale_unit, signed
@@ -93,7 +93,7 @@ class Sheet:
             self.written.append((text, rect))
         return rect
 
-    def chip(self, text: str, spots: Iterable[Spot], colour: Colour = CARD["text"]) -> pygame.Rect | None:
+    def chip(self, text: str, spots: Iterable[LabelPlace], colour: Colour = CARD["text"]) -> pygame.Rect | None:
         """A text on a dark chip at the first spot with room, and where that is; None: there is none."""
         unit = self.unit
         width, height = self.lettering.width(text, "small", bold=True), self.lettering.height("small")

@@ -15,7 +15,7 @@ from sandbox.picture.ball import mark_radius
 from sandbox.picture.camera import Area, Box, Camera, Eye
 from sandbox.picture.chase import Chase
 from sandbox.picture.closeup import CloseUp, arranged
-from sandbox.picture.lettering import Labels, Spot
+from sandbox.picture.lettering import LabelPlace, Labels
 from sandbox.picture.marks import draw_mark, draw_trace, label_mark, mark_impacts
 from sandbox.picture.painter import Painter, Point, around_corners
 from sandbox.picture.palette import Colour
@@ -436,7 +436,7 @@ class SideView(View[P]):
                 sheet.painter.line([(px - 4 * unit, y), (px + 4 * unit, y)], 1.6 * unit, ink)
         trace = self.traced(camera, self.path.points)
         path = trace[np.argmin(np.abs(trace[:, 0] - px))]
-        spots: list[Spot] = [
+        spots: list[LabelPlace] = [
             (px + side * aside * unit, edge + way * far * unit, side * 0.7 if aside else 0.0, way)
             for far in (12, 20, 32, 46)
             for edge, way in ((min(top, path[1]), -1), (max(bottom, path[1]), 1))

@@ -20,7 +20,7 @@ from sandbox.window import aim, export, replay
 from sandbox.window.find import Found, Question, find, questions, said_range
 from sandbox.window.measure import Tape
 from sandbox.window.menu import Menu
-from sandbox.window.overlay import Board, Chart, Choice, Mark, Overlay, Row
+from sandbox.window.overlay import Board, Chart, Choice, Overlay, PictureChoice, Row
 from sandbox.window.shots import Played, Shot, write_csv
 from sandbox.window.table import Table
 from sandbox.window.view import View
@@ -131,12 +131,12 @@ def _move(view: View, across: float, up: float) -> bool:
         x, y = camera.pixel(*view.shown.tape.end)
         view.shown.tape = Tape(view.shown.tape.start, camera.world(x + STEP * across, y - STEP * up))
         return True
-    spot = view.targets.picked
-    if spot is None:
+    handle = view.targets.picked
+    if handle is None:
         return False
-    step, (x, y) = spot.step(snap=True), spot.grip.place
+    step, (x, y) = handle.step(snap=True), handle.grip.place
     to, least = (x + step * across, y + step * up), step * (abs(across) + abs(up))
-    view.game.aiming.set(spot.grip.changes(to, least))
+    view.game.aiming.set(handle.grip.changes(to, least))
     return True
 
 
@@ -214,10 +214,11 @@ def _find(view: View, by: float) -> None:
     else:
         names = {question.name: question for question in asked}
 
-        def marks() -> list[Mark]:
+        def marks() -> list[PictureChoice]:
             stage, places = view.stages.latest, [(q.name, q.at) for q in asked if q.at is not None]
-            return [] if stage is None else [
-                Mark(name, np.array([stage.camera.pixel(*at)]), "", CARD["text"]) for name, at in places]  # fmt: skip
+            if stage is None:
+                return []
+            return [PictureChoice(name, np.array([stage.camera.pixel(*at)]), "", CARD["text"]) for name, at in places]
 
         rows = [Row(name, name) for name in names]
         foot = view.screen.bar.places["see"]
@@ -237,10 +238,10 @@ def _find_one(view: View, question: Question) -> None:
             return
         shots = [Shot(each.scene, unpacked(each.scene, each.run), number=i) for i, each in enumerate(found, 1)]
 
-        def marks() -> list[Mark]:
+        def marks() -> list[PictureChoice]:
             stage = view.stages.latest
             return [] if stage is None else [
-                Mark(str(shot.number), stage.line(shot), str(shot.number), stage.colour_of(shot.number))
+                PictureChoice(str(shot.number), stage.line(shot), str(shot.number), stage.colour_of(shot.number))
                 for shot in shots]  # fmt: skip
 
         def choose(number: str) -> None:

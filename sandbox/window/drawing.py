@@ -156,7 +156,7 @@ class Drawing:
             clear = [*picture.kept_clear(picture.view(t), t), *picture.sheet.labels.taken]
             return Layout(room, sheet.gap, [*kept, *clear])
         handles = [pygame.Rect(round(x - 9 * unit), round(y - 9 * unit), round(18 * unit), round(18 * unit))
-                   for grip, (x, y), *_ in self.targets.spots if not grip.in_list]  # fmt: skip
+                   for grip, (x, y), *_ in self.targets.shown_grips if not grip.in_list]  # fmt: skip
         path = [] if self.shown.hides_path else stage.along(shot)
         return Layout(room, sheet.gap, [*kept, *handles, *stage.kept_clear(shot, t)], path)
 
@@ -167,11 +167,11 @@ class Drawing:
             hand.draw_pull(sheet, self.layout, pull.start, pull.drawn, shot.aimed)
         if self.shown.overlay is not None:
             return
-        spots, held = targets.spots, targets.held
-        if spots:
+        shown, held = targets.shown_grips, targets.held
+        if shown:
             mouse = targets.mouse if targets.on_picture and game.grasp.grip is None else None
             said = held.said(game.session) if held is not None else ""
-            hand.draw_handles(sheet, self.layout, spots, mouse, held, said)
+            hand.draw_handles(sheet, self.layout, shown, mouse, held, said)
         spins = game.session.controls.spins
         off = not spins or ("pad" in self.shown.on) == (len(spins) > 1)
         if shot is None or game.watching.playback is not None or pull is not None or off:

@@ -31,7 +31,7 @@ SNAPS, FINE = 12.0, 0.25
 Place = tuple[float, float]
 
 
-class Spot(NamedTuple):
+class ShownGrip(NamedTuple):
     """A handle in the picture."""
 
     grip: Grip
@@ -49,7 +49,7 @@ class Spot(NamedTuple):
         return self.grip.place[0] + x - x0, self.grip.place[1] + y - y0
 
 
-def spots(grips: Sequence[Grip], stage: Stage, sheet: Canvas) -> list[Spot]:
+def shown_grips(grips: Sequence[Grip], stage: Stage, sheet: Canvas) -> list[ShownGrip]:
     """The places of the handles; that of the wind has a camera of its own."""
     ball, aside, unit = stage.ball_at(stage.shot), ASIDE * sheet.unit, sheet.unit
     foot = sheet.frame.right - FOOT[0] * unit, sheet.frame.top + FOOT[1] * unit
@@ -59,18 +59,18 @@ def spots(grips: Sequence[Grip], stage: Stage, sheet: Canvas) -> list[Spot]:
         x, y = camera.pixel(*grip.place)
         if dist((x, y), ball) < NEAR * unit and not grip.is_wind:
             x, y = x - aside, y + aside
-        found.append(Spot(grip, (x, y), camera, unit))
+        found.append(ShownGrip(grip, (x, y), camera, unit))
     return found
 
 
-def nearest(found: Sequence[Spot], at: Place) -> Spot | None:
+def nearest(found: Sequence[ShownGrip], at: Place) -> ShownGrip | None:
     """The handle at a place in px."""
-    near = min(found, key=lambda spot: dist(spot.at, at), default=None)
+    near = min(found, key=lambda shown: dist(shown.at, at), default=None)
     return near if near is not None and dist(near.at, at) <= NEAR * near.unit else None
 
 
 def draw_handles(
-    sheet: Canvas, layout: Layout, found: Sequence[Spot], mouse: Place | None, held: Grip | None, text: str
+    sheet: Canvas, layout: Layout, found: Sequence[ShownGrip], mouse: Place | None, held: Grip | None, text: str
 ) -> None:
     """The handles, those in a list only near the mouse, if it is there; the one that is held, or that the mouse is on,
     with its numbers."""

@@ -238,7 +238,7 @@ class Board(Overlay):
             self.words(row, place)
 
 
-class Mark(NamedTuple):
+class PictureChoice(NamedTuple):
     """A choice in the picture: a line in the picture (px, shape (n, 2)), or a point; and its name there."""
 
     action: str
@@ -256,7 +256,7 @@ class Choice(Board):
         rows: Sequence[Row],
         choose: Callable[[str], object],
         foot: pygame.Rect,
-        marks: Callable[[], Sequence[Mark]],
+        marks: Callable[[], Sequence[PictureChoice]],
     ) -> None:
         super().__init__(rows, choose, foot, title, now=rows[0].action)
         self.marks, self.near = marks, NEAR

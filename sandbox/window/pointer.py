@@ -9,7 +9,7 @@ import numpy as np
 import pygame
 
 from sandbox.window import aim, commands
-from sandbox.window.hand import Spot
+from sandbox.window.hand import ShownGrip
 from sandbox.window.measure import Tape
 from sandbox.window.view import View
 
@@ -116,10 +116,10 @@ class Pointer:
             return self._begun(self._aim_on_map, at)
         if card == "charts":
             commands.do(view, "graphs")
-        elif (spot := view.targets.spot_at(at)) is not None:
+        elif (shown := view.targets.grip_at(at)) is not None:
             view.viewpoint.hold()
-            game.grasp.begin_drag(spot.grip)
-            return lambda to: self._drag_handle(spot, at, to)
+            game.grasp.begin_drag(shown.grip)
+            return lambda to: self._drag_handle(shown, at, to)
         elif (pad := view.targets.pad) is not None and pad.rect.collidepoint(at):
             return self._begun(lambda to: game.aiming.nudge(pad.changes(to)), at)
         elif game.watching.playback is None:
@@ -155,10 +155,10 @@ class Pointer:
             playback.seek(self.view.screen.bar.share(to) * playback.duration)
             self.view.changed = True
 
-    def _drag_handle(self, spot: Spot, start: Place, to: Place) -> None:
+    def _drag_handle(self, shown: ShownGrip, start: Place, to: Place) -> None:
         if self.view.game.grasp.grip is not None:
-            step = spot.step(snap=bool(pygame.key.get_mods() & pygame.KMOD_SHIFT))
-            self.view.game.grasp.drag_to(spot.dragged(start, to), step)
+            step = shown.step(snap=bool(pygame.key.get_mods() & pygame.KMOD_SHIFT))
+            self.view.game.grasp.drag_to(shown.dragged(start, to), step)
 
     def _pull(self, at: Place) -> Callable[[Place], object]:
         view = self.view

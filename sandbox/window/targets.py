@@ -35,17 +35,17 @@ class Targets:
         self.pad = None
 
     @property
-    def spots(self) -> list[hand.Spot]:
+    def shown_grips(self) -> list[hand.ShownGrip]:
         """The handles that can be dragged now, with their places in px."""
         game, stage = self.game, self.stages.fitting
         if game.watching.playback is not None or game.grasp.pull is not None or stage is None:
             return []
         found: list[Grip] = self._once("grips", game.session.scene, lambda: grips(game.session))
-        return hand.spots(found, stage, self.screen.sheet)
+        return hand.shown_grips(found, stage, self.screen.sheet)
 
-    def spot_at(self, at: tuple[int, int]) -> hand.Spot | None:
+    def grip_at(self, at: tuple[int, int]) -> hand.ShownGrip | None:
         """The handle at a place in px."""
-        return hand.nearest(self.spots, at)
+        return hand.nearest(self.shown_grips, at)
 
     def card_at(self, at: tuple[int, int]) -> str | None:
         """The name of the card at a place in px."""
@@ -53,19 +53,19 @@ class Targets:
 
     def pick(self, by: int) -> bool:
         """Take hold of the handle ``by`` places on; returns whether there is any."""
-        keys = [spot.grip.keys for spot in self.spots]
+        keys = [shown.grip.keys for shown in self.shown_grips]
         if keys:
             now = keys.index(self.picked_keys) if self.picked_keys in keys else -1 if by > 0 else 0
             self.picked_keys = keys[(now + by) % len(keys)]
         return bool(keys)
 
     @property
-    def picked(self) -> hand.Spot | None:
+    def picked(self) -> hand.ShownGrip | None:
         """The handle that was picked by key."""
-        return next((spot for spot in self.spots if spot.grip.keys == self.picked_keys), None)
+        return next((shown for shown in self.shown_grips if shown.grip.keys == self.picked_keys), None)
 
     @property
     def held(self) -> Grip | None:
         """The handle that is dragged, that the mouse is on, or that was picked by key."""
-        spot = (self.spot_at(self.mouse) if self.on_picture else None) or self.picked
-        return self.game.grasp.grip or (spot.grip if spot is not None else None)
+        shown = (self.grip_at(self.mouse) if self.on_picture else None) or self.picked
+        return self.game.grasp.grip or (shown.grip if shown is not None else None)

@@ -60,7 +60,7 @@ from sandbox.sport.sliding import REST_TIME, all_collisions, collisions_of, in_p
 from .table import AnyTable, check, cushions, on_bed, traps
 
 
-class Spot(Group):
+class PlacedBall(Group):
     """A ball and its position; the table's centre is the origin, x runs along its length."""
 
     name: str = text("name of the ball")
@@ -113,7 +113,7 @@ class Cushion(Solid):
         )
 
 
-class Contact(Group):
+class BallContact(Group):
     """The contact of balls that are pressed together while others can reach them."""
 
     model: Literal["auto", "rigid", "hertz"] = choice(..., "contact mechanics where it matters, never, or always")
@@ -129,13 +129,13 @@ class Parameters(SceneParameters):
     rack_gap: float = quantity(..., "m", 1e-7, 0.01, "between neighbours in the rack")
     rack_scatter: float = quantity(..., "m", 0, 0.01, "random displacement of a racked ball, at most")
     rack_seed: float = quantity(..., "", 0, 1e9, "which of the random racks")
-    balls: list[Spot] = groups(..., "balls placed one by one, in addition to the rack")
+    balls: list[PlacedBall] = groups(..., "balls placed one by one, in addition to the rack")
     cue: Cue = group(..., "the stroke")
     table: AnyTable = one_of(..., "the table", by="kind")
     ball: BallParameters = group(..., "the balls")
     cloth: ClothParameters = group(..., "the cloth")
     cushion: Cushion = group(..., "the cushions")
-    contact: Contact = group(..., "how balls meet")
+    contact: BallContact = group(..., "how balls meet")
     gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
 
 

@@ -35,7 +35,7 @@ SPOTS = {
 ALL, ASIDE = " ".join(SPOTS), ("right", "left")
 
 
-class Launch(Slide):
+class Delivery(Slide):
     """The ball as it leaves the hand, at the foul line."""
 
     spin: float = quantity(..., "rpm", -1000, 1000, "revolutions; a positive number rolls ahead")
@@ -68,7 +68,7 @@ class Pins(SlidingDisc):
 class Parameters(Sliding):
     """All parameters of a shot."""
 
-    launch: Launch = group(..., "the ball as it leaves the hand")
+    launch: Delivery = group(..., "the ball as it leaves the hand")
     oil: list[Oil] = groups(..., "the oiled strips")
     dry: float = quantity(..., "", 0, 1, "friction of ball and lane beyond the oil")
     ball: BowlingBall = group(..., "the ball")

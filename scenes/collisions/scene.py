@@ -44,7 +44,7 @@ class Body(Moving):
     radius: float = quantity(0.028575, "m", 0.001, 1, "radius")
 
 
-class Launch(Directed):
+class Stroke(Directed):
     """The ball that is played."""
 
     ball: str = text("its name; without a ball of that name none is launched", may_be_empty=True)
@@ -52,7 +52,7 @@ class Launch(Directed):
     angle: float = quantity(..., "deg", -180, 180, "direction, from +x counter-clockwise")
 
 
-class Contact(Solid):
+class BallContact(Solid):
     """The contact of two balls: restitution 1 is elastic, friction 0 smooth."""
 
     model: Literal["auto", "rigid", "hertz"] = choice(..., "contact mechanics where it matters, never, or always")
@@ -73,8 +73,8 @@ class Parameters(SceneParameters):
     TOGETHER = ("balls", "boxes")
     balls: list[Body] = groups(..., "the balls")
     boxes: list[Box] = groups(..., "what is not round: boxes, ellipses, capsules, bowling pins")
-    launch: Launch = group(..., "the ball that is played")
-    contact: Contact = group(..., "between balls")
+    launch: Stroke = group(..., "the ball that is played")
+    contact: BallContact = group(..., "between balls")
     floor: Floor = group(..., "what lies below")
     gravity: float = quantity(..., "m/s^2", 0, 30, "gravity, along -y; none along a level bench")
     strings: float = quantity(
@@ -147,7 +147,7 @@ def build(it: Parameters) -> Setup:
     )
 
 
-def _velocity(it: Moving, launch: Launch) -> Vector:
+def _velocity(it: Moving, launch: Stroke) -> Vector:
     """The velocity at the start in m/s: as listed, or that of the launch."""
     if it.name == launch.ball and it.vx is None and it.vy is None:
         return launch.velocity

@@ -55,7 +55,7 @@ class Sweeping(Ice):
     end: float = quantity(..., "m", -28.3464, 5, "where it ends; before its start: nobody sweeps")
 
 
-class Spot(Group):
+class LyingStone(Group):
     """A stone that lies on the sheet; the tee is the origin."""
 
     team: Team = choice("yellow", "whose stone it is")
@@ -67,7 +67,7 @@ class Parameters(Sliding):
     """All parameters of a throw."""
 
     team: Team = choice(..., "whose stone is thrown")
-    stones: list[Spot] = groups(..., "those that lie on the sheet")
+    stones: list[LyingStone] = groups(..., "those that lie on the sheet")
     sweep: Sweeping = group(..., "sweeping")
     ice: Ice = group(..., "the ice")
     width: float = quantity(..., "m", 2, 6, "of the sheet, between the side lines")

@@ -39,7 +39,7 @@ LONGEST, YARD = 15.0, 0.9144  # s, after which a run is ended; m
 LOWEST_BOUNCE = 0.01
 
 
-class Launch(Directed):
+class PlaceKick(Directed):
     """The ball as it leaves the foot."""
 
     speed: float = quantity(..., "m/s", 0, 60, "ball speed")
@@ -76,7 +76,7 @@ class Goal(Group):
 class Parameters(SceneParameters):
     """All parameters of a kick."""
 
-    launch: Launch = group(..., "the ball just after the kick")
+    launch: PlaceKick = group(..., "the ball just after the kick")
     gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
     air: Air = group(..., "the air")
     ball: Football = group(..., "the ball")

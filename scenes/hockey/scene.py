@@ -32,7 +32,7 @@ DECIDING = {"goal", "goalie", "defender", "receiver"}
 POST, DEPTH = 0.030, 1.0  # m: radius of a post (NHL rule 2.1), depth of the net
 
 
-class Launch(Slide):
+class PuckShot(Slide):
     """The puck as it leaves the stick."""
 
     x: float = quantity(..., "m", -40, 40, "where it starts, from the middle towards the goal")
@@ -85,7 +85,7 @@ class Air(Group):
 class Parameters(Sliding):
     """All parameters of a shot."""
 
-    launch: Launch = group(..., "the puck as it leaves the stick")
+    launch: PuckShot = group(..., "the puck as it leaves the stick")
     players: list[Player] = groups(..., "who is on the ice")
     player: SlidingDisc = group(..., "what they are, and how the puck meets them")
     dive: Dive = group(..., "the goalie's dive")

@@ -30,6 +30,7 @@ from sandbox.kit import (
     SceneRun,
     Segment,
     Setup,
+    Slope,
     Spread,
     Strips,
     Surface,
@@ -43,14 +44,13 @@ from sandbox.kit import (
     rectangle,
     roughly,
 )
-from sandbox.physics.slope import Slope
 from sandbox.physics.turf import stimp_resistance
 
 #: Half the thickness in m of boards within the lane, of blades and of gates; s after which a putt is ended.
 BOARD, BLADE, LONGEST = 0.02, 0.015, 60.0
 
 
-class Launch(Directed):
+class Putt(Directed):
     """The ball as it leaves the putter."""
 
     speed: float = quantity(..., "m/s", 0, 20, "ball speed")
@@ -134,7 +134,7 @@ class Parameters(SceneParameters):
     """All parameters of a putt."""
 
     gravity: float = quantity(..., "m/s^2", 0.1, 100, "gravity")
-    launch: Launch = group(..., "the ball as it leaves the putter")
+    launch: Putt = group(..., "the ball as it leaves the putter")
     ball: GolfBall = group(..., "the ball")
     hole: Hole = group(..., "the hole")
     lane: Lane = group(..., "the lane")

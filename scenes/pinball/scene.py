@@ -57,7 +57,7 @@ PIVOT, LENGTH, LONGEST = (0.087, 0.130), 0.063, 600.0
 ROLLING = 5.0 / 7.0
 
 
-class Launch(Directed):
+class Plunge(Directed):
     """The ball as it leaves the plunger."""
 
     speed: float = quantity(..., "m/s", 0, 10, "ball speed")
@@ -120,7 +120,7 @@ class Points(Group):
 class Parameters(SceneParameters):
     """All parameters of a game with one ball."""
 
-    launch: Launch = group(..., "the ball as it leaves the plunger")
+    launch: Plunge = group(..., "the ball as it leaves the plunger")
     ball: SteelBall = group(..., "the ball")
     table: Table = group(..., "the table")
     flippers: Flippers = group(..., "the flippers")

@@ -36,7 +36,7 @@ from sandbox.sport.solids import Extent, Solid, check_apart, disc, rectangle
 from ..soccer.scene import SPREAD, Goal, SoccerBall, Wall
 
 
-class Launch(flight.Launch):
+class CurledKick(flight.Launch):
     """The ball just after the kick."""
 
     angle: float = quantity(..., "deg", -180, 180, "direction, to the left of straight at the goal line")
@@ -85,7 +85,7 @@ class Keeper(Solid):
 class Parameters(SceneParameters):
     """All parameters of a kick."""
 
-    launch: Launch = group(..., "the ball just after the kick")
+    launch: CurledKick = group(..., "the ball just after the kick")
     air: Air = group(..., "the air")
     ball: SoccerBall = group(..., "the ball")
     wall: WideWall = group(..., "the wall of players")

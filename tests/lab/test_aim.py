@@ -18,7 +18,7 @@ from sandbox.lab.aim import Target, aim, as_target, parse_target, search
 from sandbox.lab.aim.maximize import peak
 from sandbox.lab.aim.question import MAXIMIZE
 from sandbox.lab.aim.report import as_json, as_text
-from sandbox.lab.aim.root import is_met
+from sandbox.lab.aim.root import bracketed, is_met
 from sandbox.lab.axes import Span, parse_span
 from sandbox.lab.runs import runs
 from sandbox.parameters import walk
@@ -43,6 +43,13 @@ def test_both_angles_of_a_throw_in_vacuum(vacuum):
     for solution in found.solutions:
         assert solution.result["carry"] == pytest.approx(120.0, abs=1e-8)
         assert solution.errors["launch.angle"] < 1e-7
+
+
+@pytest.mark.parametrize("fine", [1e-2, 1e-6])
+def test_a_root_is_a_plain_float(fine: float):
+    root = bracketed(lambda x: x**3 - 0.3, 0.0, 1.0, fine)
+    assert type(root) is float
+    assert root == pytest.approx(0.3 ** (1 / 3), abs=fine)
 
 
 def test_two_roots_that_lie_close_together(vacuum):

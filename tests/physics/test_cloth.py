@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sandbox.physics.cloth import Cloth
-from sandbox.physics.plane import PlanePhase, PlaneState
+from sandbox.physics.plane import PlaneMode, PlanePhase, PlaneState
 
 R = 0.028575  # m
 G = 9.81  # m/s^2
@@ -62,7 +62,7 @@ def test_a_ball_without_spin_comes_to_roll_at_5_7_of_its_speed():
     """t = 2 v / (7 mu g), x = 12 v^2 / (49 mu g): .291248 s and .499282 m for v = 2, mu = .2."""
     start = (0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 0.0)
     phase = CLOTH.phase(start, R)
-    assert phase.mode == "sliding"
+    assert phase.mode is PlaneMode.SLIDING
     assert phase.duration == pytest.approx(0.291248, abs=5e-7)
     assert phase.duration == pytest.approx(4.0 / (7.0 * 0.2 * G), rel=1e-15)
     rolls = phase.after(phase.duration)
@@ -70,14 +70,14 @@ def test_a_ball_without_spin_comes_to_roll_at_5_7_of_its_speed():
     assert rolls[0] == pytest.approx(12.0 * 4.0 / (49.0 * 0.2 * G), rel=1e-15)
     assert rolls[2] == pytest.approx(10.0 / 7.0, rel=1e-15)
     assert slip(rolls) == (0.0, 0.0)
-    assert CLOTH.phase(rolls, R).mode == "rolling"
+    assert CLOTH.phase(rolls, R).mode is PlaneMode.ROLLING
 
 
 def test_full_draw_from_rest_comes_back_at_2_7():
     """Stopped dead while it spins backward as a ball rolling at -v would: r w = -v, and it ends rolling at -2/7 v."""
     v = 2.0
     (_, _), (rolls, phase), _ = way((0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -v / R))
-    assert phase.mode == "rolling"
+    assert phase.mode is PlaneMode.ROLLING
     assert rolls[2] == pytest.approx(-2.0 / 7.0 * v, rel=1e-14)
 
 
@@ -85,7 +85,7 @@ def test_full_draw_from_rest_comes_back_at_2_7():
 def test_sliding_ends_at_5_7_of_v_and_2_7_of_the_spin(state: PlaneState):
     """Angular momentum about a line on the cloth is kept: v_end = (5/7) v + (2/7) r (wy, -wx)."""
     _, _, vx, vy, _, wx, wy = state
-    end = next(start for start, phase in way(state) if phase.mode != "sliding")
+    end = next(start for start, phase in way(state) if phase.mode is not PlaneMode.SLIDING)
     assert end[2] == pytest.approx(5.0 / 7.0 * vx + 2.0 / 7.0 * R * wy, abs=1e-12)
     assert end[3] == pytest.approx(5.0 / 7.0 * vy - 2.0 / 7.0 * R * wx, abs=1e-12)
     assert hypot(*slip(end)) < 2e-12
@@ -94,7 +94,7 @@ def test_sliding_ends_at_5_7_of_v_and_2_7_of_the_spin(state: PlaneState):
 @given(states, st.floats(0.0, 0.999))
 def test_the_direction_of_slip_is_constant_while_it_slides(state: PlaneState, share: float):
     phase = CLOTH.phase(state, R)
-    if phase.mode != "sliding" or hypot(*slip(state)) < 1e-6:
+    if phase.mode is not PlaneMode.SLIDING or hypot(*slip(state)) < 1e-6:
         return
     ux, uy = slip(state)
     later = slip(phase.after(share * phase.duration))
@@ -126,7 +126,7 @@ def test_a_rolling_ball_goes_straight_for_v2_over_2_mu_g():
     v, direction = 1.5, 0.7
     vx, vy = v * cos(direction), v * sin(direction)
     (_, phase), (rest, last) = way((0.0, 0.0, vx, vy, 0.0, -vy / R, vx / R))
-    assert (phase.mode, last.mode) == ("rolling", "resting")
+    assert (phase.mode, last.mode) == (PlaneMode.ROLLING, PlaneMode.RESTING)
     assert phase.duration == pytest.approx(v / (0.01 * G), rel=1e-14)
     assert hypot(rest[0], rest[1]) == pytest.approx(v * v / (2.0 * 0.01 * G), rel=1e-14)
     assert atan2(rest[1], rest[0]) == pytest.approx(direction, abs=1e-14)
@@ -146,7 +146,7 @@ def test_vertical_spin_decays_evenly_and_moves_nothing(wz: float):
     rate = 2.5 * 0.0127 * G / R
     assert rate == pytest.approx(10.9, abs=0.01)
     (_, phase), (rest, last) = way(start)
-    assert (phase.mode, last.mode) == ("spinning", "resting")
+    assert (phase.mode, last.mode) == (PlaneMode.SPINNING, PlaneMode.RESTING)
     assert phase.duration == pytest.approx(60.0 / rate, rel=1e-15)
     assert abs(phase.after(1.0)[4]) == pytest.approx(60.0 - rate, rel=1e-15)
     assert rest == (0.3, 0.1, 0.0, 0.0, 0.0, 0.0, 0.0)
@@ -162,9 +162,9 @@ def test_spin_about_the_vertical_does_not_bend_the_path():
 @given(states)
 def test_a_ball_slides_then_rolls_then_spins_then_rests(state: PlaneState):
     modes = [phase.mode for _, phase in way(state)]
-    order = ["sliding", "rolling", "spinning", "resting"]
+    order = list(PlaneMode)
     assert [order.index(mode) for mode in modes] == sorted(order.index(mode) for mode in modes)
-    assert modes[-1] == "resting"
+    assert modes[-1] is PlaneMode.RESTING
     assert energy(way(state)[-1][0]) < 1e-23
 
 

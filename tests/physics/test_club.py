@@ -8,14 +8,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sandbox.physics.club import Head, Launch, strike
+from sandbox.physics.club import Head, LaunchConditions, strike
 
 BALL, RADIUS = 0.04593, 0.021335  # kg, m
 RPM, MPH = pi / 30.0, 0.44704
 DRIVER, IRON = Head(0.2, 0.83, 0.4, 1.0, 0.0423, 2.843e-4), Head(0.26, 0.78, 0.4, 1.0)
 
 
-def struck(head: Head, speed: float, loft: float, attack: float = 0.0, height: float = 0.0) -> Launch:
+def struck(head: Head, speed: float, loft: float, attack: float = 0.0, height: float = 0.0) -> LaunchConditions:
     """Angles in deg."""
     return strike(head, speed, radians(loft), radians(attack), height, BALL, RADIUS)
 

@@ -13,6 +13,7 @@ from sandbox.engine.model.ball import Ball
 from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.surface import Segment, Surface
 from sandbox.physics.cloth import Cloth
+from sandbox.physics.plane import PlaneMode
 
 RADIUS, NOSE, RESTITUTION, FRICTION = 0.03075, 0.037, 0.88, 0.265  # a carom table's
 
@@ -80,7 +81,7 @@ def test_a_rolling_ball_leaves_as_tracked_ones_do(angle, after, rolling, speed):
     motion = rebound((vx, vy, 0.0, -vy / RADIUS, vx / RADIUS), (-1.0, 0.0))
     assert degrees(atan2(motion[1], -motion[0])) == pytest.approx(after, abs=0.1)
     cloth, state = Cloth(sliding=0.202, rolling=0.0045), (0.0, 0.0, *motion)
-    while (phase := cloth.phase(state, RADIUS)).mode == "sliding":
+    while (phase := cloth.phase(state, RADIUS)).mode is PlaneMode.SLIDING:
         state = phase.after(phase.duration)
     assert degrees(atan2(state[3], -state[2])) == pytest.approx(rolling, abs=0.1)
     assert hypot(state[2], state[3]) == pytest.approx(speed, abs=2e-3)

@@ -1,37 +1,16 @@
-"""Impacts at one instant: which bodies touch, the properties of each contact, and the exchange of impulses."""
+"""Impacts at one instant: which bodies touch, and who exchanges impulses with whom, in which order."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from math import dist, hypot
+from math import dist
 from typing import NamedTuple
 
-from sandbox.engine.contact.manifold import (
-    ContactManifold,
-    all_round,
-    farthest,
-    meeting,
-    relative,
-    speeds_at,
-    surfaces_met,
-)
-from sandbox.engine.contact.surfaces import (
-    after_impulses,
-    after_vertical_friction,
-    bounce_of_balls,
-    bounce_off,
-    friction_in_plane,
-    speeds_where_touching,
-    tilted,
-)
+from sandbox.engine.contact.manifold import ContactManifold, all_round, meeting, relative, speeds_at, surfaces_met
+from sandbox.engine.contact.surfaces import after_vertical_friction, friction_in_plane, speeds_where_touching
 from sandbox.engine.contact.touch import Obstacle
-from sandbox.engine.impact.impulses import (
-    Contact,
-    after_contact_of_bodies,
-    after_contacts_at_once,
-    after_kick,
-    disc_on_ground,
-)
+from sandbox.engine.impact.impact_contacts import after_single_contact, contact_of_two, contact_with_surface
+from sandbox.engine.impact.impulses import ImpactContact, after_contact_of_bodies, after_contacts_at_once, after_kick
 from sandbox.engine.model.ball import Ball, kinetic
 from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.surface import Bounce, Surface
@@ -40,7 +19,6 @@ from sandbox.engine.motion.moving_ball import InCluster, MovingBall
 from sandbox.engine.paths.arc import Arc, uniform_arc
 from sandbox.engine.paths.run import Numerics
 from sandbox.errors import RunError
-from sandbox.physics.cushion import nose_sine
 from sandbox.physics.integrators import State
 
 #: Largest relative energy gain of a cluster in an impact: rounding in Chipmunk's iterations.
@@ -167,7 +145,7 @@ class Impacts:
         """True if some of these are bodies, not balls."""
         return not self._all_round and any(self._movers[index].ball.rotates for index in indices)
 
-    def _close_at_once(self, group: ImpactGroup, soft: bool | None) -> tuple[list[Contact], float]:
+    def _close_at_once(self, group: ImpactGroup, soft: bool | None) -> tuple[list[ImpactContact], float]:
         """Close all contacts of balls with each other and with soft or hard walls, or both, at once; returns those that
         were closing, and the work in J of moving surfaces. If a ball closes one, and does not come to close the others
         by that, these do not act."""
@@ -182,11 +160,11 @@ class Impacts:
             states.update(before)
         return closed, self._exchange_at_once(states, found) if closed else 0.0
 
-    def _closes(self, contact: Contact, states: dict[int, State]) -> bool:
+    def _closes(self, contact: ImpactContact, states: dict[int, State]) -> bool:
         balls, met = self._balls(contact), contact.seen(states)
         return speeds_where_touching(balls, met, contact.nx, contact.ny, contact.sine)[0] > CLOSING
 
-    def _close_soft_walls(self, group: ImpactGroup) -> tuple[list[Contact], float]:
+    def _close_soft_walls(self, group: ImpactGroup) -> tuple[list[ImpactContact], float]:
         """Close the contacts with soft walls, one after another; returns them, and the work in J of those that move."""
         closed, work = [], 0.0
         for contact in self._contacts_with_surfaces(group, True):
@@ -195,7 +173,7 @@ class Impacts:
                 closed.append(contact)
         return closed, work
 
-    def _kick(self, group: ImpactGroup, closed: Sequence[Contact]) -> float:
+    def _kick(self, group: ImpactGroup, closed: Sequence[ImpactContact]) -> float:
         """Add what surfaces that were hit kick with, shared among the points of one contact; returns the work in J of
         this, and of what moves where balls are kicked into something else."""
         kicking = [contact for contact in closed if contact.kick > 0.0]
@@ -243,7 +221,7 @@ class Impacts:
 
     # ------------------------------------------------------------------ contacts
 
-    def _contacts_with_surfaces(self, group: ImpactGroup, soft: bool | None) -> Iterator[Contact]:
+    def _contacts_with_surfaces(self, group: ImpactGroup, soft: bool | None) -> Iterator[ImpactContact]:
         """The contacts with soft or hard walls, or both, each from the states at the time when it is yielded. Where two
         surfaces join, a point of both counts once, for the surface with the least ``tilt_from_side``."""
         states = group.states
@@ -275,7 +253,7 @@ class Impacts:
     def _soft(self, surface: Surface) -> bool:
         return self._all_soft or surface.nose_height is not None
 
-    def _contacts_of_balls(self, group: ImpactGroup) -> Iterator[Contact]:
+    def _contacts_of_balls(self, group: ImpactGroup) -> Iterator[ImpactContact]:
         states, pairs, gap = group.states, group.pairs, group.gap
         for pair in pairs:
             balls = [self._movers[index].ball for index in pair]
@@ -285,7 +263,7 @@ class Impacts:
 
     # ------------------------------------------------------------------ impulses
 
-    def _exchange_alone(self, states: dict[int, State], contact: Contact) -> float:
+    def _exchange_alone(self, states: dict[int, State], contact: ImpactContact) -> float:
         """A single contact of balls; returns the work in J of a surface that moves. Below a nose a ball that spins may
         be drawn on, or leave more slowly than the slowest hop: it is given that."""
         balls, before = self._balls(contact), [states[index] for index in contact.balls]
@@ -299,7 +277,7 @@ class Impacts:
         states.update(zip(contact.balls, after, strict=True))
         return mass * ((after[0][2] - before[0][2]) * ux + (after[0][3] - before[0][3]) * uy)
 
-    def _exchange_at_once(self, states: dict[int, State], found: Sequence[Contact]) -> float:
+    def _exchange_at_once(self, states: dict[int, State], found: Sequence[ImpactContact]) -> float:
         """Several contacts, without gain of energy; returns the work in J of surfaces that move.
 
         If several contacts close at once, restitution may demand more energy than there is. With friction this is
@@ -338,7 +316,7 @@ class Impacts:
                 states.update(zip(contact.balls, rubbed, strict=True))
         return work
 
-    def _parted(self, after: dict[int, State], found: Sequence[Contact]) -> bool:
+    def _parted(self, after: dict[int, State], found: Sequence[ImpactContact]) -> bool:
         """True if no body closes any more: with much friction on a slim one Chipmunk does not come to an end."""
         closing = max(contact.speed for contact in found)
         return all(
@@ -347,10 +325,10 @@ class Impacts:
             for contact in found
         )
 
-    def _balls(self, contact: Contact) -> list[Ball]:
+    def _balls(self, contact: ImpactContact) -> list[Ball]:
         return [self._movers[index].ball for index in contact.balls]
 
-    def _hopping(self, contact: Contact) -> Contact:
+    def _hopping(self, contact: ImpactContact) -> ImpactContact:
         """The contact with enough restitution to separate no slower than the slowest hop."""
         bounce, slowest = contact.bounce, self._slowest_hop
         if contact.speed <= CLOSING or bounce.restitution * contact.speed >= slowest:
@@ -371,58 +349,7 @@ class Impacts:
         return sum(kinetic(self._movers[index].ball, state) for index, state in states.items())
 
 
-def contact_with_surface(
-    index: int, ball: Ball, state: State, surface: Surface, found: ContactManifold, number: int
-) -> Contact:
-    """The contact at one of the points where they meet; what depends on the speed along takes that of the centre."""
-    (nx, ny), point, sine = found.normal, found.points[number], 0.0
-    approach, along = found.speeds[number][0], state[2] * ny - state[3] * nx
-    bounce = bounce_off(surface, approach, along)
-    if bounce.tilt != 0.0:
-        nx, ny = tilted(nx, ny, bounce.tilt, along)
-        point = farthest(ball, state, (nx, ny)) if len(found.points) == 1 else point
-    if not ball.rotates:
-        sine = 0.0 if surface.nose_height is None else nose_sine(ball.radius, surface.nose_height)
-        speeds = speeds_where_touching([ball], [state], nx, ny, sine)
-    else:
-        bounce = _without_pull(bounce, approach)
-        speeds = speeds_at((state,), point, (nx, ny))
-    return Contact((index,), surface.name, nx, ny, sine, bounce, approach, speeds, point, kick=surface.kick)
-
-
-def contact_of_two(
-    indices: tuple[int, int], balls: Sequence[Ball], setup: Setup, found: ContactManifold, number: int
-) -> Contact:
-    """The contact of two balls or bodies at one of the points where they meet."""
-    (a, b), speeds = balls, found.speeds[number]
-    bounce = bounce_of_balls(setup, speeds[0], hypot(*speeds[1:]), a.name, b.name)
-    bounce = bounce if all_round(a, b) else _without_pull(bounce, speeds[0])
-    return Contact(indices, b.name, *found.normal, 0.0, bounce, speeds[0], speeds, found.points[number])
-
-
-def after_single_contact(balls: Sequence[Ball], states: Sequence[State], contact: Contact) -> list[State]:
-    """The states of one or two after a single contact: of balls in units of the reduced mass; friction acts against the
-    whole slip."""
-    if not all_round(*balls):
-        return list(after_contact_of_bodies(balls, dict(enumerate(states)), contact, contact.bounce)[0].values())
-    mobility = sum([1.0 / ball.mass for ball in balls])  # 1/kg
-    turning = sum([1.0 / (ball.mass * ball.inertia_factor) for ball in balls])
-    approach, along, upward = contact.speeds
-    slip = hypot(along, upward)
-    restitution, friction, _, tangential = contact.bounce
-    wanted = (1.0 + tangential) * slip  # ending that much slip is reversing a share of what there is
-    push, rub = disc_on_ground().exchange(approach, wanted, mobility / turning, restitution, friction)
-    share = rub / (slip * mobility) if slip > 0.0 else 0.0
-    impulse = push / mobility, share * along, share * upward
-    return after_impulses(balls, states, contact.nx, contact.ny, impulse, contact.sine)
-
-
-def _without_pull(bounce: Bounce, approach: float) -> Bounce:
-    """Without restitution where a point of contact does not close: it may be pressed on, not pulled along."""
-    return bounce if approach > CLOSING else bounce._replace(restitution=0.0)
-
-
-def _hits(t: float, closed: Sequence[Contact]) -> list[Hit]:
+def _hits(t: float, closed: Sequence[ImpactContact]) -> list[Hit]:
     """The contacts that closed, as hits: of two points of one contact the faster; none that is rounding, where bodies
     lie."""
     fastest: dict[tuple[tuple[int, ...], str], Hit] = {}

@@ -115,7 +115,7 @@ def disc_on_ground() -> DiscOnGround:
     return disc
 
 
-class Contact(NamedTuple):
+class ImpactContact(NamedTuple):
     """A contact in an impact. The unit normal points to the first ball, from the surface or from the second ball."""
 
     balls: tuple[int, ...]  # one or two, as indices into the balls of the setup
@@ -136,7 +136,7 @@ class Contact(NamedTuple):
         return met if self.drive == (0.0, 0.0) else [relative(met[0], self.drive)]
 
 
-def after_kick(ball: Ball, state: State, contact: Contact) -> State:
+def after_kick(ball: Ball, state: State, contact: ImpactContact) -> State:
     """The state of a ball or body after the kick of the surface that it has hit."""
     x, y, vx, vy, spin, *more = state
     px, py = contact.kick * contact.nx, contact.kick * contact.ny
@@ -147,7 +147,7 @@ def after_kick(ball: Ball, state: State, contact: Contact) -> State:
 
 
 def after_contact_of_bodies(
-    balls: Sequence[Ball], states: dict[int, State], contact: Contact, bounce: Bounce
+    balls: Sequence[Ball], states: dict[int, State], contact: ImpactContact, bounce: Bounce
 ) -> tuple[dict[int, State], list[float], float]:
     """The states after a single contact of bodies, its normal impulse in N s, and the work in J that a moving surface
     does.
@@ -180,7 +180,7 @@ def after_contact_of_bodies(
 
 
 def _disc_on_plane(
-    contact: Contact, point: pymunk.Vec2d, size: float, first: pymunk.Body, second: pymunk.Body
+    contact: ImpactContact, point: pymunk.Vec2d, size: float, first: pymunk.Body, second: pymunk.Body
 ) -> tuple[pymunk.Circle, pymunk.Segment]:
     """A disc of radius ``size`` (m) on the first body, and a piece of its tangent plane on the second, that overlap at
     the point of a contact."""
@@ -191,7 +191,7 @@ def _disc_on_plane(
 
 
 def after_contacts_at_once(
-    balls: Sequence[Ball], states: dict[int, State], contacts: Sequence[Contact], bounces: Sequence[Bounce]
+    balls: Sequence[Ball], states: dict[int, State], contacts: Sequence[ImpactContact], bounces: Sequence[Bounce]
 ) -> tuple[dict[int, State], list[float], float]:
     """The states of balls and bodies, by their index, after contacts that close together with these bounces, the normal
     impulse in N s of each, and the work in J that moving surfaces do.

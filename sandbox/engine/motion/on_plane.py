@@ -11,7 +11,7 @@ from sandbox.engine.motion.event_kind import EventKind
 from sandbox.engine.motion.moving_ball import MovingBall
 from sandbox.engine.paths.arc import Arc, resting_arc
 from sandbox.engine.paths.bernstein import downward_crossings
-from sandbox.physics.plane import Plane, PlanePhase, strip
+from sandbox.physics.plane import Plane, PlaneMode, PlanePhase, strip
 
 #: Longest step as a fraction of the time in which a body would stop: none steps over its rest.
 _LONGEST = 0.5
@@ -48,7 +48,7 @@ class OnPlane(MovingBall):
         if law is not self._on:
             self._on, self._known = law, ((), (0.0, 0.0, 0.0))
         phase = law.phase(state, self.ball.radius)
-        if phase.mode == "resting":
+        if phase.mode is PlaneMode.RESTING:
             self._numerics.steps += 1
             return resting_arc(t, until, state), EventKind.ARC_END
         if phase.acceleration_at is None:

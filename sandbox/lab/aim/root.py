@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import inf, isfinite, sqrt
+from sys import float_info
 
 import numpy as np
 
@@ -34,7 +35,7 @@ def bracketed(miss: Callable[[float], float], a: float, b: float, fine: float) -
         else:
             c, at_c, b, at_b = b, at_b, a, at_a
         a, at_a = x, at_x
-        least = (0.5 * fine + 2.0 * np.finfo(float).eps * abs(a)) / abs(b - c)
+        least = (0.5 * fine + 2.0 * float_info.epsilon * abs(a)) / abs(b - c)
         if at_a == 0.0 or least > 0.5:
             return a if abs(at_a) < abs(at_b) else b
         xi, phi = (a - b) / (c - b), (at_a - at_b) / (at_c - at_b)

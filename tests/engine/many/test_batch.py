@@ -19,7 +19,7 @@ from hypothesis import strategies as st
 import sandbox
 from sandbox.engine import simulate, simulate_many
 from sandbox.engine.contact.touch import Obstacle
-from sandbox.engine.impact.impulses import Contact, DiscOnGround, after_contacts_at_once
+from sandbox.engine.impact.impulses import DiscOnGround, ImpactContact, after_contacts_at_once
 from sandbox.engine.many import batch
 from sandbox.engine.many.arc_rows import ArcRows, Paths
 from sandbox.engine.many.continuation import BatchExit, Continuation, ExitReason
@@ -515,7 +515,7 @@ def test_an_impact_is_the_same_in_any_lane_and_place(motions: list[tuple[float, 
         nx, ny = math.cos(i), math.sin(i)
         before = (5.0, 3.0, away[i] * nx + along[i] * ny, away[i] * ny - along[i] * nx, spin[i])
         bounce = Bounce(restitution, friction)
-        contact = Contact(
+        contact = ImpactContact(
             (0,),
             "floor",
             nx,

@@ -15,7 +15,7 @@ from sandbox.parameters import Group, SceneParameters, choice, group, groups, on
 from sandbox.sport.facts import Fact
 
 
-class Launch(Group):
+class Throw(Group):
     height: float = quantity(2.0, "m", low=0.1, high=100, meaning="of the ball's centre above the floor")
     speed: float = quantity(0.0, "m/s", low=0, high=340, meaning="upwards")
     spin: float = quantity(0.0, "rpm", low=-20000, high=20000, meaning="backspin")
@@ -47,7 +47,7 @@ class Floor(Group):
     present: bool = switch(True, "whether there is a floor")
 
 
-class Mark(Group):
+class Marker(Group):
     name: str = "mark"
     x: float = quantity(0.0, "m", low=-10, high=10, meaning="where it lies")
 
@@ -55,11 +55,11 @@ class Mark(Group):
 class Parameters(SceneParameters):
     gravity: float = quantity(9.81, "m/s^2", low=0, high=30, meaning="downwards")
     duration: float = quantity(1.0, "s", low=0.01, high=100, meaning="of the run")
-    launch: Launch = group(Launch(), "how the ball starts")
+    launch: Throw = group(Throw(), "how the ball starts")
     ball: DroppedBall = group(DroppedBall(mass=0.2), "the ball")
     air: Air = group(Air(), "the air")
     floor: Floor = group(Floor(), "the floor")
-    marks: list[Mark] = groups([], "what lies about")
+    marks: list[Marker] = groups([], "what lies about")
 
 
 @dataclass(frozen=True)
