@@ -378,6 +378,12 @@ def _cushion_contacts(run: Run, parameters: Parameters) -> int:
     return sum(event.partner.endswith(" cushion") for event in all_collisions(run))
 
 
+def driven(run: Run, parameters: Parameters) -> int:
+    """The number of balls, the struck one aside, that met a cushion."""
+    met = {event.ball for event in all_collisions(run) if event.partner.endswith(" cushion")}
+    return len(met - {parameters.cue.ball})
+
+
 FACTS = (
     Fact("pockets", "potted", "", lambda run, parameters: removed_by(run), names=True),
     Fact("first_contact", "first contact", "", fact_from(first_contact, lambda meeting, it: meeting[0]), names=True),
@@ -388,6 +394,7 @@ FACTS = (
     Fact("path", "path", "m", lambda run, parameters: travelled(run, parameters.cue.ball)),
     REST_TIME,
     Fact("rails", "cushions, all balls", "", _cushion_contacts),
+    Fact("driven", "", "", driven),
     Fact("potted", "", "", lambda run, parameters: list(removed_by(run)), in_order=False, names=True),
     Fact("scratch", "", "", lambda run, parameters: parameters.cue.ball in removed_by(run)),
     Fact("point", "", "", point),

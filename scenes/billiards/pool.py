@@ -1,0 +1,132 @@
+"""What the games of pool share: legal shots, fouls, the cue ball in hand, and spotting of balls.
+
+By the rules of play of the WPA. Leaves out: calling ball and pocket, so that luck counts; the push out; balls off the
+table and frozen balls; the choice after an illegal break, whose next player always breaks anew.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from math import hypot
+from typing import Any, ClassVar, TypeVar
+
+from sandbox.sport.match import Match, Outcome, named
+
+#: The table (9 ft, between the noses) and the balls, in m; the balls that must reach a cushion in a break.
+LENGTH, WIDTH, RADIUS, DRIVEN = 2.54, 1.27, 0.028575, 4
+CUE = "cue"
+Place = tuple[float, float]
+Same = TypeVar("Same", bound="Pool")
+
+
+def free_place(taken: Collection[Place], wanted: Iterable[Place]) -> Place:
+    """The first of some places (m) at which a ball touches no other."""
+    return next(at for at in wanted if all(hypot(at[0] - x, at[1] - y) > 2.0 * RADIUS for x, y in taken))
+
+
+def on_long_string(taken: Collection[Place]) -> Place:
+    """Where a ball is spotted: at the foot spot, or as near to it as is free on the line towards the foot rail; or then
+    on the line towards the head."""
+    foot, room = 0.25 * LENGTH, 0.5 * LENGTH - RADIUS - 1e-3
+    steps = [0.001 * step for step in range(round(1000 * (room - foot)))]
+    back = [0.001 * step for step in range(round(1000 * (foot + room)))]
+    return free_place(taken, [*((foot + step, 0.0) for step in steps), *((foot - step, 0.0) for step in back)])
+
+
+def behind_head_string(taken: Collection[Place]) -> Place:
+    """A place for the cue ball in hand: at the head spot, or beside it."""
+    steps = sorted((0.02 * step for step in range(-25, 26)), key=abs)
+    return free_place(taken, [(-0.25 * LENGTH, step) for step in steps])
+
+
+@dataclass(frozen=True)
+class Pool(Match):
+    """A game of pool; ``balls`` are on the table, None before the break."""
+
+    rack: ClassVar[str] = ""
+    behind_after_break: ClassVar[bool] = False  # after a foul in it
+    facts: ClassVar[tuple[str, ...]] = (
+        *("first_contact", "potted", "scratch", "rails", "touches", "driven", "positions"),
+    )
+
+    balls: Mapping[str, Place] | None = None  # m
+    in_hand: bool = True  # the player may place the cue ball
+    behind: bool = True  # but only behind the head string
+    fouls: tuple[int, int] = (0, 0)  # of each, one after the other without a legal shot between
+
+    @property
+    def breaks(self) -> bool:
+        """True if the next shot is the break."""
+        return self.balls is None
+
+    @property
+    def targets(self) -> Sequence[str]:
+        """The balls of which one must be met first."""
+        raise NotImplementedError
+
+    def fault(self, outcome: Outcome) -> str:
+        """The first foul in a shot, in words; "" if there is none."""
+        first = outcome["first_contact"]
+        if outcome["scratch"]:
+            return "scratch"
+        if first is None:
+            return "meets no ball"
+        if not self.breaks and first not in self.targets:
+            return f"meets the {first} first"
+        if not outcome["potted"] and not self.breaks and not _cushions_after(outcome):
+            return "no ball reaches a cushion"
+        return ""
+
+    def table_after(self, outcome: Outcome, spotted: Collection[str] = ()) -> dict[str, Place]:
+        """The balls after a shot, in m, the cue ball first; of those potted some are spotted."""
+        balls = {name: (x, y) for name, (x, y) in outcome["positions"].items()}
+        for name in spotted:
+            balls[name] = on_long_string(balls.values())
+        others = {name: place for name, place in balls.items() if name != CUE}
+        return {CUE: balls.get(CUE) or behind_head_string(others.values())} | others
+
+    def next_shot(self: Same, outcome: Outcome, foul: str, goes_on: bool, **changes: Any) -> Same:
+        """The match after a shot that does not end it; after a foul the other has the cue ball in hand."""
+        fouls = list(self.fouls)
+        fouls[self.turn] = fouls[self.turn] + 1 if foul else 0
+        potted = [name for name in outcome["potted"] if name != CUE]
+        what = [f"pots {named(potted)}"] if potted else ["pots nothing"] if not foul else []
+        said = f"{self.player} {' and '.join(what)}" if what else self.player
+        said += f"{', but' if what else ':'} {foul}, a foul" if foul else ""
+        turn = self.turn if goes_on and not foul else 1 - self.turn
+        changes.setdefault("balls", self.table_after(outcome))
+        changes |= {"foul": foul, "fouls": (fouls[0], fouls[1]), "in_hand": bool(foul)}
+        return self.going_on(said, turn, behind=self.breaks and self.behind_after_break, **changes)
+
+    def illegal_break(self: Same, outcome: Outcome) -> Same | None:
+        """The match after a break with too few balls driven to a cushion, and none potted; None for a legal one."""
+        if not self.breaks or outcome["potted"] or outcome["driven"] >= DRIVEN:
+            return None
+        said = f"{self.player} breaks with {outcome['driven']} balls to a cushion, not {DRIVEN}"
+        return self.going_on(said, 1 - self.turn, foul="illegal break")
+
+    @property
+    def start(self) -> Mapping[str, Any]:
+        if self.balls is None:
+            return {"rack": self.rack, "balls": [{"name": CUE, "x": -0.25 * LENGTH, "y": 0.1}], "cue.ball": CUE}
+        spots = [{"name": name, "x": x, "y": y} for name, (x, y) in self.balls.items()]
+        return {"rack": "none", "balls": spots, "cue.ball": CUE}
+
+    @property
+    def free(self) -> tuple[str, ...]:
+        return ("balls[0].x", "balls[0].y") if self.in_hand else ()
+
+    @property
+    def room(self) -> tuple[float, float, float, float] | None:
+        return (-0.5 * LENGTH, -0.5 * WIDTH, -0.25 * LENGTH, 0.5 * WIDTH) if self.behind else None
+
+
+def _cushions_after(outcome: Outcome) -> int:
+    """How often balls met a cushion after the cue ball met the first of them; before that only it moves."""
+    before = 0
+    for name in outcome["touches"]:
+        if name == outcome["first_contact"]:
+            break
+        before += name.endswith(" cushion")
+    return int(outcome["rails"]) - before

@@ -1,0 +1,34 @@
+"""Penalty kicks to decide a match: best of five, then sudden death (Laws of the Game, law 10.3).
+
+Leaves out: who may kick; the toss; a keeper who leaves his line.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from sandbox.sport.match import Shootout
+
+
+class PenaltyKicks(Shootout):
+    """Five kicks each from 11 m; the keeper dives to where he sees the ball go."""
+
+    title = "Penalty kicks"
+    goal = "Five kicks each, past a keeper who dives: more goals win"
+    facts = ("goal",)
+    fact = "goal"
+    shots = 5
+
+    @property
+    def start(self) -> Mapping[str, Any]:
+        return {
+            "wall.present": False,
+            "goal.distance": 11.0,  # m (Laws of the Game, law 14)
+            "keeper.distance": 0.1,  # m, on his line
+            "keeper.offset": 0.0,
+            "keeper.dive.dives": True,
+        }
+
+
+GAME = PenaltyKicks
