@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from sandbox.errors import RunError
+from sandbox.errors import RequestError, RunError
 from sandbox.text import printable
 
 if TYPE_CHECKING:
@@ -25,6 +25,16 @@ optional_scene = click.argument(
     "scene", metavar="[SCENE]", required=False, help="A scene, preset or scene file.  [default: all scenes]"
 )
 json_option = click.option("--json", "as_json", is_flag=True, help="Print JSON instead of text.")
+map_option = click.option(
+    "--map",
+    "mapping",
+    metavar='"COLUMN=KEY UNIT"',
+    multiple=True,
+    help='A column of a table of launches: "Ball Speed=launch.speed mph"; repeatable.  [default: known columns]',
+)
+where_option = click.option(
+    "--where", metavar="COLUMN=TEXT", multiple=True, help="Only rows of that table with this text; repeatable."
+)
 
 
 def changes_options(command: Command) -> Command:
@@ -77,6 +87,17 @@ def load(source: str, changes: dict[str, Any]) -> Scene:
     from sandbox import scene
 
     return scene.load(source, changes, overrides_from="--set")
+
+
+def pairs(option: str, texts: tuple[str, ...]) -> dict[str, str]:
+    """Names and values, given as ``NAME=VALUE``. Raises RequestError."""
+    found = {}
+    for text in texts:
+        name, equals, value = (part.strip() for part in text.partition("="))
+        if not name or not equals or not value:
+            raise RequestError(f"{option} {text}: write it as NAME=VALUE")
+        found[name] = value
+    return found
 
 
 def say(text: str) -> None:

@@ -11,10 +11,13 @@ from sandbox.cli.arguments import (
     changes_options,
     json_option,
     load,
+    map_option,
     optional_scene,
+    pairs,
     say,
     scene_argument,
     units_option,
+    where_option,
 )
 from sandbox.errors import RequestError, RunError
 from sandbox.files import json_text, writing
@@ -389,26 +392,60 @@ def stress(scene: str | None, changes: dict[str, Any], as_json: bool) -> None:
 
 @click.command()
 @optional_scene
+@click.option("--against", metavar="F.csv", type=Path, help="A table of your own in place of the published ones.")
+@map_option
+@where_option
+@click.option(
+    "--within",
+    metavar="NAME=WIDTH",
+    multiple=True,
+    help='With --map: how far off a result may be, as carry="5 yd" or carry=2%; repeatable.',
+)
 @changes_options
 @click.option("--teeth", is_flag=True, help="Switch off, or change by 20 %, what each row tests: does it fall?")
 @json_option
-def validate(scene: str | None, changes: dict[str, Any], teeth: bool, as_json: bool) -> None:
+def validate(
+    scene: str | None,
+    against: Path | None,
+    mapping: tuple[str, ...],
+    where: tuple[str, ...],
+    within: tuple[str, ...],
+    changes: dict[str, Any],
+    teeth: bool,
+    as_json: bool,
+) -> None:
     """Compare results with published numbers and their sources.
 
     Each row is exact, fitted, of another program, of a model, measured, or held out of a fit. Only measured and
     held-out rows are counted.
+
+    A table of your own has the columns result, value and tolerance, and as you like scene, case, set, unit, source,
+    kind and the others of the published tables; or one launch in each row, with its columns named by --map.
 
     \b
     Examples:
       sandbox validate
       sandbox validate golf --teeth
       sandbox validate golf --set ball.drag.model=usga --set ball.lift.model=usga
+      sandbox validate golf --against shots.csv --within carry=3% --within apex="3 yd"
     """
     from sandbox.lab import validate as lab
+    from sandbox.lab.tables import paragraph
     from sandbox.progress import bar
 
+    own, notes = None, ()
+    if against is not None:
+        from sandbox.lab.against import cases_against
+        from sandbox.lab.fit.formats import parse_entry
+
+        if teeth:
+            raise RequestError("--teeth: says what the published numbers test; it cannot be combined with --against")
+        entries = [parse_entry(text) for text in mapping]
+        own, notes = cases_against(against, scene, entries, pairs("--where", where), pairs("--within", within))
+    elif mapping or where or within:
+        raise RequestError("--map, --where and --within require --against F.csv")
     with bar("validate") as progress:
-        rows = lab.validate(scene, changes, progress)
+        rows = lab.validate(scene, changes, progress, own)
     if teeth:
         from sandbox.lab import teeth as of_rows
 
@@ -416,4 +453,5 @@ def validate(scene: str | None, changes: dict[str, Any], teeth: bool, as_json: b
             tried = of_rows.teeth(rows, changes, progress)
         say(json_text(of_rows.as_json(rows, tried)) if as_json else "\n".join(of_rows.as_text(tried)))
         return
-    say(json_text(rows) if as_json else "\n".join(lab.as_text(rows)))
+    text = [*lab.as_text(rows), *(line for note in notes for line in paragraph(note, ""))]
+    say(json_text(rows) if as_json else "\n".join(text))

@@ -107,10 +107,15 @@ def _by_form(rows: Sequence[Mapping[str, str]], form: Mapping[str, Any]) -> Iter
 
 
 def validate(
-    source: str | None = None, changes: Mapping[str, Any] | None = None, progress: Progress = no_progress
+    source: str | None = None,
+    changes: Mapping[str, Any] | None = None,
+    progress: Progress = no_progress,
+    against: Sequence[Case] | None = None,
 ) -> list[Compared]:
-    """Compute the cases of one scene or preset, or all. ``changes`` override what the cases set."""
-    wanted = list(cases()) if source is None else _of(source)
+    """Compute the cases of one scene or preset, or all, or those of ``against``. ``changes`` override what the cases
+    set."""
+    ours = against is None
+    wanted = (list(cases()) if source is None else _of(source)) if ours else list(against or ())
     found: dict[tuple[str, str], SceneRun] = {}
     compared = []
     for done, case in enumerate(wanted):

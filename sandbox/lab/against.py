@@ -1,0 +1,127 @@
+"""Tables of a user's own in place of the published ones: as those are written, or with columns that are mapped."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from sandbox import units
+from sandbox.errors import RequestError
+from sandbox.lab.fit.formats import Entry, declared_units, recognized, stated
+from sandbox.lab.fit.mapped import Quantity, mapped
+from sandbox.lab.table_file import Table, read_table
+from sandbox.lab.validate import KINDS, Case, assignments
+from sandbox.scene import Scene, load
+from sandbox.text import argument, no_such_result, shortened
+
+#: The columns that such a table needs, and what the others are where they are missing.
+NEEDED = ("result", "value", "tolerance")
+OTHERS = {"scene": "", "case": "", "set": "", "unit": "", "source": "", "reason": "", "kind": "measured", "tests": "",
+          "tolerance_from": ""}  # fmt: skip
+
+
+def cases_against(
+    path: Path, source: str | None, entries: Sequence[Entry], where: Mapping[str, str], within: Mapping[str, str]
+) -> tuple[list[Case], tuple[str, ...]]:
+    """The numbers of a user's table, and sentences on how it was read. Raises RequestError.
+
+    Without ``entries`` it has the columns of the published tables; ``source`` is the scene of rows that name none, or
+    of which only those of this scene are wanted. With them, or with columns that are known, each row is a launch and
+    its results, and ``within`` has the tolerance of each: a number with a unit, or a percentage.
+    """
+    table = read_table("--against", path)
+    if not entries and all(name in table.names for name in NEEDED):
+        return _published(table, path, source), ()
+    if source is None:
+        raise RequestError(f"--against {path}: name the scene that its launches are for")
+    scene = load(source)
+    form = stated(entries, table, scene) if entries else recognized(table, scene)
+    if form is None:
+        missing = next(name for name in NEEDED if name not in table.names)
+        raise RequestError(f"{table.where}: has no column {missing}, and no known ones; name them by --map")
+    found = mapped(scene, table, form, where)
+    settings = [_settings(found.given, place) for place in range(len(found.rows))]
+    cases = [
+        _case(scene, path, row, settings[place], name, one, place, within)
+        for place, row in enumerate(found.rows)
+        for name, one in found.measured.items()
+    ]
+    return cases, found.notes
+
+
+def _settings(given: Mapping[str, Quantity], place: int) -> str:
+    return "; ".join(f"{key}={argument(float(one.values[place]))}" for key, one in given.items())
+
+
+def _case(
+    scene: Scene, path: Path, row: int, settings: str, name: str, one: Quantity, place: int, within: Mapping[str, str]
+) -> Case:
+    value, unit = float(one.written[place]), one.units[place]
+    if name not in within:
+        raise RequestError(f"--against {path}: say how far off {name} may be: --within {name}=2%, or a number")
+    tolerance = _tolerance(name, within[name], value, unit)
+    return Case(scene.title, settings, f"row {row}", name, repr(value).removesuffix(".0"), tolerance, unit, path.name,
+                "", "measured", "", f"--within {name}={within[name]}")  # fmt: skip
+
+
+def _tolerance(name: str, text: str, value: float, unit: str) -> float:
+    """A tolerance in the unit of the value: a number with a unit, or a share in %. Raises RequestError."""
+    try:
+        share = units.parse(text, "%") if text.strip().endswith("%") else None
+        found = units.parse(text, unit) if share is None else abs(value) * share / 100.0
+    except ValueError as error:
+        raise RequestError(f"--within {name}={text}: {error}") from None
+    if not found >= 0.0:
+        raise RequestError(f"--within {name}={text}: must be 0 or more")
+    return found
+
+
+def _published(table: Table, path: Path, source: str | None) -> list[Case]:
+    """The rows of a table as the published ones are written."""
+    known = {*NEEDED, *OTHERS}
+    unknown = next((name for name in table.names if name not in known), None)
+    if unknown is not None:
+        raise RequestError(f"{table.where}: column {unknown!r} is none of {', '.join(sorted(known))}")
+    columns = {column.name: column.cells for column in table.columns}
+    found = []
+    for place in range(len(table)):
+        row = {name: columns[name][place].strip() for name in columns}
+        case = _row(table, place + 1, {**OTHERS, **row}, path, source)
+        if source is None or source in (case.scene, case.scene.partition("/")[0]):
+            found.append(case)
+    if not found:
+        raise RequestError(f"{table.where}: has no rows" + (f" of {source}" if source is not None else ""))
+    return found
+
+
+def _row(table: Table, number: int, row: dict[str, str], path: Path, source: str | None) -> Case:
+    """One number of the user's, checked. Raises RequestError."""
+    at = f"{table.where}: row {number},"
+    row["scene"] = row["scene"] or source or ""
+    row["source"], row["case"] = row["source"] or path.name, row["case"] or f"row {number}"
+    if not row["scene"]:
+        raise RequestError(f"{at} names no scene; give one: sandbox validate SCENE --against {path}")
+    if row["kind"] not in KINDS:
+        raise RequestError(f"{at} kind = {shortened(row['kind'], 40)!r} is none of {', '.join(KINDS)}")
+    scene = load(row["scene"], assignments(row["set"]))
+    name = row["result"].partition(".")[0]
+    if name not in scene.facts:
+        raise RequestError(f"{at} result = {shortened(name, 40)}: {no_such_result(name, list(scene.facts))}")
+    tolerance = None
+    if row["tolerance"]:
+        for key in ("value", "tolerance"):
+            column = next(column for column in table.columns if column.name == key)
+            row[key] = repr(table.number(column, number - 1))
+        tolerance = float(row["tolerance"])
+        _check_unit(at, row, declared_units(scene)[name])
+    row["value"] = row["value"].removesuffix(".0")
+    return Case(name=row.pop("case"), tolerance=tolerance, **{k: v for k, v in row.items() if k != "tolerance"})
+
+
+def _check_unit(at: str, row: Mapping[str, str], own: str) -> None:
+    """Raise RequestError if the row's unit is not one that the result can have."""
+    unit = row["unit"]
+    if unit not in units.KIND_OF or (own and units.KIND_OF[unit] != units.KIND_OF[own]):
+        raise RequestError(
+            f"{at} unit = {shortened(unit, 40)!r} is no unit of {row['result']}; use {units.listed(own)}"
+        )

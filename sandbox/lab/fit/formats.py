@@ -1,0 +1,125 @@
+"""Which column of a table is which parameter or result of a scene: as ``--map`` says, or by the names of a device."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+from pathlib import Path
+
+from sandbox import units
+from sandbox.errors import RequestError
+from sandbox.lab.table_file import Table
+from sandbox.parameters import walk
+from sandbox.scene import Scene
+from sandbox.text import nearest, shortened
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One column: ``Ball Speed=launch.speed mph``."""
+
+    column: str
+    key: str  # of a parameter, or of a result
+    unit: str  # "" if it does not say
+
+
+@dataclass(frozen=True)
+class Form:
+    """The columns of a table that are used."""
+
+    entries: tuple[Entry, ...]
+    title: str = ""  # of a known device; "" where the user says it
+    source: str = ""  # where its names are from
+    total_spin: Sequence[str] = ()  # columns whose spin, times the cosine of the axis's tilt, is the backspin
+    spin_axis: str = ""  # the column of that tilt in deg
+    length_unit: str = ""  # the column that names the unit of lengths
+    zeros: bool = False  # 0 stands for what was not measured
+
+
+def parse_entry(text: str) -> Entry:
+    """``COLUMN=KEY [UNIT]``. Raises RequestError."""
+    column, equals, rest = text.rpartition("=")
+    key, _, unit = rest.strip().partition(" ")
+    if not equals or not column.strip() or not key:
+        raise RequestError(f'--map {text}: write it as "COLUMN=KEY UNIT", for example "Ball Speed=launch.speed mph"')
+    unit = unit.strip()
+    if unit and unit not in units.KIND_OF:
+        meant = units.suggestion(unit)
+        raise RequestError(f"--map {text}: {unit} is not a known unit" + (f"; did you mean {meant}?" if meant else ""))
+    return Entry(column.strip(), key, unit)
+
+
+@cache
+def forms() -> Mapping[str, Form]:
+    """The known devices by name."""
+    known = tomllib.loads(Path(__file__).with_suffix(".toml").read_text("utf-8"))
+    return {
+        name: Form(tuple(parse_entry(f"{column}={target}") for column, target in given.pop("columns").items()), **given)
+        for name, given in known.items()
+    }
+
+
+def as_text() -> str:
+    """All known devices with their columns, as ``--map`` takes them, and where the names are from."""
+    lines = ["Known columns of tables. A unit in the file, in a name or in a row of units, comes before these."]
+    for form in forms().values():
+        lines += ["", f"{form.title}", f"  names: {form.source}"]
+        lines += [f'  --map "{one.column}={one.key} {one.unit}"' for one in form.entries]
+        if form.spin_axis:
+            lines.append(f"  {' and '.join(form.total_spin)} times the cosine of {form.spin_axis} is the backspin")
+    return "\n".join(lines)
+
+
+def recognized(table: Table, scene: Scene) -> Form | None:
+    """The form of the known device most of whose columns the table has, launch and result both, or None."""
+    found = [_usable(form, table, scene) for form in forms().values()]
+    complete = [form for form in found if _is_complete(form, scene)]
+    return max(complete, key=lambda form: len(form.entries), default=None)
+
+
+def _usable(form: Form, table: Table, scene: Scene) -> Form:
+    """The form with those of its entries that the table and the scene have, one for each key."""
+    names = {name.lower() for name in table.names}
+    known = {*(one.key for one in walk(scene.parameters)), *scene.facts}
+    taken: dict[str, Entry] = {}
+    for entry in form.entries:
+        if entry.column.lower() in names and entry.key in known:
+            taken.setdefault(entry.key, entry)
+    return replace(form, entries=tuple(taken.values()))
+
+
+def _is_complete(form: Form, scene: Scene) -> bool:
+    measured = [entry.key in scene.facts for entry in form.entries]
+    return any(measured) and measured.count(False) >= 2
+
+
+def stated(entries: Sequence[Entry], table: Table, scene: Scene) -> Form:
+    """The form that the user gave. Raises RequestError for a column or a key that does not exist."""
+    parameters = {one.key for one in walk(scene.parameters)}
+    for entry in entries:
+        if entry.column.lower() not in {name.lower() for name in table.names}:
+            near = nearest(entry.column, table.names)
+            has = f"did you mean {near}?" if near else f"it has {shortened(', '.join(table.names), 80)}"
+            raise RequestError(f"{table.where}: has no column {entry.column!r}, which --map names; {has}")
+        if entry.key not in parameters and entry.key not in scene.facts:
+            near = nearest(entry.key, [*parameters, *scene.facts])
+            hint = f"; did you mean {near}?" if near else ""
+            raise RequestError(f"--map {entry.column}={entry.key}: no such parameter or result in {scene.title}{hint}")
+    for number, key in enumerate(keys := [entry.key for entry in entries]):
+        if key in keys[:number]:
+            raise RequestError(f"--map: two columns are {key}")
+    return Form(tuple(entries))
+
+
+def declared_units(scene: Scene) -> Mapping[str, str]:
+    """The unit of every parameter and result, "" for a plain number."""
+    return dict(_units(scene))
+
+
+def _units(scene: Scene) -> Iterator[tuple[str, str]]:
+    for one in walk(scene.parameters):
+        yield one.key, one.unit or ""
+    for key, fact in scene.facts.items():
+        yield key, fact.unit

@@ -1,0 +1,191 @@
+"""From a table to a measured track: times in s and positions in m, whatever they were written in."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from sandbox import units
+from sandbox.errors import RequestError
+from sandbox.lab.table_file import PIXEL, Column, Table
+from sandbox.text import shortened
+
+#: The columns of a track, by how programs name them; lower case.
+NAMES = {
+    "t": ("t", "time"),
+    "x": ("x", "position x", "x position", "x_pos", "pos_x"),
+    "y": ("y", "position y", "y position", "y_pos", "pos_y"),
+    "ball": ("ball",),
+    "frame": ("frame", "frame number"),
+}
+
+#: ``120 px = 1 m``, ``1 m = 120 px`` or ``120 px/m``.
+_SCALE = re.compile(rf"\s*({units.NUMBER})\s*(\w+)\s*=\s*({units.NUMBER})\s*(\w+)\s*")
+_PER = re.compile(rf"\s*({units.NUMBER})\s*px\s*/\s*(\w+)\s*")
+
+
+@dataclass(frozen=True)
+class Film:
+    """How positions were measured: what turns the numbers of a file into s and m."""
+
+    scale: float | None = None  # m in one px
+    origin: tuple[float, float] = (0.0, 0.0)  # of the scene, in the coordinates of the file
+    rate: float | None = None  # frames per second, where frames are given in place of times
+    balls: Mapping[str, str] = field(default_factory=dict)  # the scene's ball by the file's name; "" for every name
+
+
+@dataclass(frozen=True)
+class Measurements:
+    """Measured positions in the order of the files."""
+
+    t: np.ndarray | None  # s, shape (points,); None for places without times
+    positions: np.ndarray  # m, shape (points, 2): x, y
+    balls: tuple[str, ...]  # the ball of each point; "" if none is named
+    rows: np.ndarray  # the row of each point in its file, the first is 1; shape (points,)
+
+    def __len__(self) -> int:
+        return len(self.positions)
+
+
+def parse_scale(text: str) -> float:
+    """Metres in one pixel, of ``120 px = 1 m``. Raises RequestError."""
+    wrong = RequestError(f'--scale {text}: write it as "120 px = 1 m"')
+    per, both = _PER.fullmatch(text), _SCALE.fullmatch(text)
+    if per is not None:
+        pixels, length, unit = float(per[1]), 1.0, per[2]
+    elif both is not None and PIXEL in (both[2], both[4]):
+        pair = [(float(both[1]), both[2]), (float(both[3]), both[4])]
+        (pixels, _), (length, unit) = sorted(pair, key=lambda one: one[1] != PIXEL)
+    else:
+        raise wrong
+    if units.KIND_OF.get(unit) != "length":
+        raise RequestError(f"--scale {text}: {unit} is no unit of length; use {units.listed('m')}")
+    if pixels <= 0.0 or length <= 0.0:
+        raise RequestError(f"--scale {text}: both numbers must be greater than 0")
+    return units.convert(length, unit, "m") / pixels
+
+
+def parse_pair(option: str, text: str) -> tuple[float, float]:
+    """Two finite numbers, of ``X,Y``. Raises RequestError."""
+    parts = text.split(",")
+    try:
+        x, y = (float(part) for part in parts)
+        if not (np.isfinite(x) and np.isfinite(y)):
+            raise ValueError
+    except ValueError:
+        raise RequestError(f"{option} {text}: write it as X,Y, for example {option} 212,655") from None
+    return x, y
+
+
+def parse_ball(text: str) -> tuple[str, str]:
+    """``NAME`` or ``GIVEN=NAME``: the file's name of a ball, "" for all, and the scene's."""
+    given, equals, name = (part.strip() for part in text.partition("="))
+    return (given, name) if equals else ("", given)
+
+
+def has_positions(table: Table) -> bool:
+    """True if the table has columns x and y."""
+    return bool(_places(table, "x") and _places(table, "y"))
+
+
+def measurements(tables: Sequence[tuple[str, Table]], film: Film) -> Measurements:
+    """The points of one table, or of several, each with the name of its ball. Raises RequestError."""
+    parts = [part for name, table in tables for part in _of_table(table, film, name if len(tables) > 1 else "")]
+    timed = [part.t is not None for part in parts]
+    if any(timed) and not all(timed):
+        raise RequestError(f"{tables[timed.index(False)][1].where}: has no times, but another track has")
+    every = Measurements(
+        np.concatenate([part.t for part in parts if part.t is not None]) if all(timed) else None,
+        np.concatenate([part.positions for part in parts]),
+        tuple(ball for part in parts for ball in part.balls),
+        np.concatenate([part.rows for part in parts]),
+    )
+    if not len(every):
+        raise RequestError(f"{tables[0][1].where}: has no points")
+    return every
+
+
+def _places(table: Table, what: str) -> list[int]:
+    """The places of the columns for t, x, y, ball or frame."""
+    return [place for place, name in enumerate(table.names) if name.lower() in NAMES[what]]
+
+
+def _of_table(table: Table, film: Film, name: str) -> Iterable[Measurements]:
+    """The points of each ball of a table; Tracker writes several side by side, under their names."""
+    xs, ys = (_places(table, what) for what in "xy")
+    if len(xs) > 1 and len(xs) == len(ys) and table.groups:
+        for x, y in zip(xs, ys, strict=True):
+            yield _of_ball(table, film, x, y, table.groups[x])
+        return
+    for what, places in (("x", xs), ("y", ys)):
+        if len(places) != 1:
+            found = shortened(", ".join(table.names), 60)
+            raise RequestError(f"{table.where}: needs one column {what} in its first line, which has: {found}")
+    yield _of_ball(table, film, xs[0], ys[0], name)
+
+
+def _of_ball(table: Table, film: Film, x: int, y: int, name: str) -> Measurements:
+    columns = table.columns[x], table.columns[y]
+    # a program leaves a frame without a mark empty
+    rows = [row for row in range(len(table)) if any(column.cells[row].strip() for column in columns)]
+    factor = _metres(table, columns, film)
+    positions = np.column_stack([table.numbers(column, rows) for column in columns]) - film.origin
+    positions = positions * (factor if film.scale is None else (factor, -factor))  # y is downwards in a picture
+    named = _places(table, "ball")
+    given = [table.columns[named[0]].cells[row].strip() if named else name for row in rows]
+    balls = [film.balls.get(one, film.balls.get("", one)) for one in given]
+    return Measurements(_times(table, film, rows, balls), positions, tuple(balls), np.array(rows, dtype=int) + 1)
+
+
+def _metres(table: Table, columns: tuple[Column, Column], film: Film) -> float:
+    """The metres in one unit of a position. Raises RequestError for units that do not go together."""
+    x, y = columns
+    if x.unit != y.unit:
+        said = [f"{one.name} is in {one.unit}" if one.unit else f"{one.name} has no unit" for one in columns]
+        raise RequestError(f"{table.where}: units are mixed: {said[0]}, but {said[1]}")
+    if film.scale is not None:
+        if x.unit not in ("", PIXEL):
+            raise RequestError(f"{table.where}: units are mixed: x is in {x.unit}, but --scale is for pixels")
+        return film.scale
+    if x.unit == PIXEL:
+        raise RequestError(f'{table.where}: x and y are in px; give --scale, such as --scale "120 px = 1 m"')
+    return _factor(table, x, "m")
+
+
+def _times(table: Table, film: Film, rows: Sequence[int], balls: Sequence[str]) -> np.ndarray | None:
+    """The times in s, checked to be in order; None if there are none. Raises RequestError."""
+    t, frame = _places(table, "t"), _places(table, "frame")
+    if len(t) > 1:
+        raise RequestError(f"{table.where}: has {len(t)} columns of times")
+    if t and film.rate is None:
+        column = table.columns[t[0]]
+        times = table.numbers(column, rows) * _factor(table, column, "s")
+    elif frame and film.rate is not None:
+        times = table.numbers(table.columns[frame[0]], rows) / film.rate
+    elif film.rate is not None:
+        raise RequestError(f"{table.where}: has no column frame, which --fps is for")
+    elif frame:
+        raise RequestError(f"{table.where}: has frames, but no times; give the frames per second, such as --fps 240")
+    else:
+        return None
+    latest: dict[str, float] = {}
+    for row, time, ball in zip(rows, times.tolist(), balls, strict=True):
+        if time < latest.get(ball, time):
+            raise RequestError(
+                f"{table.where}: row {row + 1}, t = {time:g} s is before {latest[ball]:g} s in the row above"
+            )
+        latest[ball] = time
+    return times
+
+
+def _factor(table: Table, column: Column, unit: str) -> float:
+    """What the numbers of a column are multiplied by to be in this SI unit. Raises RequestError."""
+    if not column.unit:
+        return 1.0
+    try:
+        return units.convert(1.0, column.unit, unit)
+    except ValueError as error:
+        raise RequestError(f"{table.where}: {column.name} is in {column.unit}: {error}") from None
