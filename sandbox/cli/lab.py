@@ -89,28 +89,89 @@ def aim(
         say("\n".join([*report.as_text(found), *written]))
 
 
+def print_formats(context: click.Context, option: click.Parameter, value: bool) -> None:
+    """Print the known columns of tables and end, in place of a command."""
+    if value:
+        from sandbox.lab.fit.formats import as_text
+
+        say(as_text())
+        context.exit()
+
+
 @click.command()
 @scene_argument
-@click.argument("track", metavar="TRACK.csv", type=Path, help="Measured positions: columns t (s), x, y (m), and ball.")
+@click.argument("tracks", metavar="TRACK.csv...", type=Path, nargs=-1, required=True)
 @click.option(
     "--vary", metavar="KEY[=LO:HI]", multiple=True, required=True, help="A number to fit, and its range; repeatable."
 )
+@click.option(
+    "--free", metavar="NAME,...", multiple=True, help="Of a film, fit these too: origin, time, tilt (of the camera)."
+)
+@click.option("--scale", metavar='"120 px = 1 m"', help="Positions are in px of a picture, y downwards.")
+@click.option("--origin", metavar="X,Y", help="The scene's origin, in the numbers of the track.")
+@click.option(
+    "--fps", metavar="N", type=click.FloatRange(0.0, min_open=True), help="Frames per second, of a column frame."
+)
+@click.option(
+    "--ball", "balls", metavar="[NAME=]BALL", multiple=True, help="The scene's ball that a track is of; repeatable."
+)
+@map_option
+@where_option
+@click.option(
+    "--formats",
+    is_flag=True,
+    is_eager=True,
+    expose_value=False,
+    callback=print_formats,
+    help="List known columns of tables, and exit.",
+)
 @changes_options
 @json_option
-def fit(scene: str, track: Path, vary: tuple[str, ...], changes: dict[str, Any], as_json: bool) -> None:
-    """Find the parameters that explain a measured track.
+def fit(
+    scene: str,
+    tracks: tuple[Path, ...],
+    vary: tuple[str, ...],
+    free: tuple[str, ...],
+    scale: str | None,
+    origin: str | None,
+    fps: float | None,
+    balls: tuple[str, ...],
+    mapping: tuple[str, ...],
+    where: tuple[str, ...],
+    changes: dict[str, Any],
+    as_json: bool,
+) -> None:
+    """Find the parameters that explain a track, or a table of launches.
 
-    Each has its 95 % interval. Times are since the launch, positions as in the scene.
+    Each has its 95 % interval. A track has the columns t (s since the launch), x, y (m as in the scene), and ball if
+    there are several; other units stand in the names, as "x (cm)". Tracker's exports are read as they are. Without t,
+    points are compared with the nearest place of the path.
 
     \b
     Examples:
       sandbox fit basketball track.csv --vary launch.speed=6:9 --vary floor.restitution
+      sandbox fit throws film.txt --vary launch.speed=5:20 --vary launch.angle=20:60 --free time,origin
+      sandbox fit basketball clicks.csv --scale "96 px = 1 m" --origin 212,655 --vary launch.speed=6:9
+      sandbox fit golf shots.csv --where Club=Driver --vary air.density=1:1.3
+      sandbox fit golf shots.csv --map "Speed=launch.speed mph" --map "Carry=carry yd" --vary launch.angle=5:20
     """
-    from sandbox.lab.fit import fit_track, parse_varied, read_track, report
+    from sandbox.lab.fit import fit_track, parse_varied, read_data, report
+    from sandbox.lab.fit.data import Reading
+    from sandbox.lab.fit.formats import parse_entry
+    from sandbox.lab.fit.frame import parse_free
+    from sandbox.lab.fit.reading import Film, parse_ball, parse_pair, parse_scale
 
     chosen = load(scene, changes)
     spans = [parse_varied(chosen, text) for text in vary]
-    found = fit_track(chosen, read_track("track", track), spans)
+    film = Film(
+        None if scale is None else parse_scale(scale),
+        (0.0, 0.0) if origin is None else parse_pair("--origin", origin),
+        fps,
+        dict(map(parse_ball, balls)),
+    )
+    entries = tuple(map(parse_entry, mapping))
+    how = Reading(film, parse_free("--free", free), entries, pairs("--where", where))
+    found = fit_track(chosen, read_data(chosen, tracks, how), spans)
     say(json_text(report.as_json(found)) if as_json else report.text(found))
 
 
@@ -433,7 +494,8 @@ def validate(
     from sandbox.lab.tables import paragraph
     from sandbox.progress import bar
 
-    own, notes = None, ()
+    own = None
+    notes: tuple[str, ...] = ()
     if against is not None:
         from sandbox.lab.against import cases_against
         from sandbox.lab.fit.formats import parse_entry

@@ -12,26 +12,47 @@ from typing import Any
 
 from sandbox.errors import RequestError
 from sandbox.lab.axes import Span, as_axis, checked
+from sandbox.lab.fit.data import Reading, data_of, read_data, table_of
+from sandbox.lab.fit.formats import parse_entry
+from sandbox.lab.fit.frame import parse_free
 from sandbox.lab.fit.measured import Measured
+from sandbox.lab.fit.reading import Film, parse_scale
 from sandbox.lab.fit.squares import Fit, solve
-from sandbox.lab.fit.track import Track, as_track, read_track
+from sandbox.lab.fit.track import Track
 from sandbox.parameters import walk
 from sandbox.scene import Scene, as_scene
 from sandbox.text import check_mapping
 
-__all__ = ["Fit", "Track", "fit", "fit_track", "parse_varied", "read_track"]
+__all__ = ["Fit", "Track", "fit", "fit_track", "parse_varied", "read_data"]
 
 
 def fit(
     scene: Scene | str | Path,
-    track: Mapping[str, Sequence[float]] | str | Path,
+    track: Mapping[str, Sequence[Any]] | str | Path | Sequence[str | Path],
     vary: Mapping[str, tuple[Any, Any] | None],
+    *,
+    free: Sequence[str] = (),
+    scale: str | None = None,
+    origin: tuple[float, float] = (0.0, 0.0),
+    fps: float | None = None,
+    balls: Mapping[str, str] | None = None,
+    columns: Mapping[str, str] | None = None,
+    where: Mapping[str, str] | None = None,
 ) -> Fit:
     """The values of parameters that explain a measured track, with 95 % intervals.
 
-    ``track`` is a CSV file or columns: t in s since the launch, x and y in m as in the scene, and optionally ball.
-    ``vary`` gives each parameter its range, or None for its declared bounds. Raises RequestError for an invalid
-    request, and RunError if no run near the best values could be completed.
+    ``track`` is a table, a list of them, or columns: t in s since the launch, x and y in m as in the scene, and
+    optionally ball; a name may have its unit, as ``"x (cm)"``. Without t, places are compared with the nearest point of
+    the path. ``vary`` gives each parameter its range, or None for its declared bounds.
+
+    Of a film, ``free`` names what is fitted too: "time", "origin", "tilt"; ``scale`` is ``"120 px = 1 m"``, for y
+    downwards; ``origin`` is the scene's, in the numbers of the table; ``fps`` goes with a column frame; ``balls`` are
+    the scene's by the names in the table.
+
+    A table of launches has ``columns``: ``{"Ball Speed": "launch.speed mph", "Carry": "carry yd"}``, or those of a
+    known device; only rows with the text that ``where`` names are used.
+
+    Raises RequestError for an invalid request, and RunError if no run near the best values could be completed.
 
     >>> import sandbox
     >>> track = {"t": [0.0, 0.2, 0.4], "x": [0.0, 1.0, 2.0], "y": [2.1, 2.9, 3.3]}
@@ -40,7 +61,14 @@ def fit(
     """
     chosen = as_scene(scene)
     check_mapping("vary", vary, '{"launch.speed": (5, 15)}')
-    measured = as_track(track) if isinstance(track, Mapping) else read_track("track", Path(track))
+    film = Film(None if scale is None else parse_scale(scale), (float(origin[0]), float(origin[1])), fps, balls or {})
+    entries = tuple(parse_entry(f"{column}={target}") for column, target in (columns or {}).items())
+    how = Reading(film, parse_free("free", [free] if isinstance(free, str) else free), entries, where or {})
+    if isinstance(track, Mapping):
+        measured = data_of(chosen, [("", table_of(track))], how)
+    else:
+        paths = [track] if isinstance(track, str | Path) else track
+        measured = read_data(chosen, [Path(path) for path in paths], how)
     spans = [_span(chosen, "vary", key, given) for key, given in vary.items()]
     return fit_track(chosen, measured, spans)
 

@@ -28,8 +28,9 @@ class Launches:
     numbers: np.ndarray  # the row of each launch in its file, the first is 1
     fact_units: tuple[str, ...]
     notes: tuple[str, ...] = ()  # on how the table was read
+    where: str = "track"  # as messages begin
 
-    what = "launch"
+    what = "shot"
     free: tuple[Free, ...] = ()
 
     @property
@@ -66,12 +67,12 @@ class Launches:
         """Raise RequestError for a launch that the scene cannot make, or that has no such result."""
         for key, values in self.given.items():
             for row, value in zip(self.numbers.tolist(), values.tolist(), strict=True):
-                checked(scene, f"row {row},", key, value)
+                checked(scene, f"{self.where}: row {row},", key, value)
         computed = self._computed(scene, (), np.empty((1, 0)))[0]
         for place, row in enumerate(self.numbers.tolist()):
             for name, value in zip(self.measured, computed[place].tolist(), strict=True):
                 if not isfinite(value):
-                    raise RequestError(f"row {row}: {scene.title} has no {name} for this launch")
+                    raise RequestError(f"{self.where}: row {row}, {scene.title} has no {name} for this launch")
 
     def residuals(self, scene: Scene, keys: Sequence[str], values: np.ndarray, until: float) -> np.ndarray:
         """Measured minus computed results in their units, shape (candidates, launches times results)."""
@@ -108,4 +109,5 @@ def launches(scene: Scene, table: Table, form: Form, where: Mapping[str, str]) -
         np.array(found.rows),
         tuple(one.unit for one in found.measured.values()),
         found.notes,
+        table.where,
     )

@@ -45,6 +45,7 @@ class Measurements:
     positions: np.ndarray  # m, shape (points, 2): x, y
     balls: tuple[str, ...]  # the ball of each point; "" if none is named
     rows: np.ndarray  # the row of each point in its file, the first is 1; shape (points,)
+    where: str  # the option and the file, as messages begin with them
 
     def __len__(self) -> int:
         return len(self.positions)
@@ -102,6 +103,7 @@ def measurements(tables: Sequence[tuple[str, Table]], film: Film) -> Measurement
         np.concatenate([part.positions for part in parts]),
         tuple(ball for part in parts for ball in part.balls),
         np.concatenate([part.rows for part in parts]),
+        tables[0][1].where,
     )
     if not len(every):
         raise RequestError(f"{tables[0][1].where}: has no points")
@@ -137,7 +139,8 @@ def _of_ball(table: Table, film: Film, x: int, y: int, name: str) -> Measurement
     named = _places(table, "ball")
     given = [table.columns[named[0]].cells[row].strip() if named else name for row in rows]
     balls = [film.balls.get(one, film.balls.get("", one)) for one in given]
-    return Measurements(_times(table, film, rows, balls), positions, tuple(balls), np.array(rows, dtype=int) + 1)
+    times = _times(table, film, rows, balls)
+    return Measurements(times, positions, tuple(balls), np.array(rows, dtype=int) + 1, table.where)
 
 
 def _metres(table: Table, columns: tuple[Column, Column], film: Film) -> float:

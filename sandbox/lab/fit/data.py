@@ -1,0 +1,79 @@
+"""What is to be fitted, of files or of columns in Python: a track, places without times, or a table of launches."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from sandbox.errors import RequestError
+from sandbox.lab.fit.formats import Entry, recognized, stated
+from sandbox.lab.fit.frame import frame_of
+from sandbox.lab.fit.launches import launches
+from sandbox.lab.fit.measured import Measured
+from sandbox.lab.fit.outline import Outline
+from sandbox.lab.fit.reading import Film, has_positions, measurements
+from sandbox.lab.fit.track import track_of
+from sandbox.lab.table_file import Column, Table, read_table, split_unit
+from sandbox.scene import Scene, simulate
+from sandbox.text import shortened
+
+#: A run of other values may take so many times as long as that of the scene.
+LONGER = 2.0
+
+
+@dataclass(frozen=True)
+class Reading:
+    """How files are to be read."""
+
+    film: Film = Film()
+    free: tuple[str, ...] = ()  # of the film: origin, time, tilt
+    entries: tuple[Entry, ...] = ()  # columns of launches and results; known ones if there are none
+    where: Mapping[str, str] = field(default_factory=dict)  # only rows with this text in a column
+
+
+def data_of(scene: Scene, tables: Sequence[tuple[str, Table]], how: Reading) -> Measured:
+    """The data of tables, each with the name of its ball. Raises RequestError."""
+    first = tables[0][1]
+    if not how.entries and all(has_positions(table) for _, table in tables):
+        if how.where:
+            raise RequestError("--where is for tables of launches")
+        found = measurements(tables, how.film)
+        frame = frame_of(scene, found, how.free)
+        if found.t is not None:
+            return track_of(found, frame)
+        until = LONGER * simulate(scene).duration
+        return Outline(found.positions, found.balls, found.rows, until, frame, found.where)
+    form = stated(how.entries, first, scene) if how.entries else recognized(first, scene)
+    if form is None:
+        try:
+            measurements(tables, how.film)  # says which column is missing
+        except RequestError as error:
+            raise RequestError(f"{error}; a table of launches needs --map, see --formats") from None
+        raise AssertionError("a table with x and y is a track")
+    if len(tables) > 1 or how.free or how.film != Film():
+        raise RequestError(
+            f"{first.where}: is a table of launches; what is of films and of several tracks is not for it"
+        )
+    return launches(scene, first, form, how.where)
+
+
+def read_data(scene: Scene, paths: Sequence[Path], how: Reading) -> Measured:
+    """The data of files. Raises RequestError."""
+    return data_of(scene, [(path.stem, read_table("track", path)) for path in paths], how)
+
+
+def table_of(columns: Mapping[str, Sequence[Any]]) -> Table:
+    """A table of columns from Python. Raises RequestError."""
+    lengths = {name: len(cells) for name, cells in columns.items()}
+    if len(set(lengths.values())) > 1:
+        said = ", ".join(f"{name} has {count}" for name, count in lengths.items())
+        raise RequestError(f"track: its columns must have equally many values: {shortened(said, 80)}")
+    if not lengths:
+        raise RequestError("track: has no columns")
+    cells = {
+        name: [value.item() if hasattr(value, "item") else value for value in column]
+        for name, column in columns.items()
+    }
+    return Table("track", tuple(Column(*split_unit(name), tuple(map(str, column))) for name, column in cells.items()))

@@ -1,0 +1,113 @@
+"""Places without times, as digitised from a photograph: each is compared with the nearest place of the path."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from sandbox.lab.fit.flown import flown
+from sandbox.lab.fit.frame import Frame
+from sandbox.lab.fit.measured import Free, Points
+from sandbox.lab.fit.track import check_balls, named
+from sandbox.scene import Scene
+from sandbox.scene.scene_run import SceneRun
+
+#: Steps along a path between which the nearest place is looked for, and steps of Newton's method from there.
+STEPS, NEWTON = 256, 4
+
+
+@dataclass(frozen=True)
+class Outline:
+    """Measured places on the paths of balls."""
+
+    positions: np.ndarray  # m, shape (points, 2): x, y, in the axes of the photograph
+    balls: tuple[str, ...]  # the ball of each point; "" if the file names none
+    numbers: np.ndarray  # the row of each point in its file, the first is 1; shape (points,)
+    until: float  # s, how long a run may take
+    frame: Frame = Frame()
+    where: str = "track"  # as messages begin
+
+    what = "point"
+    names = ("distance",)
+    units = ("m",)
+
+    def __len__(self) -> int:
+        return len(self.positions)
+
+    @property
+    def count(self) -> int:
+        """The points."""
+        return len(self)
+
+    @property
+    def free(self) -> tuple[Free, ...]:
+        """What is not known of the axes of the photograph."""
+        return self.frame.free
+
+    @property
+    def rows(self) -> np.ndarray:
+        """The row of each residual."""
+        return self.numbers
+
+    @property
+    def groups(self) -> np.ndarray:
+        """0: all are distances."""
+        return np.zeros(len(self), dtype=int)
+
+    @property
+    def times(self) -> np.ndarray:
+        """The order of the points, as if they had been measured one after the other at even times in s.
+
+        It only says which part of the path is fitted first, so points are best in the order in which the ball passed.
+        """
+        return np.linspace(0.0, self.until, len(self))
+
+    def check(self, scene: Scene) -> None:
+        """Raise RequestError if it is of a ball that the scene does not have."""
+        check_balls(self.where, self.balls, scene)
+
+    def residuals(self, scene: Scene, keys: Sequence[str], values: np.ndarray, until: float) -> np.ndarray:
+        """Distances from the path in m, positive to its left, shape (candidates, points)."""
+        balls = named(self.balls, scene)
+        found = np.full((len(values), len(self)), np.nan)
+        for place, run in enumerate(flown(scene, keys, values, self.until)):
+            if run is None:
+                continue
+            measured = self.frame.places(self.positions, values[place, len(keys) :].tolist())
+            for ball in dict.fromkeys(balls):
+                rows = [row for row, name in enumerate(balls) if name == ball]
+                found[place, rows] = distances(run, ball, measured[rows])
+        return found
+
+    def points(self, scene: Scene, free: Sequence[float]) -> Points:
+        """The measured places."""
+        return Points(np.full(len(self), np.nan), self.frame.places(self.positions, free), named(self.balls, scene))
+
+    def remarks(self, scene: Scene, free: Sequence[float]) -> tuple[str, ...]:
+        """What was compared."""
+        return ("no times: each point is compared with the nearest place of the path",)
+
+
+def distances(run: SceneRun, ball: str, places: np.ndarray) -> np.ndarray:
+    """Distances of places, shape (points, 2), from the path of a ball, in m: positive to its left."""
+    impacts = [event.t for event in run.events if event.t < run.duration]
+    nodes = np.unique(np.concatenate([np.linspace(0.0, run.duration, STEPS + 1), impacts]))
+    path = run.states(ball, nodes)[:, :2]
+    along = np.diff(path, axis=0)
+    length2 = np.maximum((along**2).sum(axis=1), 1e-300)
+    apart = places[:, None] - path[None, :-1]  # shape (points, steps, 2)
+    share = np.clip((apart * along).sum(axis=2) / length2, 0.0, 1.0)
+    best = ((apart - share[..., None] * along) ** 2).sum(axis=2).argmin(axis=1)
+    low, high = nodes[best], nodes[best + 1]
+    t = low + np.take_along_axis(share, best[:, None], axis=1)[:, 0] * (high - low)
+    for _ in range(NEWTON):  # the nearest place is where the velocity is square to the way to the point
+        state = run.states(ball, t)
+        velocity, way = state[:, 2:4], places - state[:, :2]
+        speed2 = np.maximum((velocity**2).sum(axis=1), 1e-300)
+        t = np.clip(t + np.clip((way * velocity).sum(axis=1) / speed2, low - t, high - t), low, high)
+    state = run.states(ball, t)
+    velocity, way = state[:, 2:4], places - state[:, :2]
+    left = velocity[:, 0] * way[:, 1] - velocity[:, 1] * way[:, 0]
+    return np.asarray(np.where(left < 0.0, -1.0, 1.0) * np.hypot(*way.T))

@@ -1,0 +1,316 @@
+"""What a fit can be given: tracks as other programs write them, photographs, tables of launches; and what it cannot."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+import sandbox
+from sandbox.cli.program import app, call
+from sandbox.errors import RequestError
+from sandbox.lab.fit.data import Reading, read_data
+from sandbox.lab.fit.formats import forms, recognized
+from sandbox.lab.fit.reading import Film, measurements, parse_scale
+from sandbox.lab.table_file import read_table
+
+PLAIN = Film()
+
+#: Three points at 0, 0.1 and 0.2 s, at (1, 2), (1.5, 2.25) and (2, 2) m.
+WRITTEN = {
+    "CSV": "t,x,y\n0,1,2\n0.1,1.5,2.25\n0.2,2,2\n",
+    "units in the names": "Time [ms],x (cm),y/cm\n0,100,200\n100,150,225\n200,200,200\n",
+    "decimal commas": "t;x;y\n0,0;1,0;2,0\n0,1;1,5;2,25\n0,2;2,0;2,0\n",
+    "Tracker's text": "mass A\t\t\nt\tx\ty\t\n0.0E0\t1.0E0\t2.0\t\n5.0E-2\t\t\t\n0.1\t1.5\t2.25\t\n0.2\t2.0\t2.0\t\n",
+    "Tracker's CSV": "#multi:\n,mass A,,,\nt,frame,x,y,\n0.0,0,1.0,2.0,\n0.1,3,1.5,2.25,\n0.2,6,2.0,2.0,\n",
+    "spaces, a comment": "# by hand\n t   x    y\n 0.0 1.0  2.0\n 0.1 1.5  2.25\n\n 0.2 2.0 2.0\n",
+    "names behind #": "# t,x,y\n0,1,2\n0.1,1.5,2.25\n0.2,2,2\n",
+    "our own": "t,ball,x,y,vx,vy,spin\n0,,1,2,5,1,0\n0.1,,1.5,2.25,5,0,0\n0.2,,2,2,5,-1,0\n",
+}
+
+
+def read(folder: Path, text: str, film: Film = PLAIN):
+    (folder / "track.csv").write_text(text, "utf-8")
+    return measurements([("track", read_table("track", folder / "track.csv"))], film)
+
+
+@pytest.mark.parametrize("text", WRITTEN.values(), ids=WRITTEN)
+def test_a_track_is_read_as_programs_write_it(tmp_path, text):
+    found = read(tmp_path, text)
+    assert found.t == pytest.approx([0.0, 0.1, 0.2])
+    assert found.positions == pytest.approx(np.array([[1.0, 2.0], [1.5, 2.25], [2.0, 2.0]]))
+
+
+def test_older_encodings_and_marks_of_order_are_read(tmp_path):
+    file = tmp_path / "track.csv"
+    for encoding in ("utf-16", "cp1252", "utf-8-sig"):
+        file.write_bytes("Größe;t;x;y\n1;0;1,5;2\n2;1;2;3\n".encode(encoding))
+        assert measurements([("", read_table("track", file))], PLAIN).positions[0] == pytest.approx([1.5, 2.0])
+
+
+def test_pixels_have_y_downwards_and_frames_have_no_times(tmp_path):
+    film = Film(parse_scale("200 px = 4 ft"), (10.0, 300.0), 50.0)
+    found = read(tmp_path, "frame,x (px),y (px)\n0,10,200\n5,210,300\n", film)
+    assert found.t == pytest.approx([0.0, 0.1])
+    assert found.positions == pytest.approx(0.3048 * np.array([[0.0, 2.0], [4.0, 0.0]]))
+    assert parse_scale("1 m = 120 px") == parse_scale("120 px = 1 m") == parse_scale("120 px/m") == 1.0 / 120.0
+
+
+def test_several_balls_come_side_by_side_or_in_files(tmp_path):
+    text = "#multi:\n,mass A,,mass B,,\nt,x,y,x,y,\n0,1,2,3,4,\n0.1,5,6,,,\n"
+    found = read(tmp_path, text, Film(balls={"mass A": "first", "mass B": "second"}))
+    assert found.balls == ("first", "first", "second")
+    assert found.positions.tolist() == [[1.0, 2.0], [5.0, 6.0], [3.0, 4.0]]
+    assert found.rows.tolist() == [1, 2, 1]
+    (tmp_path / "second.csv").write_text("t,x,y\n0,3,4\n")
+    tables = [(name, read_table("track", tmp_path / f"{name}.csv")) for name in ("track", "second")]
+    (tmp_path / "track.csv").write_text("t,x,y\n0,1,2\n")
+    tables[0] = ("first", read_table("track", tmp_path / "track.csv"))
+    assert measurements(tables, PLAIN).balls == ("first", "second")
+
+
+# What is no track ----------------------------------------------------------------------------------------------------
+
+WRONG = {
+    "t,x\n0,1\n": "needs one column y in its first line, which has: t, x",
+    "t,x (cm),y (m)\n0,1,2\n": "units are mixed: x is in cm, but y is in m",
+    "t,x (cm),y\n0,1,2\n": "units are mixed: x is in cm, but y has no unit",
+    "t,x (kg),y (kg)\n0,1,2\n": "x is in kg: kg is a unit of mass; use m",
+    "t,x (px),y (px)\n0,1,2\n": "x and y are in px; give --scale",
+    "frame,x,y\n0,1,2\n": "has frames, but no times",
+    "t,x,y\n0,0,0\n0.2,1,1\n0.1,2,2\n": "row 3, t = 0.1 s is before 0.2 s in the row above",
+    "t,x,y\n0,1,nan\n": "row 1, y = nan is not finite",
+    "t,x,y\n0,1,\n": "row 1, y is empty",
+    "t,x,y\n0,0,3 ft\n": "row 1, y = '3 ft' is not a number",
+    "t,x,y\n0,1\n": "row 1 has 2 values, but there are 3 columns",
+    "t,x,y\n0,1,2,3\n": "row 1 has 4 values, but there are 3 columns",
+    "0,1,2\n0.1,2,3\n": "begins with numbers",
+    "t,x,y\n": "has no points",
+    "\n \n": "is empty",
+    "Dear teacher,\nhere is my track\n": "is no table",
+    "hello": "is no table",
+    "\x89PNG\r\n\x1a\n\x00\x00": "is no table but a binary file",
+    '{"a": ': "is neither a table nor JSON",
+    't,x,y\n"0,1,2\n': "a quote in it is not closed",
+    "[1, 2]": "no list of objects",
+}
+
+
+@pytest.mark.parametrize("text", WRONG, ids=range(len(WRONG)))
+def test_what_is_no_track_is_one_line(tmp_path, capsys, text):
+    file = tmp_path / "track.csv"
+    file.write_bytes(text.encode("latin-1"))
+    assert call(["fit", "throws", str(file), "--vary", "launch.speed=5:20"]) == 2
+    said = capsys.readouterr()
+    assert said.out == ""
+    assert said.err.startswith(f"error: track {file}: ")
+    assert WRONG[text] in said.err
+    assert said.err.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("options", "wrong"),
+    [
+        (["--scale", "120 px = 1 kg"], "--scale 120 px = 1 kg: kg is no unit of length"),
+        (["--scale", "a"], '--scale a: write it as "120 px = 1 m"'),
+        (["--origin", "3"], "--origin 3: write it as X,Y"),
+        (["--free", "lens"], "--free lens: what may be free is time, origin, tilt"),
+        (["--where", "a=b"], "--where is for tables of launches"),
+        (["--fps", "30"], "has no column frame"),
+        (["--ball", "ball=egg"], "no ball 'egg'"),
+        (["--map", "x=launch.speeed m/s"], "no such parameter or result in throws; did you mean launch.speed?"),
+        (["--map", "z=launch.speed m/s"], "has no column 'z', which --map names"),
+        (["--map", "x=launch.speed parsec"], "parsec is not a known unit"),
+        (["--map", "x=launch.speed kg", "--map", "y=apex m"], "x for launch.speed: kg is a unit of mass"),
+        (["--map", "x=apex m"], "nothing of the launch among the columns that are used"),
+    ],
+)
+def test_options_that_do_not_fit_are_one_line(tmp_path, capsys, options, wrong):
+    file = tmp_path / "track.csv"
+    file.write_text("t,x,y,ball\n0,1,2,ball\n0.1,2,3,ball\n0.2,3,4,ball\n")
+    assert call(["fit", "throws", str(file), "--vary", "launch.angle=5:60", *options]) == 2
+    said = capsys.readouterr().err
+    assert wrong in said
+    assert said.count("\n") == 1
+
+
+def test_a_track_before_the_launch_is_a_hint_at_its_time():
+    track = {"t": [-0.1, 0.1, 0.2], "x": [0, 1, 2], "y": [2, 3, 4]}
+    with pytest.raises(RequestError, match=r"row 1, t = -0\.1 s is before the launch, which is at 0 s; free time"):
+        sandbox.fit("throws", track, {"launch.speed": (5, 20)})
+
+
+# What is found -------------------------------------------------------------------------------------------------------
+
+
+def flown(noise: float, **changes: float) -> tuple[np.ndarray, np.ndarray]:
+    """Times and places of a ball that falls and bounces, with noise in m."""
+    run = sandbox.simulate(sandbox.load("collisions/bouncing-ball", changes))
+    t = np.arange(0.0, 1.9, 1.0 / 30.0)
+    return t, run.states("first", t)[:, :2] + np.random.default_rng(4).normal(0.0, noise, (len(t), 2))
+
+
+def test_clock_axes_and_tilt_of_a_film_are_found_with_the_ball():
+    t, places = flown(0.003, **{"launch.speed": 1.5, "floor.restitution": 0.8})
+    tilt = np.radians(3.0)
+    turned = (places - (0.4, -0.1)) @ np.array([[np.cos(tilt), -np.sin(tilt)], [np.sin(tilt), np.cos(tilt)]])
+    track = {"t [ms]": 1e3 * (t + 7.25), "x": turned[:, 0], "y": turned[:, 1]}
+    vary = {"floor.restitution": (0.5, 1.0), "launch.speed": (0.5, 3.0)}
+    found = sandbox.fit("collisions/bouncing-ball", track, vary, free=["origin", "time", "tilt"]).values
+    true = {"floor.restitution": 0.8, "track.time": 7.25, "track.origin.x": 0.4, "track.origin.y": -0.1,
+            "track.tilt": 3.0}  # fmt: skip
+    for key, value in true.items():
+        half = 0.5 * (found[key].high - found[key].low)
+        assert abs(found[key].value - value) < 1.6 * half
+        assert half < 0.5
+
+
+def test_places_without_times_are_enough_for_a_throw():
+    run = sandbox.simulate(sandbox.load("throws", {"launch.speed": 13.0, "launch.angle": 41.0}))
+    x, y = run.states("ball", np.linspace(0.05, run.duration - 0.05, 25))[:, :2].T
+    noise = np.random.default_rng(1).normal(0.0, 0.02, (2, 25))
+    found = sandbox.fit(
+        "throws", {"x": x + noise[0], "y": y + noise[1]}, {"launch.speed": (8, 20), "launch.angle": (20, 60)}
+    )
+    assert found.values["launch.speed"].value == pytest.approx(13.0, abs=0.03)
+    assert found.values["launch.angle"].value == pytest.approx(41.0, abs=0.3)
+    assert found.residual_sd["distance"] == pytest.approx(0.02, rel=0.4)
+    assert any("nearest place of the path" in remark for remark in found.remarks)
+
+
+SHOTS = {"launch.speed": [60.0, 65.0, 70.0, 72.0], "launch.angle": [12.0, 14.0, 11.0, 13.0],
+         "launch.spin": [3000.0, 2800.0, 2600.0, 2500.0]}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def carries() -> tuple[list[float], list[float]]:
+    """Carry and apex in m of those shots in thin air."""
+    found = sandbox.simulate_many(sandbox.load("golf", {"air.density": 1.1}), SHOTS, facts=("carry", "apex"))
+    return found["carry"].tolist(), found["apex"].tolist()
+
+
+def devices(carries: tuple[list[float], list[float]]) -> dict[str, str]:
+    """The same shots as each device writes them."""
+    rows = list(zip(*SHOTS.values(), *carries, strict=True))
+    trackman = "sep=,\nClub,Ball Speed,Launch Angle,Spin Rate,Spin Axis,Carry Flat - Length,Max Height - Height\n"
+    trackman += ",[mph],[deg],[rpm],[deg],[yds],[ft]\n"
+    trackman += "".join(f"D,{v / 0.44704},{a},{s / 0.8},{np.degrees(np.arccos(0.8))},{c / 0.9144},{h / 0.3048}\n"
+                        for v, a, s, c, h in rows)  # fmt: skip
+    garmin = "Club Type,Ball Speed,Launch Angle,Backspin,Spin Rate,Apex Height,Carry Distance\n"
+    garmin += ",[km/h],[deg],[rpm],[rpm],[m],[Meters]\n"
+    garmin += "".join(f"D,{v * 3.6},{a},{s},9999,{h},{c}\n" for v, a, s, c, h in rows)
+    scope = "club,Shot,Ball (km/h),Carry (m),Spin (rpm),Height (m),Spin Axis (°),Launch V (°)\n"
+    scope += "".join(f'D,1,"{v * 3.6}",{c},{s},{h},0 L,{a}\n'.replace(".", "X") for v, a, s, c, h in rows)
+    scope = scope.replace("X", ".") + "D,Avg,240,200,2700,30,-,12\nD,2,240,200,-,30,1 R,12\n"
+    messages = [
+        {"Units": "Meters", "BallData": {"Speed": v / 0.44704, "VLA": a, "BackSpin": s, "CarryDistance": c}}
+        for v, a, s, c, h in rows
+    ]
+    heartbeat = [{"Units": "Meters", "ShotDataOptions": {"IsHeartBeat": True}}]
+    gspro = "".join(json.dumps(one) + "\n" for one in heartbeat + messages)
+    return {"trackman": trackman, "garmin": garmin, "flightscope": scope, "gspro": gspro}
+
+
+@pytest.mark.parametrize("device", ["trackman", "garmin", "flightscope", "gspro"])
+def test_the_columns_of_a_device_are_known(tmp_path, carries, device):
+    file = tmp_path / "shots.csv"
+    file.write_text(devices(carries)[device], "utf-8")
+    found = read_data(sandbox.load("golf"), [file], Reading())
+    assert {key: values.tolist() for key, values in found.given.items()} == {
+        key: pytest.approx(values) for key, values in SHOTS.items()
+    }
+    assert found.measured["carry"] == pytest.approx(carries[0])
+    assert device == "gspro" or found.measured["apex"] == pytest.approx(carries[1])
+    assert forms()[device].title in " ".join(found.notes)
+    assert found.residuals(sandbox.load("golf"), ["air.density"], np.array([[1.1]]), 0.0) == pytest.approx(
+        0.0, abs=1e-6
+    )
+
+
+def test_statcast_and_columns_by_hand(tmp_path):
+    speeds, angles = [42.0, 45.0, 47.0], [24.0, 28.0, 31.0]
+    points = {"launch.speed": speeds, "launch.angle": angles}
+    far = sandbox.simulate_many(sandbox.load("baseball", {"launch.spin": 2100.0}), points, facts=("distance",))
+    rows = list(zip(speeds, angles, far["distance"].tolist(), strict=True))
+    lines = [f"F,{v / 0.44704},{a},{d / 0.3048},2300\n" for v, a, d in rows]
+    head = "type,launch_speed,launch_angle,hit_distance_sc,release_spin_rate\n"
+    (tmp_path / "statcast.csv").write_text(head + "".join(lines) + "F,,,,2200\n")
+    baseball = sandbox.load("baseball")
+    known = read_data(baseball, [tmp_path / "statcast.csv"], Reading())
+    assert known.measured["distance"] == pytest.approx(far["distance"])
+    assert "left out 1 of 4 rows that lack a value" in known.notes
+    columns = {"Exit": "launch.speed mph", "Up": "launch.angle", "Far": "distance ft"}
+    noise = [0.4, -0.3, 0.1]
+    table = {
+        "Exit": [v / 0.44704 for v in speeds],
+        "Up": angles,
+        "Far": [d / 0.3048 + e for (*_, d), e in zip(rows, noise, strict=True)],
+    }
+    by_hand = sandbox.fit("baseball", table, {"launch.spin": (1500, 2500)}, columns=columns)
+    assert by_hand.values["launch.spin"].value == pytest.approx(2100.0, abs=15.0)
+    assert "Up has no unit: taken as deg" in by_hand.remarks
+    with pytest.raises(RequestError, match="units are mixed: Exit is in km/h, but --map says mph"):
+        sandbox.fit("baseball", {"Exit (km/h)": [1], "Far": [3], "Up": [2]}, {"launch.spin": (1, 2)}, columns=columns)
+
+
+def test_known_columns_are_listed_without_a_scene():
+    shown = CliRunner().invoke(app, ["fit", "--formats"])
+    assert shown.exit_code == 0
+    for form in forms().values():
+        assert form.title in shown.output
+        assert all(f'--map "{entry.column}={entry.key} {entry.unit}"' in shown.output for entry in form.entries)
+
+
+def test_a_table_that_is_not_known_says_so(tmp_path):
+    (tmp_path / "x.csv").write_text("speed,far\n1,2\n")
+    assert recognized(read_table("track", tmp_path / "x.csv"), sandbox.load("golf")) is None
+    with pytest.raises(RequestError, match=r"needs one column x .* a table of launches needs --map, see --formats"):
+        sandbox.fit("golf", tmp_path / "x.csv", {"air.density": (1, 2)})
+
+
+# A table of one's own in place of the published ones ------------------------------------------------------------------
+
+
+def test_a_table_of_ones_own_is_validated(tmp_path, capsys):
+    file = tmp_path / "own.csv"
+    file.write_text(
+        "scene,set,result,value,tolerance,unit\nthrows,launch.speed=13,apex,17.5,1,ft\nthrows,,apex,1,1,m\n"
+    )
+    assert call(["validate", "--against", str(file), "--json"]) == 0
+    first, second = json.loads(capsys.readouterr().out)
+    assert (first["holds"], second["holds"], first["kind"], first["unit"]) == (True, False, "measured", "ft")
+    assert first["computed"] == pytest.approx(17.5, abs=1.0)
+
+
+def test_launches_are_validated_by_their_columns(tmp_path, capsys, carries):
+    file = tmp_path / "shots.csv"
+    file.write_text(devices(carries)["garmin"], "utf-8")
+    command = ["validate", "golf", "--against", str(file), "--set", "air.density=1.1", "--json"]
+    assert call([*command, "--within", "carry=1%", "--within", "apex=2 ft"]) == 0
+    rows = json.loads(capsys.readouterr().out)
+    assert [row["holds"] for row in rows] == [True] * 8
+    assert call([*command, "--within", "carry=1%"]) == 2
+    assert "say how far off apex may be" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("text", "wrong"),
+    [
+        ("result,value,tolerance\ncary,1,1\n", "row 1, result = cary: no such result; did you mean carry?"),
+        ("result,value,tolerance,unit\ncarry,1,1,kg\n", "row 1, unit = 'kg' is no unit of carry"),
+        ("result,value,tolerance,unit\ncarry,x,1,m\n", "row 1, value = 'x' is not a number"),
+        ("result,value,tolerance,unit,kind\ncarry,1,1,m,guess\n", "row 1, kind = 'guess' is none of exact"),
+        ("result,value,tolerance,units\ncarry,1,1,m\n", "column 'units' is none of"),
+        ("a,b\n1,2\n", "has no column result"),
+    ],
+)
+def test_a_table_that_cannot_be_validated_is_one_line(tmp_path, capsys, text, wrong):
+    file = tmp_path / "own.csv"
+    file.write_text(text)
+    assert call(["validate", "golf", "--against", str(file)]) == 2
+    said = capsys.readouterr()
+    assert wrong in said.err
+    assert (said.err.count("\n"), said.out) == (1, "")
