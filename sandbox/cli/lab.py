@@ -141,7 +141,7 @@ def fit(
     changes: dict[str, Any],
     as_json: bool,
 ) -> None:
-    """Find the parameters that explain a track, or a table of launches.
+    """Find the parameters that explain measured tracks or shots.
 
     Each has its 95 % interval. A track has the columns t (s since the launch), x, y (m as in the scene), and ball if
     there are several; other units stand in the names, as "x (cm)". Tracker's exports are read as they are. Without t,
