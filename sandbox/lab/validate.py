@@ -102,7 +102,7 @@ def _by_form(rows: Sequence[Mapping[str, str]], form: Mapping[str, Any]) -> Iter
             reason = form.get("reasons", {}).get(f"{name} {result}", "")
             value, source, kind = (text.format(**row) for text in (how["value"], form["source"], form["kind"]))
             allowed = how["tolerance"], how["unit"]
-            last = kind, how["tests"], how["tolerance_from"]
+            last = kind, how["tests"].format(**row), how["tolerance_from"]
             yield Case(form["scene"], settings, name, result, value, *allowed, source, reason, *last)
 
 

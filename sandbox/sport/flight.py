@@ -43,6 +43,16 @@ class Launch(Directed):
     angle: float = quantity(..., "deg", -90, 180, "direction above the horizontal")
     spin: float = quantity(0.0, "rpm", -20000, 20000, "backspin positive, topspin negative")
 
+    @property
+    def active_spin(self) -> float:
+        """In rpm: the spin about an axis across the flight, which is all that the air notices."""
+        return self.spin
+
+    @property
+    def lift_share(self) -> float | None:
+        """Share of the lift in the scene's plane, less than 1 if the spin axis is tilted; None for all of it."""
+        return None
+
 
 class Release(Group):
     """The place where the ball leaves hand or racket."""
@@ -101,13 +111,14 @@ class Flight(SceneParameters):
     def launched(self, place: Vector, *forces: Force) -> Ball:
         """The ball ``"ball"`` as it leaves ``place`` (m), with its weight, drag, lift and these forces."""
         ball, air = self.ball, self.air.air
-        return launched_ball(self.launch, ball, air, place, [*forces_in_flight(ball, air, self.gravity), *forces])
+        own = forces_in_flight(ball, air, self.gravity, self.launch.lift_share)
+        return launched_ball(self.launch, ball, air, place, [*own, *forces])
 
 
-def forces_in_flight(ball: Sphere, air: Air, gravity: float = 0.0, lift_share: float = 1.0) -> list[Force]:
+def forces_in_flight(ball: Sphere, air: Air, gravity: float = 0.0, lift_share: float | None = None) -> list[Force]:
     """Weight, drag and Magnus lift; those that are zero are left out.
 
-    Only ``lift_share`` of the lift is in the scene's plane, less than 1 if the spin axis is tilted.
+    Only ``lift_share`` of the lift is in the scene's plane, less than 1 if the spin axis is tilted; None for all.
     """
     forces: list[Force] = [Gravity(gravity)] if gravity > 0.0 else []
     if air.density == 0.0:
@@ -117,7 +128,7 @@ def forces_in_flight(ball: Sphere, air: Air, gravity: float = 0.0, lift_share: f
     if drag is not None:
         forces.append(Drag(ball.radius, air.density, drag, *about))
     if lift is not None:
-        lift = lift if lift_share == 1.0 else Scaled(lift, lift_share)
+        lift = lift if lift_share is None else Scaled(lift, lift_share)
         along_ground = isinstance(ball.lift, Lift) and ball.lift.velocity == "ground"
         forces.append(Magnus(ball.radius, air.density, lift, *about, along_ground=along_ground))
     return forces
@@ -133,7 +144,7 @@ def height_on(surfaces: Sequence[Surface], radius: float, above: float) -> float
 
 def launched_ball(launch: Launch, ball: Sphere, air: Air, place: Vector, forces: Sequence[Force]) -> Ball:
     """The ball ``"ball"`` as it leaves ``place`` (m); the air slows its spin where the sport says how."""
-    start = place, launch.velocity, launch.spin * RPM
+    start = place, launch.velocity, launch.active_spin * RPM
     sent = Ball("ball", ball.mass, ball.radius, *start, inertia_factor=ball.inertia_factor, forces=forces)
     rate = ball.decay_in(air)
     if air.density == 0.0 or rate == 0.0:

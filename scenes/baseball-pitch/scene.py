@@ -1,25 +1,51 @@
-"""A pitch from the side: from the hand to the plate, through the strike zone or not. Not validated.
+"""A pitch from the side: from the hand to the plate, through the strike zone or not.
 
-Models: gravity; drag that grows with spin and Magnus lift, as fitted to fly balls; loss of spin; the air by weather.
-Leaves out: everything sideways, with sliders; the wake of the seams; bounces before the plate.
+Models: gravity; drag as fitted to tracked pitches, and Magnus lift, by the active share of the spin and the tilt of its
+axis; loss of spin; the air by weather.
+Leaves out: everything sideways, for which a slider is thrown; the wake of the seams, except as far as it is in the
+active share; that gyro spin becomes active as the ball falls, which pushes it aside; bounces before the plate.
 """
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.surface import Segment, Surface
 from sandbox.engine.paths.run import Event, Run
 from sandbox.parameters import Group, group, quantity
+from sandbox.physics.elementwise import cos
 from sandbox.scene.scene_run import SceneRun
+from sandbox.sport import flight
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spin
 from sandbox.sport.facts import ENDED, Fact
-from sandbox.sport.readings import LAUNCH, fact_from, passing_at
+from sandbox.sport.flight import DEGREE
+from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, LAUNCH_SPIN, fact_from, passing_at
 from sandbox.sport.solids import level
 
 from ..baseball.scene import BaseballFlight
 
 MITT = 1.2  # m, behind the front of the plate
+
+
+class PitchedBall(flight.Launch):
+    """The ball as it leaves the hand."""
+
+    spin: float = quantity(..., "rpm", -20000, 20000, "all of it; backspin positive, topspin negative")
+    active: float = quantity(
+        ..., "", 0, 1, "share of the spin across the flight; the rest is that of a bullet (gyro spin)"
+    )
+    tilt: float = quantity(..., "deg", -90, 90, "lean of the spin's axis from the level; its cosine lifts the ball")
+
+    @property
+    def active_spin(self) -> float:
+        return self.active * self.spin
+
+    @property
+    def lift_share(self) -> float:
+        """The cosine of its tilt."""
+        return cos(self.tilt * DEGREE)
 
 
 class Plate(Group):
@@ -33,13 +59,14 @@ class Plate(Group):
 class Parameters(BaseballFlight):
     """All parameters of a pitch."""
 
+    launch: PitchedBall = group(..., "the ball as it leaves the hand")
     plate: Plate = group(..., "the plate")
 
 
 CONTROLS = Controls(
     full_pull_speed=45.0,
-    spins=(Spin("launch.spin", 100.0),),
-    sliders=("release.height", "plate.distance", "plate.bottom", "plate.top", "air.elevation"),
+    spins=(Spin("launch.spin", 100.0), Spin("launch.tilt", 5.0)),
+    sliders=("launch.active", "release.height", "plate.distance", "plate.bottom", "plate.top", "air.elevation"),
     handles=(
         Handle("release.place", "release.height"),
         Handle("plate.distance", "plate.top", goal=True),
@@ -85,7 +112,9 @@ FACTS = (
     Fact("plate_angle", "falls at", "deg", fact_from(at_plate, "descent"), final_when="mitt"),
     Fact("break", "break", "m", rise, final_when="mitt", also="in", sides=("down", "up")),
     Fact("flight_time", "flight time", "s", fact_from(at_plate, "t"), final_when="mitt"),
-    *LAUNCH,
+    BALL_SPEED,
+    LAUNCH_ANGLE,
+    replace(LAUNCH_SPIN, compute=lambda run, parameters: parameters.launch.spin),
     Fact("strike", "", "", is_strike, final_when="mitt"),
     ENDED,
 )

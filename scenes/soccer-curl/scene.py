@@ -43,6 +43,11 @@ class CurledKick(flight.Launch):
     spin: float = quantity(..., "rpm", -20000, 20000, "positive bends the ball to the left")
     tilt: float = quantity(..., "deg", -90, 90, "lean of the spin's axis from the upright; its cosine bends the ball")
 
+    @property
+    def lift_share(self) -> float:
+        """The cosine of its tilt."""
+        return cos(radians(self.tilt))
+
 
 class WideGoal(Goal):
     """The goal from above."""
@@ -135,7 +140,7 @@ def build(parameters: Parameters) -> Setup:
     players = [Extent("the wall", ("wall.distance", "wall.offset"), *wall.extent)] if wall.present else []
     line = Extent("the goal", ("goal.distance",), goal.distance, -inf, inf, inf, goal.post_radius)
     check_apart(parameters, start, *players, line)
-    forces = flight.forces_in_flight(ball, air, lift_share=cos(radians(launch.tilt)))
+    forces = flight.forces_in_flight(ball, air, lift_share=launch.lift_share)
     kicked = flight.launched_ball(launch, ball, air, (0.0, 0.0), forces)
     balls, saves = [kicked], []
     if keeper.present:

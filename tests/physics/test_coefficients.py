@@ -67,6 +67,7 @@ def test_lift_rises_from_0_over_the_first_spin(model, edge: float):
         (law.stepanek_drag, {0.0: 0.508, 0.3: 0.6621, 1e6: 0.7981}),
         (law.stepanek_lift, {0.0: 0.0, 0.3: 0.1890, 1e6: 0.4946}),
         (law.nathan_lift, {0.0: 0.0, 0.3: 0.2619, 1e6: 0.4801}),
+        (law.pitch_fit_drag, {0.0: 0.299, 0.2: 0.3336}),
         (law.sawicki_lift, {0.05: 0.075, 0.3: 0.27, 2.0: 0.69}),
     ],
 )
