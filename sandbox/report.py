@@ -32,11 +32,18 @@ LONGEST_WORD = 40
 LEAST_REPORTED = 1e-3
 
 
-def as_json(scene: Scene, run: SceneRun, check: Check | None = None, others: Sequence[SceneRun] = ()) -> str:
+def as_json(
+    scene: Scene,
+    run: SceneRun,
+    check: Check | None = None,
+    others: Sequence[SceneRun] = (),
+    more: Mapping[str, Any] | None = None,
+) -> str:
     """One JSON object; NaN and infinities are null. ``others`` are runs to compare with: one stands there as an object,
-    several as a list."""
+    several as a list. ``more`` stands after what is said of the run."""
     report = {
         **_outcome(scene, run),
+        **(more or {}),
         "accuracy": run.accuracy,
         "warnings": warnings(run),
         "events": [dict(zip(EVENT, event, strict=True)) for event in run.events],

@@ -35,6 +35,7 @@ FLOORS = {
     "picture": 4,
     "lab": 4,
     "tasks": 4,
+    "gym": 5,
     "record": 4,
     "kit": 5,  # for scenes only
     "page": 5,

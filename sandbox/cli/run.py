@@ -25,6 +25,15 @@ if TYPE_CHECKING:
     is_flag=True,
     help="Rerun at finer accuracy and from starts moved by 1 nm: each number's error, and what is chaotic.",
 )
+@click.option(
+    "--attempt",
+    metavar="N",
+    type=click.IntRange(min=1),
+    help="Which attempt at a task: what is drawn at its start.  [default: 1]",
+)
+@click.option(
+    "--seed", metavar="N", type=click.IntRange(min=0), help="What the starts of a task are drawn by.  [default: 0]"
+)
 @units_option
 @outputs.options
 @click.option(
@@ -59,6 +68,8 @@ def run(
     changes: dict[str, Any],
     as_json: bool,
     check: bool,
+    attempt: int | None,
+    seed: int | None,
     compare: tuple[str, ...],
     fps: int | None,
     size: outputs.Size | None,
@@ -77,13 +88,16 @@ def run(
       sandbox run golf --frames frames --fps 30 --size 1920x1080
       sandbox run golf --compare golf/headwind --compare golf/moon --poster three.png
       sandbox run my-shot.toml --accuracy precise --check --json
+      sandbox run free-throw --attempt 3 --set launch.speed=7.4
     """
     from sandbox import report
+    from sandbox.cli.tasks import tried
     from sandbox.progress import bar
     from sandbox.scene import check as check_scene
     from sandbox.scene import simulate
 
-    chosen = load(scene, changes)
+    task = tried(scene, changes, attempt, seed)
+    chosen = load(scene, changes) if task is None else task.scene
     files = outputs.requested(paths, size, fps)
     sampled = _sampling(every, columns, paths["trajectory"])
     with bar("seconds simulated") as progress:
@@ -94,9 +108,10 @@ def run(
         checked = check_scene(chosen, done, progress) if check else None
         others = {source: simulate(_comparable(chosen, source, changes), progress=progress) for source in compare}
     if as_json:
-        said = report.as_json(chosen, done, checked, list(others.values()))
+        more = {} if task is None else {"attempt": task.report(done)}
+        said = report.as_json(chosen, done, checked, list(others.values()), more)
     else:
-        said = "\n".join(report.card(chosen, done, checked, others))
+        said = "\n".join([*report.card(chosen, done, checked, others), *([] if task is None else task.lines(done))])
         if paths["momentum"] is not None:
             from sandbox.rows import impact_lines
 

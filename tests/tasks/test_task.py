@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -123,8 +124,12 @@ def test_an_attempt_ends_with_the_eight_or_a_miss(diagonal: Task):
 def _to(session: Session, name: str) -> float:
     """The direction of a ball from the cue ball, in deg."""
     lies = {ball.name: (ball.x, ball.y) for ball in session.scene.parameters.balls}
-    (x, y), (to_x, to_y) = lies["cue"], lies[name]
-    return float(np.degrees(np.arctan2(to_y - y, to_x - x)))
+    return direction(lies["cue"], lies[name])
+
+
+def direction(start: Sequence[float], end: Sequence[float]) -> float:
+    """The direction from one place to another, in deg."""
+    return float(np.degrees(np.arctan2(end[1] - start[1], end[0] - start[0])))
 
 
 def test_names_of_tasks_are_no_names_of_scenes(tmp_path: Path):

@@ -1,0 +1,112 @@
+"""``sandbox tasks``, and a task's attempt as the scene of ``sandbox run``."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from sandbox.cli.arguments import json_option, say
+from sandbox.errors import RequestError
+
+if TYPE_CHECKING:
+    from sandbox.scene import Scene
+    from sandbox.scene.scene_run import SceneRun
+    from sandbox.tasks import Task
+
+
+@click.command()
+@json_option
+def tasks(as_json: bool) -> None:
+    """List all tasks: a goal, and how often you may try.
+
+    \b
+    Examples:
+      sandbox tasks
+      sandbox play free-throw
+      sandbox run free-throw --attempt 3 --set launch.speed=7.4
+    """
+    from sandbox.files import json_text
+    from sandbox.lab.tables import table
+    from sandbox.tasks import listed
+
+    found = list(listed())
+    if as_json:
+        say(json_text([vars(task) for task in found]))
+        return
+    rows = [(task.name, f"{task.goal} ({task.scene}, {_attempts(task.attempts)})") for task in found]
+    say("\n".join(table(("", ""), rows, "ll", indent="")))
+
+
+def _attempts(count: int) -> str:
+    return f"{count} attempts" if count > 1 else "1 attempt"
+
+
+@dataclass(frozen=True)
+class Tried:
+    """One attempt at a task, as ``sandbox run`` computes it: without the noise of a player's aim."""
+
+    task: Task
+    number: int
+    seed: int
+    start: Mapping[str, Any]
+    scene: Scene
+
+    def report(self, run: SceneRun) -> dict[str, Any]:
+        """What the attempt was, and what it is worth, for JSON."""
+        worth = self.task.score.of_shot(run.result)
+        return {
+            "task": self.task.name,
+            "goal": self.task.goal,
+            "attempt": self.number,
+            "seed": self.seed,
+            "start": dict(self.start),
+            "controls": {key: _value(self.scene, key) for key in self.task.defaults},
+            "score": self.task.score.said,
+            "worth": worth,
+            "made": self.task.is_made(worth),
+        }
+
+    def lines(self, run: SceneRun) -> list[str]:
+        """The same for people."""
+        from sandbox.lab.tables import table
+        from sandbox.sport.amounts import amount
+
+        units = {start.key: start.unit for start in self.task.start}
+        units |= {control.key: control.unit for control in self.task.controls}
+        worth, unit = self.task.score.of_shot(run.result), self.task.score.total_unit
+        counts = "nothing" if worth is None else f"{worth:g}" if not unit else amount(worth, unit)
+        rows = [("goal", self.task.goal), ("counts", f"{counts} ({self.task.score.said})")]
+        drawn = [("start", key) for key in self.start] + [("set", key) for key in self.task.defaults]
+        for what, key in drawn:
+            value = _value(self.scene, key)
+            said = f"{value:.4g} {units[key]}".rstrip() if isinstance(value, float) else str(value)
+            rows.append((what, f"{key} = {said}"))
+        return ["", *table((f"{self.task.name}, attempt {self.number}", ""), rows, "ll")]
+
+
+def _value(scene: Scene, key: str) -> Any:
+    from sandbox.parameters import value_at
+
+    return value_at(scene.parameters, key)
+
+
+def tried(source: str, changes: dict[str, Any], attempt: int | None, seed: int | None) -> Tried | None:
+    """The attempt at a task that ``sandbox run`` is asked for; None for a scene. Raises RequestError."""
+    from sandbox.tasks import is_task
+    from sandbox.tasks import load as load_task
+
+    if not is_task(source):
+        if attempt is not None or seed is not None:
+            option = "--seed" if attempt is None else "--attempt"
+            raise RequestError(
+                f"{option}: only a task has attempts, and {source} is a scene; sandbox tasks lists tasks"
+            )
+        return None
+    task, number, drawn_by = load_task(source), attempt or 1, seed or 0
+    if number > task.attempts:
+        raise RequestError(f"--attempt {number}: {task.name} has {task.attempts} attempts")
+    scene = task.at_start(drawn_by, number).changed(changes, "--set")
+    return Tried(task, number, drawn_by, task.drawn_for(drawn_by, number), scene)

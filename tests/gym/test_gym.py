@@ -1,0 +1,161 @@
+"""Tasks as Gymnasium environments: spaces, rewards, seeds, many at once."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import gymnasium
+import numpy as np
+import pytest
+from gymnasium.utils.env_checker import check_env
+from gymnasium.vector import AutoresetMode
+
+import sandbox.gym
+from sandbox.errors import RequestError
+from sandbox.gym import TaskEnv, environment_id, register
+from sandbox.tasks import tasks
+from tests.tasks.test_task import DIAGONAL, direction
+
+IN = {"launch.speed": 7.4, "launch.angle": 52.0}
+
+
+@pytest.fixture
+def diagonal(tmp_path: Path) -> TaskEnv:
+    """Two shots: the 1 into a corner, the 8 into the opposite one."""
+    file = tmp_path / "diagonal.toml"
+    file.write_text(DIAGONAL)
+    return TaskEnv(str(file))
+
+
+@pytest.mark.parametrize("name", ["FreeThrow", "EightBall"])
+def test_an_environment_follows_gymnasiums_rules(name: str):
+    """With all its warnings: pytest makes them errors."""
+    check_env(gymnasium.make(f"sandbox/{name}-v0", render_mode="rgb_array", size=(320, 180)).unwrapped)
+
+
+def test_every_task_is_registered():
+    assert environment_id("free-throw") == "sandbox/FreeThrow-v0"
+    assert {environment_id(name) for name in tasks()} <= gymnasium.registry.keys()
+
+
+def test_a_file_of_ones_own_is_registered(tmp_path: Path):
+    file = tmp_path / "my_corner-shot.toml"
+    file.write_text(DIAGONAL)
+    env = gymnasium.make(register(file))
+    assert env.spec is not None
+    assert env.spec.id == "sandbox/MyCornerShot-v0"
+    assert env.reset(seed=1)[0].shape == (9,)
+
+
+def test_reward_and_info_are_those_of_the_shot():
+    env = TaskEnv("free-throw", noise=False)
+    observation, _ = env.reset(options={"start": {"release.height": 2.1336}})
+    assert observation == pytest.approx([2.1336])
+    _, reward, terminated, truncated, info = env.step(env.course.action_of({"launch.speed": 7.391, "launch.angle": 52}))
+    assert (reward, terminated, truncated, info["is_success"], info["verdict"]) == (1.0, True, False, True, "swish")
+    assert info["controls"] == pytest.approx({"launch.speed": 7.391, "launch.angle": 52.0}, abs=1e-5)
+    _, reward, _, _, info = env.step(env.action_space.low)
+    assert (reward, info["made"], info["controls"]["launch.angle"]) == (0.0, False, 30.0)
+
+
+def test_a_seed_gives_the_same_start_and_aim():
+    def played(seed: int) -> list[float]:
+        env = TaskEnv("free-throw")
+        first = env.reset(seed=seed)[0]
+        speed = env.step(env.course.action_of(IN))[4]["controls"]["launch.speed"]
+        return [*first, speed, *env.reset()[0]]
+
+    assert played(5) == played(5)
+    assert not set(played(5)) & set(played(6))
+
+
+def test_the_nearest_is_rewarded_by_minus_its_distance():
+    env = TaskEnv("closest-to-the-pin")
+    env.reset(seed=0)
+    _, reward, _, _, info = env.step(env.action_space.sample())
+    assert reward == -min(info["distance_to_pin"], 50.0)
+
+
+def test_an_attempt_of_several_shots_has_several_steps(diagonal: TaskEnv):
+    observation, _ = diagonal.reset(seed=0)
+    assert observation == pytest.approx([0.7, 0.35, 1, 1.1, 0.55, 1, -1.1, -0.55, 1])
+    action = diagonal.course.action_of({"cue.angle": direction(observation[:2], observation[3:5])})
+    observation, reward, terminated, _, info = diagonal.step(action)
+    assert (reward, terminated, info["potted"], observation[5], observation[8]) == (1.0, False, ["1"], 0.0, 1.0)
+    assert observation in diagonal.observation_space
+    aim = {"cue.angle": direction(observation[:2], observation[6:8]), "cue.speed": 1.2, "cue.follow": -0.1}
+    _, reward, terminated, _, info = diagonal.step(diagonal.course.action_of(aim))
+    assert (reward, terminated, info["potted"]) == (1.0, True, ["8"])
+
+
+def test_a_shot_that_cannot_be_played_ends_the_attempt(tmp_path: Path):
+    file = tmp_path / "spun.toml"
+    file.write_text(DIAGONAL + '[[controls]]\nkey = "cue.english"\nlow = -0.5\nhigh = 0.5\n')
+    env = TaskEnv(str(file))
+    env.reset(seed=0)
+    _, reward, terminated, _, info = env.step(np.array([0.0, 0.0, -1.0, 1.0], np.float32))
+    assert (reward, terminated, info["is_success"]) == (0.0, True, False)
+    assert "it slips off" in info["error"]
+
+
+def test_a_frame_shows_the_start_and_then_the_shot():
+    env = TaskEnv("free-throw", render_mode="rgb_array", size=(320, 180))
+    env.reset(seed=2)
+    before = env.render()
+    env.step(env.course.action_of(IN))
+    after = env.render()
+    assert before.shape == after.shape == (180, 320, 3)
+    assert before.dtype == np.uint8
+    assert (before != after).any()
+
+
+def test_many_at_once_play_what_each_plays_alone():
+    envs = gymnasium.make_vec("sandbox/FreeThrow-v0", 40, "vector_entry_point", noise=False, facts=("entry_angle",))
+    assert envs.metadata["autoreset_mode"] is AutoresetMode.SAME_STEP
+    observations, _ = envs.reset(seed=3)
+    envs.action_space.seed(3)
+    actions = envs.action_space.sample()
+    actions[:9] = TaskEnv("free-throw").course.action_of(IN)
+    following, rewards, terminations, truncations, infos = envs.step(actions)
+    alone = TaskEnv("free-throw", noise=False)
+    for place, action in enumerate(actions):
+        alone.reset(options={"start": {"release.height": float(observations[place, 0])}})
+        _, reward, _, _, info = alone.step(action)
+        assert rewards[place] == reward
+        angle = np.nan if info["entry_angle"] is None else info["entry_angle"]
+        assert infos["final_info"]["entry_angle"][place] == pytest.approx(angle, abs=1e-4, nan_ok=True)
+    assert 0 < rewards.sum() < 20
+    assert (terminations.all(), truncations.any()) == (True, False)
+    assert np.stack(infos["final_obs"]).tolist() == observations.tolist()
+    assert not (following == observations).any()
+
+
+def test_attempts_of_several_shots_go_on_side_by_side(tmp_path: Path):
+    file = tmp_path / "diagonal.toml"
+    file.write_text(DIAGONAL)
+    envs = sandbox.gym.TaskVectorEnv(2, str(file))
+    observations, _ = envs.reset(seed=0)
+    action = envs.course.action_of({"cue.angle": direction(observations[0, :2], observations[0, 3:5])})
+    miss = envs.course.action_of({"cue.angle": 90.0})
+    observations, rewards, terminations, _, infos = envs.step(np.array([action, miss]))
+    assert (rewards.tolist(), terminations.tolist()) == ([1.0, 0.0], [False, True])
+    assert (observations[:, 5].tolist(), infos["potted"][0]) == ([0.0, 1.0], ["1"])
+    assert (infos["_potted"].tolist(), infos["_final_info"].tolist()) == ([True, False], [False, True])
+    aim = {"cue.angle": direction(observations[0, :2], observations[0, 6:8]), "cue.speed": 1.2, "cue.follow": -0.1}
+    _, rewards, terminations, _, _ = envs.step(np.array([envs.course.action_of(aim), action]))
+    assert (rewards.tolist(), terminations.tolist()) == ([1.0, 1.0], [True, False])
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ({"task": "free-thro"}, "unknown task free-thro; did you mean free-throw?"),
+        ({"task": "free-throw", "render_mode": "human"}, 'must be "rgb_array", or None'),
+        ({"task": "free-throw", "facts": ("apexx",)}, "basketball has no apexx; choose from made, verdict"),
+    ],
+)
+def test_a_wrong_request_is_refused_in_a_line(arguments: dict[str, object], said: str):
+    with pytest.raises(RequestError) as refused:
+        TaskEnv(**arguments)  # type: ignore[arg-type]
+    assert said in str(refused.value)
+    assert "\n" not in str(refused.value)
