@@ -448,6 +448,9 @@ class SideView(View[P]):
         spots += [
             (px + side * far * unit, top - far * unit, side, -0.7) for far in (30, 45, 60, 80) for side in (1, -1)
         ]
+        spots += [
+            (px + side * far * unit, top - 0.4 * far * unit, side, 0.0) for far in (40, 55, 70) for side in (1, -1)
+        ]
         sheet.chip(f"{metres(high - low)} {text}", spots, ink)
 
 
