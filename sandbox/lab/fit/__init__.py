@@ -38,6 +38,7 @@ def fit(
     balls: Mapping[str, str] | None = None,
     columns: Mapping[str, str] | None = None,
     where: Mapping[str, str] | None = None,
+    robust: bool = False,
 ) -> Fit:
     """The values of parameters that explain a measured track, with 95 % intervals.
 
@@ -70,7 +71,7 @@ def fit(
         paths = [track] if isinstance(track, str | Path) else track
         measured = read_data(chosen, [Path(path) for path in paths], how)
     spans = [_span(chosen, "vary", key, given) for key, given in vary.items()]
-    return fit_track(chosen, measured, spans)
+    return fit_track(chosen, measured, spans, robust)
 
 
 def fit_track(scene: Scene, measured: Measured, spans: Sequence[Span], robust: bool = False) -> Fit:

@@ -59,7 +59,7 @@ def group_sds(residuals: np.ndarray, slopes: np.ndarray, sds: np.ndarray, groups
     Each group loses as many degrees of freedom as it decides of the values: its part of the trace of the hat matrix.
     """
     unit = slopes / sds[:, None]
-    leverage = np.einsum("ij,jk,ik->i", unit, _inverse(unit), unit)
+    leverage = np.einsum("ij,jk,ik->i", unit, _inverse(unit)[0], unit)
     found = []
     for group in range(int(groups.max()) + 1):
         own = groups == group
@@ -90,7 +90,7 @@ def errors_of(residuals: np.ndarray, slopes: np.ndarray, sds: np.ndarray, groups
     """
     scaled, unit = residuals / sds, slopes / sds[:, None]
     count, parameters = unit.shape
-    inverse = _inverse(unit)
+    inverse, unknown = _inverse(unit)
     psi, bend = loss.weight(scaled) * scaled, loss.bend(scaled)
     mean = max(float(bend.mean()), 0.05)
     correction = (1.0 + parameters / count * float(bend.var()) / mean**2) / mean
@@ -106,14 +106,16 @@ def errors_of(residuals: np.ndarray, slopes: np.ndarray, sds: np.ndarray, groups
     total = shares.sum(axis=0)
     weights = (shares**2 / np.array(degrees)[:, None]).sum(axis=0)  # Welch and Satterthwaite
     freedom = np.where(weights > 0.0, total**2 / np.maximum(weights, 1e-300), max(count - parameters, 1))
-    return Errors(np.sum(parts, axis=0), np.clip(freedom, 1.0, max(count - parameters, 1)))
+    return Errors(np.sum(parts, axis=0) + unknown, np.clip(freedom, 1.0, max(count - parameters, 1)))
 
 
-def _inverse(slopes: np.ndarray) -> np.ndarray:
-    """The inverse of slopes' slopes, by its eigenvalues; enormous in directions that have no effect."""
+def _inverse(slopes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The inverse of slopes' slopes in directions that have an effect, and the enormous variance of those that have
+    none."""
     size = np.sqrt((slopes**2).sum(axis=0))
     size = np.maximum(size, NO_EFFECT * max(float(size.max(initial=0.0)), 1e-300))
     unit = slopes / size
     values, vectors = np.linalg.eigh(unit.T @ unit)
-    inverse: np.ndarray = (vectors / np.maximum(values, NO_EFFECT**2)) @ vectors.T / np.outer(size, size)
-    return inverse
+    known, scale = values > NO_EFFECT**2, np.outer(size, size)
+    inverse = (vectors[:, known] / values[known]) @ vectors[:, known].T / scale
+    return inverse, (vectors[:, ~known] / NO_EFFECT**2) @ vectors[:, ~known].T / scale

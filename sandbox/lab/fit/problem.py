@@ -15,6 +15,9 @@ from sandbox.scene import Scene
 #: Differences of neighbouring runs: as a share of the value, but at least and at most this share of its range.
 STEP, LEAST_STEP, MOST_STEP = 1e-5, 1e-8, 1e-5
 
+#: A slope to one side so many times as steep as to the other is that of a cliff.
+STEEPER = 3.0
+
 #: Ranges so many times as wide as the scene's own value are searched near that value only.
 WIDE = 20.0
 
@@ -47,20 +50,32 @@ class Problem:
         until = self.last if until is None else until
         return self.measured.residuals(self.scene, self.scene_keys, self.values(shares), until)
 
-    def around(self, share: np.ndarray, until: float, both_sides: bool = False) -> tuple[np.ndarray, np.ndarray]:
+    def around(self, share: np.ndarray, until: float) -> tuple[np.ndarray, np.ndarray]:
         """Residuals at a candidate, and their slopes by the shares, shape (residuals, parameters), computed together.
 
-        Slopes are from differences to one side, or to both, which is more accurate. A run that fails gives no slope.
+        Slopes are from differences to one side. A run that fails gives no slope.
         """
         steps = np.clip(STEP * np.abs(self.values(share)) / self.width, LEAST_STEP, MOST_STEP)
         steps = np.where(share + steps > 1.0, -steps, steps)
-        ahead = share + np.diag(steps)
-        behind = np.clip(share - np.diag(steps), 0.0, 1.0) if both_sides else np.empty((0, len(share)))
-        found = self.residuals(np.vstack([share, ahead, behind]), until)
-        count = len(share)
-        start = found[1 + count :] if both_sides else found[:1]
-        apart = np.diag(ahead - behind) if both_sides else steps
-        return found[0], np.nan_to_num((found[1 : 1 + count] - start) / apart[:, None]).T
+        found = self.residuals(np.vstack([share, share + np.diag(steps)]), until)
+        return found[0], np.nan_to_num((found[1:] - found[:1]) / steps[:, None]).T
+
+    def slopes(self, share: np.ndarray, steps: np.ndarray, inverse_sd: np.ndarray) -> np.ndarray:
+        """Slopes from differences to both sides, by these steps, shape (residuals, parameters).
+
+        Where those to one side are far steeper, weighted by ``inverse_sd``, as at the edge of a miss, only the other's
+        count.
+        """
+        moved = np.clip(np.vstack([share + np.diag(steps), share - np.diag(steps)]), 0.0, 1.0)
+        found, count = self.residuals(np.vstack([share, moved])), len(share)
+        apart = np.vstack([np.diag(moved[:count]) - share, np.diag(moved[count:]) - share])  # shape (2, parameters)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            slopes = (found[1:] - found[0]).reshape(2, count, -1) / apart[:, :, None]
+        effect = np.sqrt(((slopes * inverse_sd) ** 2).sum(axis=2))
+        effect = np.where(np.isnan(effect), np.inf, effect)  # a run that failed, or no room before an end of the range
+        keep = (effect <= STEEPER * effect.min(axis=0)) & np.isfinite(effect)
+        kept = np.where(keep[:, :, None], slopes, 0.0).sum(axis=0) / np.maximum(keep.sum(axis=0), 1)[:, None]
+        return np.asarray(kept).T
 
     @cached_property
     def starts_within(self) -> tuple[np.ndarray, np.ndarray]:

@@ -6,8 +6,6 @@ many minima as ways to bounce.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from sandbox.lab.fit.descent import WORTH, Place, descend
@@ -17,12 +15,20 @@ from sandbox.lab.fit.problem import Problem
 #: Starts that are tried, and those that are followed, at most.
 TRIED, FOLLOWED = 24, 6
 
-#: The first window, and by how much it grows at least, as shares of the points.
-WINDOW, GROWTH = 0.25, 0.125
+#: The first window, and by how much it grows at least, as shares of the points; smaller where that leads nowhere.
+WINDOW, GROWTHS = 0.25, (0.125, 0.05)
 
 #: A window grows up to where the path is so many standard deviations from the points, which are taken to be at least
 #: this share of what a start is typically off by: those of few points say little.
 LOST, LOST_SCALE = 8.0, 0.02
+
+#: A larger window that fits so many times worse, or with one new point so many standard deviations off, has lost the
+#: path. Candidates are then drawn from those that fit the smaller one, with so many times its standard errors, but at
+#: most this share of a range; the best are followed. Where that did not help so many times, it is not tried any more.
+WORSE, FAR, INFLATED, WIDEST, DRAWN, POLISHED, VAIN = 1.25, 4.5, 2.0, 0.3, 32, 4, 2
+
+#: Starts that lead to the same path in the first window, to this share of its standard deviation, are one.
+SAME = 0.1
 
 #: The accuracy of the fit to a window that is not the last, as a share of the cost.
 COARSE = 1e-3
@@ -39,16 +45,14 @@ def search(problem: Problem, robust: bool) -> Place | None:
     """The best candidate; None if no run could be completed."""
     starts, scale = _starts(problem)
     best, least = None, np.inf
-    for share in starts:
-        found = _Following(problem, scale, robust).from_start(share)
-        if found is None:
-            continue
-        left = np.abs(found.residuals / scale)
-        merit = float((left if robust else left**2).sum())
-        if merit < least:
-            best, least = found, merit
-        if best is not None and neumann(problem, best.residuals) > ALIKE:
-            break
+    for growth in GROWTHS:
+        following = _Following(problem, scale, robust, growth)
+        for share in starts:
+            found = following.from_start(share)
+            if found is not None and following.off(found.residuals, problem.last) < least:
+                best, least = found, following.off(found.residuals, problem.last)
+            if best is not None and neumann(problem, best.residuals) > ALIKE:
+                return best
     return best
 
 
@@ -95,47 +99,103 @@ def window(problem: Problem, share: float) -> float:
     return float(times[min(max(int(share * len(times)), 2 * len(problem)), len(times)) - 1])
 
 
-@dataclass
 class _Following:
-    """From one start to all points, through growing windows."""
+    """From starts to all points, through growing windows."""
 
-    problem: Problem
-    scale: np.ndarray
-    robust: bool
+    def __init__(self, problem: Problem, scale: np.ndarray, robust: bool, growth: float) -> None:
+        self.problem, self.scale, self.robust, self.growth = problem, scale, robust, growth
+        self._vain = 0
+        self._firsts: list[np.ndarray] = []  # residuals in the first window, of starts so far
 
     def from_start(self, share: np.ndarray) -> Place | None:
-        """The place where the search ends; None if a run failed on the way."""
+        """The place where the search ends; None if a run failed on the way, or another start came to the same path."""
         problem, part = self.problem, WINDOW
         until = window(problem, part)
-        while until < problem.last:
-            place = self._descend(share, until, COARSE)
-            if place is None:
-                return None
-            share, part = place.share, part + GROWTH
-            until = max(window(problem, part), self._good_until(share, place.residuals, until))
-        return self._descend(share, until, WORTH)
+        place = self._descend(share, until, COARSE if until < problem.last else WORTH)
+        if place is None or self._is_known(place, until):
+            return None
+        while until < problem.last and place is not None:
+            part += self.growth
+            before, good = until, self._good_until(place, until)
+            until = max(window(problem, part), good)
+            place = self._grown(place, before, until)
+        return place
+
+    def _is_known(self, place: Place, until: float) -> bool:
+        inside = self.problem.times <= until
+        first = (place.residuals / self.scale)[inside]
+        size = SAME * max(float(np.abs(first).mean()), 1e-12)
+        known = any(float(np.abs(first - other).mean()) < size for other in self._firsts)
+        self._firsts.append(first)
+        return known
+
+    def _grown(self, place: Place, before: float, until: float) -> Place | None:
+        """The minimum in a larger window. Where the path does not follow the points any more, many candidates that fit
+        the window ``before`` as well are tried: an impact makes large differences of small ones."""
+        worth = COARSE if until < self.problem.last else WORTH
+        found = self._descend(place.share, until, worth)
+        if found is not None and (self._vain >= VAIN or not self._is_lost(place, before, found, until)):
+            return found
+        tried = [found] if found is not None else []
+        for share in self._likely(place, before, until):
+            another = self._descend(share, until, worth)
+            if another is not None:
+                tried.append(another)
+                if not self._is_lost(place, before, another, until):
+                    break
+        best = min(tried, key=lambda each: self.off(each.residuals, until), default=None)
+        self._vain += best is found
+        return best
+
+    def _is_lost(self, place: Place, before: float, larger: Place, until: float) -> bool:
+        """True if the larger window fits worse than the one before."""
+        usual, times = self.off(place.residuals, before), self.problem.times
+        if self.off(larger.residuals, until) > WORSE * usual:
+            return True
+        new = np.abs(larger.residuals / self.scale)[(times > before) & (times <= until)]
+        if self.robust:  # some points may be far off
+            return float(np.median(new)) > WORSE * usual
+        return float(new.max()) > FAR * usual
+
+    def _likely(self, place: Place, before: float, until: float) -> list[np.ndarray]:
+        """The best for a larger window of the candidates that are as likely, by the window ``before``."""
+        problem, inside = self.problem, self.problem.times <= before
+        sds = robust_sds(place.residuals, problem.measured.groups, inside)
+        slopes = place.slopes[inside] / sds[inside, None]
+        variances, axes = np.linalg.eigh(slopes.T @ slopes)
+        widths = np.minimum(INFLATED / np.sqrt(np.maximum(variances, 1e-12)), WIDEST)
+        drawn = np.random.default_rng(1).normal(size=(DRAWN, len(problem))) * widths @ axes.T
+        shares = np.clip(place.share + drawn, 0.0, 1.0)
+        found = np.abs(problem.residuals(shares, until) / self.scale)[:, problem.times <= until]
+        costs = np.nan_to_num(found.sum(axis=1), nan=np.inf)
+        return [shares[best] for best in np.argsort(costs, kind="stable")[:POLISHED] if np.isfinite(costs[best])]
+
+    def off(self, residuals: np.ndarray, until: float) -> float:
+        """How far the path is from the points of a window: the root mean square, or the mean size where outliers are
+        expected, on the scale of all."""
+        left = np.abs(residuals / self.scale)[self.problem.times <= until]
+        return float(left.mean() if self.robust else np.sqrt((left**2).mean()))
 
     def _descend(self, share: np.ndarray, until: float, worth: float) -> Place | None:
         """The minimum in one window; with a robust loss in two rounds, as its scale falls with the residuals."""
-        inside, place = self.problem.times <= until, None
+        problem, place, sds = self.problem, None, self.scale
         for _ in range(2 if self.robust else 1):
-            sds = self.scale
             if self.robust:
-                start = self.problem.residuals(share[None], until)[0] if place is None else place.residuals
-                sds = robust_sds(start, self.problem.measured.groups, inside)
-            place = descend(self.problem, share, 1.0 / sds, HUBERS if self.robust else SQUARES, until, worth)
+                start = problem.residuals(share[None], until)[0] if place is None else place.residuals
+                sds = robust_sds(start, problem.measured.groups, problem.times <= until)
+            place = descend(problem, share, 1.0 / sds, HUBERS if self.robust else SQUARES, until, worth)
             if not np.isfinite(place.cost):
                 return None
             share = place.share
         return place
 
-    def _good_until(self, share: np.ndarray, residuals: np.ndarray, until: float) -> float:
+    def _good_until(self, place: Place, until: float) -> float:
         """The time in s up to which the path stays near the points."""
         problem, inside = self.problem, self.problem.times <= until
-        whole = problem.residuals(share[None])[0]
+        whole = problem.residuals(place.share[None])[0]
         if np.isnan(whole).any():
             return until
-        sds = robust_sds(residuals, problem.measured.groups, inside)
-        far = np.abs(whole) > LOST * max(sds.max(), LOST_SCALE * self.scale.max())
+        sds = robust_sds(place.residuals, problem.measured.groups, inside)
+        far = np.abs(whole) > LOST * np.maximum(sds, LOST_SCALE * self.scale)
         lost = problem.times[far & ~inside]
         return problem.last if not len(lost) else float(lost.min())

@@ -26,6 +26,10 @@ OUTLIER = 4.0
 #: Rounds in which values and standard deviations of the groups are found one from the other.
 ROUNDS = 3
 
+#: Steps for the last slopes, in standard errors of the values as they seem before: the first, which at most may be this
+#: share of a range; and how often they are made smaller.
+FIRST_STEP, WIDEST_STEP, SHRINKING = 300.0, 0.02, 6
+
 #: A share of its range within which a value is at its end.
 AT_END = 1e-6
 
@@ -90,9 +94,22 @@ def solve(scene: Scene, measured: Measured, spans: Sequence[Span], robust: bool 
     if place is None:
         raise RunError(f"no run of {scene.title} in these ranges could be completed")
     place, sds, loss = _refined(problem, place, robust)
-    _, slopes = problem.around(place.share, problem.last, both_sides=True)
-    place = Place(place.share, place.residuals, slopes, place.cost)
+    place = Place(place.share, place.residuals, _slopes(problem, place, sds), place.cost)
     return _finished(problem, place, sds, loss)
+
+
+def _slopes(problem: Problem, place: Place, sds: np.ndarray) -> np.ndarray:
+    """Slopes by differences that change the residuals as much as errors do: within these a path may bend, as where it
+    grazes the rim, and a slope at one place says too little. From larger ones down to those that are as large."""
+    effect = np.sqrt(((place.slopes / sds[:, None]) ** 2).sum(axis=0))
+    steps = np.clip(FIRST_STEP / np.maximum(effect, 1e-300), 1e-8, WIDEST_STEP)
+    for _ in range(SHRINKING):
+        slopes = problem.slopes(place.share, steps, 1.0 / sds)
+        wanted = 1.0 / np.maximum(np.sqrt(((slopes / sds[:, None]) ** 2).sum(axis=0)), 1e-300)
+        if (steps <= 3.0 * wanted).all():
+            break
+        steps = np.clip(np.minimum(steps, np.maximum(wanted, 0.1 * steps)), 1e-8, WIDEST_STEP)
+    return slopes
 
 
 def _refined(problem: Problem, place: Place, robust: bool) -> tuple[Place, np.ndarray, Loss]:
