@@ -51,9 +51,17 @@ def search(problem: Problem, robust: bool) -> Place | None:
             found = following.from_start(share)
             if found is not None and following.off(found.residuals, problem.last) < least:
                 best, least = found, following.off(found.residuals, problem.last)
-            if best is not None and neumann(problem, best.residuals) > ALIKE:
+            if best is not None and _is_good(problem, best.residuals, following.agreed):
                 return best
+        if window(problem, WINDOW) >= problem.last:
+            break  # there is nothing to grow
     return best
+
+
+def _is_good(problem: Problem, residuals: np.ndarray, agreed: int) -> bool:
+    """True if the residuals have no pattern; or where they are too few to have one, if two starts came to them."""
+    ratio = neumann(problem, residuals)
+    return ratio > ALIKE or (ratio == 0.0 and agreed > 0)
 
 
 def neumann(problem: Problem, residuals: np.ndarray) -> float:
@@ -105,6 +113,7 @@ class _Following:
     def __init__(self, problem: Problem, scale: np.ndarray, robust: bool, growth: float) -> None:
         self.problem, self.scale, self.robust, self.growth = problem, scale, robust, growth
         self._vain = 0
+        self.agreed = 0  # starts that came to the same path as others in the first window
         self._firsts: list[np.ndarray] = []  # residuals in the first window, of starts so far
 
     def from_start(self, share: np.ndarray) -> Place | None:
@@ -127,6 +136,7 @@ class _Following:
         size = SAME * max(float(np.abs(first).mean()), 1e-12)
         known = any(float(np.abs(first - other).mean()) < size for other in self._firsts)
         self._firsts.append(first)
+        self.agreed += known
         return known
 
     def _grown(self, place: Place, before: float, until: float) -> Place | None:
