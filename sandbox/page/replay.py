@@ -4,53 +4,23 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
-from math import atan2, isinf, isnan
 from typing import Any
 
-import numpy as np
-from PIL import Image
-
-from sandbox.engine.model.surface import Circle, Surface
-from sandbox.engine.paths.arc import Arc
-from sandbox.engine.paths.path import Path
-from sandbox.engine.paths.phase import Phase
-from sandbox.page.parts import css, filled, fonts, html, packed, picture, rows, table, what_changed
+from sandbox.page.parts import css, filled, fonts, html, packed, rows, table
+from sandbox.page.playing import MOST_EVENTS, force_data, layout_data, path_data, place_data
 from sandbox.parameters import Group, walk
-from sandbox.picture import ball as balls
-from sandbox.picture.above import AboveView
-from sandbox.picture.frames import to_image
-from sandbox.picture.moving import NOT_WORTH_NOTING, THINNEST
-from sandbox.picture.palette import palette
-from sandbox.picture.path import instants
 from sandbox.picture.sheet import CARD, DENSITY
-from sandbox.picture.side import SideView
-from sandbox.picture.vectors import FORCE_LENGTH, SHORTEST, VELOCITY_LENGTH, colour_of
 from sandbox.picture.view import View
 from sandbox.scene import Scene, load
 from sandbox.scene.finding import as_path, is_installed
 from sandbox.scene.scene_run import SceneRun
 from sandbox.scene.setup_scene import SetupScene
-from sandbox.sport.amounts import DISPLAY_UNITS, exact, ladder
+from sandbox.sport.amounts import exact
 from sandbox.sport.readings import words_of
 from sandbox.text import command_line
-from sandbox.units import convert
 
 #: The picture on a wide screen and on a phone: size in px, and how many times as large letters are drawn on it.
 LAYOUTS = (((1600, 900), 1.0), ((801, 1001), 1.78))
-#: The picture that shows until the page's script draws, and where none runs, is at most so large, in px.
-POSTER = (640, 640)
-#: The forces are sampled at so many even times, and at each impact.
-SAMPLES = 240
-#: The poses a second of surfaces that move.
-POSES_A_SECOND = 120
-#: The ground's height is sampled at so many places.
-GROUND = 400
-#: Units of the numbers that the page itself writes.
-UNITS = ("m", "m/s", "deg", "rpm", "s", "N")
-#: To what, in m and rad/s, the path of a ball in a heap is rounded.
-HEAPED = 1e-12
-#: Most impacts and other events that are listed.
-MOST_EVENTS = 400
 
 
 def page_of(run: SceneRun, ghosts: Mapping[str, SceneRun] | None = None, options: Sequence[str] = ()) -> str:
@@ -60,21 +30,19 @@ def page_of(run: SceneRun, ghosts: Mapping[str, SceneRun] | None = None, options
     views = list(_views(run, ghosts))
     wide, narrow = (layout.pop("poster") for _, layout in views)
     view = views[0][0]
-    events = run.events[:MOST_EVENTS]
     others = {ghost.label: css(ghost.light) for ghost in view.ghosts}
     labelled = [dict(scene.rows(run)), *(dict(ghost.run.scene.rows(ghost.run)) for ghost in view.ghosts)]
     card = [(label, *(texts.get(label, "–") for texts in labelled)) for label in labelled[0]]
     several = len(run.setup.balls) > 1
     listed = (
         f'<li><button type="button"><b>{html(t)}</b> <span>{html(" ".join(filter(None, words)))}</span></button></li>'
-        for t, *words in (words_of(run, event, several) for event in events)
+        for t, *words in (words_of(run, event, several) for event in run.events[:MOST_EVENTS])
     )
     data = {
-        **_static(view, run),
+        **place_data(view),
+        **path_data(view, run),
+        **force_data(view, run),
         "views": [layout for _, layout in views],
-        "events": [event.t for event in events],
-        "duration": max([run.duration, *(ghost.run.duration for ghost in view.ghosts)]),
-        "told": view.story_end,
         "fonts": fonts(),
     }
     about = html(scene.about), _code(command(scene, "run", *options))
@@ -89,7 +57,7 @@ def page_of(run: SceneRun, ghosts: Mapping[str, SceneRun] | None = None, options
         poster_narrow=narrow,
         card=table(card, scene.title, "card", {scene.title: css(CARD["accent"]), **others} if others else None),
         events="\n".join(listed),
-        events_open="open" if len(events) <= 8 else "",
+        events_open="open" if len(run.events) <= 8 else "",
         parameters=rows(
             (each.key, text_of(each.value, each.unit)) for each in walk(scene.parameters) if each.value is not None
         ),
@@ -137,191 +105,6 @@ def _views(run: SceneRun, ghosts: Mapping[str, SceneRun] | None) -> Iterator[tup
         token = DENSITY.set(density)
         try:
             view = run.scene.picture(run, size, ghosts)
-            yield view, _layout(view)
+            yield view, layout_data(view)
         finally:
             DENSITY.reset(token)
-
-
-def _layout(view: View[Any]) -> dict[str, Any]:
-    whole = {name: np.array(to_image(view.sheet.surface)) for name in view.layers()}
-    tall = round(view.card_row - 2 * view.sheet.gap)  # the card is below
-    place, paths, along, drawn, over = (whole[name][:tall] for name in ("place", "paths", "along", "balls", "over"))
-    camera = view.camera
-    poster = Image.fromarray(over)
-    poster.thumbnail(POSTER)
-    too_large = max(0.0, balls.mark_radius(view.rows) - view.radius * camera.scale)
-    return {
-        "size": (view.size[0], tall),
-        "at": camera.at,
-        "anchor": camera.anchor,
-        "scale": camera.scale,
-        "stretch": camera.stretch,
-        "unit": view.unit,
-        "least": view.min_radius,
-        "lift": too_large if isinstance(view, SideView) and not isinf(view.MAX_STRETCH) else None,
-        "room": view.heading.room,
-        "poster": picture(poster),
-        "place": picture(Image.fromarray(place)),
-        "along": picture(what_changed(paths, along), exact=True),
-        "over": picture(what_changed(drawn, over), exact=True),
-    }
-
-
-# --------------------------------------------------------------------------------------------------------------- data
-
-
-def _static(view: View[Any], run: SceneRun) -> dict[str, Any]:
-    """Return the data that do not depend on the layout."""
-    names = view.balls
-    looks = {id(view.looks[name]): view.looks[name] for name in names}
-    numbers = {key: i for i, key in enumerate(looks)}
-    return {
-        "ball": view.ball,
-        "balls": [
-            {
-                "name": name,
-                "radius": view.radii[name],
-                "colour": css(view.colour_of(name)),
-                "thickness": view.thickness(name),
-                "look": numbers[id(view.looks[name])],
-                "lying": view.initial_turn(name).tolist(),
-                "rolls": view.rolls(name),
-                "turned": _turned(view, name, run.duration),
-                "caught": run.caught_at(name),
-                "path": _path(run.arcs[name]),
-            }
-            for name in names
-        ],
-        "looks": [_look(look, view) for look in looks.values()],
-        "light": {
-            "towards": (balls.LIGHT / np.linalg.norm(balls.LIGHT)).tolist(),
-            "dark": balls.DARK,
-            "edge": balls.EDGE,
-            "rim": balls.RIM,
-        },
-        "ghosts": [
-            {
-                "label": ghost.label,
-                "radius": ghost.view.radius,
-                "colour": css(ghost.colour if not view.on_dark else ghost.light),
-                "light": css(ghost.light),
-                "shift": ghost.shift,
-                "path": _path(ghost.run.arcs[ghost.view.ball]),
-            }
-            for ghost in view.ghosts
-        ],
-        "strings": [[names.index(name), *at] for name, at in view.strings],
-        "string": css(view.STRING_COLOUR),
-        "driven": _driven(view, run),
-        "shown": view.driven_moment,
-        "ground": _ground(view),
-        "forces": _forces(view, run),
-        "arrows": dict(zip(("fastest", "strongest"), view.vectors.longest, strict=True))
-        | {"velocity": VELOCITY_LENGTH, "force": FORCE_LENGTH, "shortest": SHORTEST, "colour": css(CARD["text"])},
-        "shadows": isinstance(view, AboveView),
-        "spins": view.SPIN_NAMES,
-        "ladders": {unit: _ladder(unit) for unit in UNITS},
-        "heaped": HEAPED,
-        "unsaid": NOT_WORTH_NOTING,
-        "earlier": palette("trace")["earlier"],
-        "rim": css(palette("trace")["rim"]),
-        **{name: css(CARD[name]) for name in ("accent", "shadow")},
-        "card": css(CARD["background"]),
-    }
-
-
-def _path(arcs: Path) -> dict[str, Any]:
-    """The arcs of a ball, each until the next begins where it does not say otherwise.
-
-    Of the thousands of short steps in a heap and in contacts, whose last digits are not those of the physics, each
-    coefficient is what it differs from the one before, in units of HEAPED.
-    """
-    rows, last = [], [0, 0, 0]
-    for arc, end in zip(arcs, [*arcs.starts[1:], arcs[-1].t1], strict=True):
-        curves, within = [list(arc.x), list(arc.y), list(arc.curves[4])], _within(arc)
-        if within and isinstance(within[0], float):
-            whole = [[round(value / HEAPED) for value in curve] for curve in curves]
-            curves = [np.diff([start, *curve]).tolist() for start, curve in zip(last, whole, strict=True)]
-            last = [curve[-1] for curve in whole]
-        else:
-            last = [0, 0, 0]
-        times = arc.t0 if arc.t1 == end else [arc.t0, arc.t1]
-        rows.append([times, *curves, within])
-        if arc.curves[5:]:
-            rows[-1].append([list(curve) for curve in arc.curves[5:]])
-    return {"arcs": rows, "until": arcs[-1].t1}
-
-
-def _within(arc: Arc) -> Any:
-    """Its velocity where it is not the derivative of its place, at an impact; else 0. In a heap and in contacts, what
-    position correction adds to it, in m/s."""
-    if arc.t1 <= arc.t0:
-        return [[arc.start[2]], [arc.start[3]]]
-    return [round(speed, 9) for speed in arc.drift] if arc.phase in (Phase.CLUSTER, Phase.HEAP) else 0
-
-
-def _turned(view: View[Any], name: str, until: float) -> dict[str, Any] | None:
-    """Angles in rad at some times in s of what turns in a way of its own; None for what turns by its spin."""
-    if type(view).turn is View.turn:
-        return None
-    times = np.linspace(0.0, until, SAMPLES)
-    turns = [view.turn(name, float(t)) for t in times]
-    return {"times": times, "angles": np.unwrap([atan2(turn[1, 0], turn[0, 0]) for turn in turns])}
-
-
-def _driven(view: View[Any], run: SceneRun) -> dict[str, Any]:
-    """The surfaces that move, at even times often enough for straight lines between them: the ends of each in m, or
-    twice its middle."""
-    times = np.linspace(0.0, run.duration, max(2, round(run.duration * POSES_A_SECOND)))
-
-    def ends(surface: Surface, t: float) -> list[float]:
-        shape = surface.at(t).shape
-        return [*shape.center, *shape.center] if isinstance(shape, Circle) else [*shape.a, *shape.b]
-
-    surfaces = [
-        {"radius": each.shape.radius, "ends": [[round(x, 6) for x in ends(each, float(t))] for t in times]}
-        for each in view.driven
-    ]
-    return {"step": times[1], "surfaces": surfaces, "colour": css(view.DRIVEN), "thinnest": THINNEST}
-
-
-def _look(look: balls.Look, view: View[Any]) -> dict[str, Any]:
-    """Return the shapes of a flat thing, or the two halves of a ball's skin next to each other, as large as needed."""
-    if isinstance(look, balls.Silhouette):
-        shapes = [[np.asarray(corners), css(colour)] for corners, colour in look.shapes]
-        return {"shapes": shapes, "rimmed": look.rimmed}
-    radius = max(view.min_radius, view.radius * view.camera.scale)
-    halves = look.skin(sum(radius >= mark.least for mark in look.marks))  # by half, column, row
-    skin = np.concatenate(list(halves), axis=0).transpose(1, 0, 2)
-    return {"skin": picture(Image.fromarray(np.ascontiguousarray(skin)), exact=True), "face": balls.FACE,
-            "gloss": look.gloss}  # fmt: skip
-
-
-def _ground(view: View[Any]) -> dict[str, Any] | None:
-    """Heights in m at even places; None in a view from above."""
-    if not isinstance(view, SideView):
-        return None
-    margin = 0.1 * float(np.ptp(view.points[:, 0])) + view.radius
-    places = np.linspace(view.points[:, 0].min() - margin, view.points[:, 0].max() + margin, GROUND)
-    heights = view.ground(places)
-    if np.ptp(heights) == 0.0:
-        places, heights = places[[0, -1]], heights[[0, -1]]
-    return {"from": places[0], "step": places[1] - places[0], "heights": heights.tolist()}
-
-
-def _forces(view: View[Any], run: SceneRun) -> dict[str, Any]:
-    """The components of each force in N at some times in s, None where it does not act."""
-    until = min(run.duration, run.caught_at(view.ball) or run.duration)
-    times = [float(t) for t in instants(run, SAMPLES, [view.ball]) if t <= until]
-    causes = [
-        {"name": name, "colour": css(colour_of(name))}
-        | {axis: [None if isnan(part) else float(f"{part:.6g}") for part in force[:, i]] for i, axis in enumerate("xy")}
-        for name, force in view.vectors.over(times).items()
-    ]
-    return {"times": times, "causes": causes}
-
-
-def _ladder(unit: str) -> list[list[Any]]:
-    """Return the steps by which numbers of a unit are written: the least size, the factor, unit and digits."""
-    steps = ladder(unit) or DISPLAY_UNITS["m"][-1:]
-    return [[step.least, convert(1.0, unit, step.unit), step.unit, step.digits] for step in steps]

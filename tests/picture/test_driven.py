@@ -8,7 +8,7 @@ import pytest
 
 import sandbox
 from sandbox import Ball, Cloth, Moving, SceneRun, Segment, Setup, Sliding, Surface, Turning
-from sandbox.page.replay import _driven
+from sandbox.page.playing import _driven
 from sandbox.picture.energy_chart import bands_of, held_at_the_end
 from sandbox.picture.palette import palette
 from sandbox.picture.plain import Picture

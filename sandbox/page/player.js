@@ -1,0 +1,501 @@
+// Plays a run on a place. Its paths are the polynomials that the run was computed with, so any instant is exact; lengths
+// are in m, times in s, spins in rad/s, and on the picture in px of the layer that is shown.
+
+const SLOWEST = -4, FASTEST = 3; // powers of two
+const NEAR = 28; // px around the pointer in which a path is found
+
+// ------------------------------------------------------------------------------------------------ numbers for people
+
+let ladders = {};
+
+/** A number of a unit, on the ladder that Python uses. */
+function amount(value, unit) {
+  const steps = ladders[unit], step = steps.find(([least]) => Math.abs(value) >= least) || steps[steps.length - 1];
+  const [, factor, name, digits] = step, text = (value * factor).toFixed(digits);
+  const number = Number(text) === 0 ? text.replace("-", "") : text.replace("-", "−");
+  return name === "deg" ? `${number}°` : `${number} ${name}`;
+}
+
+// ------------------------------------------------------------------------------------------------ the page
+
+class Player {
+  constructor(data) {
+    this.canvas = $("picture");
+    this.context = this.canvas.getContext("2d");
+    this.power = 0; // of two: the speed
+    this.hint = document.createElement("div");
+    this.hint.id = "hint";
+    this.hint.hidden = true;
+    this.canvas.after(this.hint);
+    this.controls();
+    this.load(data);
+    this.keys();
+    this.pointer();
+    new ResizeObserver(() => this.resized()).observe(this.canvas);
+    this.resized();
+  }
+
+  /** Take a run on its place; it is whole, as on a poster, until it is played. */
+  load(data) {
+    this.data = data;
+    ladders = data.ladders;
+    for (const ball of data.balls) {
+      const look = data.looks[ball.look] || data.looks[0];
+      ({ shapes: ball.shapes, rimmed: ball.rimmed } = look);
+      ball.sprite = this.sprites.get(look) || new Sprite(look, data.light);
+      if (data.balls.length === 1) this.sprites.set(look, ball.sprite); // the next run draws the same one
+    }
+    for (const ball of [...data.balls, ...data.ghosts]) {
+      if (!(ball.path instanceof Path)) ball.path = new Path(ball.path, data.heaped);
+      if (ball.rolls) ball.turning = new Turning(ball.path, ball.lying);
+    }
+    this.main = data.balls.find((ball) => ball.name === data.ball);
+    this.whole = true;
+    this.playing = false;
+    this.t = data.told;
+    this.pointed = null;
+    this.hint.hidden = true;
+    $("time").max = data.duration;
+    $("marks").replaceChildren(...[...new Set(data.events)].map((t) => {
+      const mark = document.createElement("i");
+      mark.style.left = `${(100 * t) / data.duration}%`;
+      return mark;
+    }));
+  }
+
+  sprites = new WeakMap();
+
+  // -------------------------------------------------------------------------------------------- the picture
+
+  resized() {
+    const wide = this.canvas.clientWidth, views = this.data.views;
+    this.view = views[wide < 700 ? views.length - 1 : 0];
+    const [width, height] = this.view.size, density = Math.max(1, window.devicePixelRatio || 1);
+    this.canvas.style.aspectRatio = `${width} / ${height}`;
+    this.shown = wide / width; // CSS px for one of the view
+    this.canvas.width = Math.round(wide * density);
+    this.canvas.height = Math.round((wide * density * height) / width);
+    for (const ball of [...this.data.balls, ...this.data.ghosts]) ball.line = this.line(ball);
+    this.heading(wide);
+    this.draw();
+  }
+
+  /** The headline is as large as fits on one line. */
+  heading(wide) {
+    const title = document.querySelector("h1"), room = this.view.room * this.shown;
+    title.parentElement.style.maxWidth = `${room}px`;
+    title.className = "";
+    if (wide >= 700 && title.offsetHeight > 1.5 * parseFloat(getComputedStyle(title).lineHeight)) title.className = "medium";
+  }
+
+  ground(x) {
+    const { from, step, heights } = this.data.ground, place = Math.min(Math.max((x - from) / step, 0), heights.length - 1);
+    const i = Math.min(Math.floor(place), heights.length - 2);
+    return heights[i] + (place - i) * (heights[i + 1] - heights[i]);
+  }
+
+  pixel(x, y) {
+    const { at, anchor, scale, stretch } = this.view;
+    return [anchor[0] + (x - at[0]) * scale, anchor[1] - (y - at[1]) * scale * stretch];
+  }
+
+  /** Where a ball of a radius in px is drawn: one that is drawn too large lies on the ground and not in it. */
+  spot(x, y, radius = 0) {
+    const [px, py] = this.pixel(x, y);
+    if (!this.data.ground || this.view.lift === null) return [px, py];
+    const ground = this.ground(x);
+    return [px, y > ground ? Math.min(py - this.view.lift, this.pixel(x, ground)[1] - radius) : py];
+  }
+
+  /** Points [x, y, t] of a path until its end is told, close enough together to look smooth. */
+  line(ball) {
+    const [dx, dy] = ball.shift || [0, 0], points = [], { scale, stretch } = this.view;
+    for (const [t0, t1, x, y] of ball.path.arcs) {
+      if (t0 > this.data.told) break;
+      let long = 0;
+      for (let k = 1; k < x.length; k++) long += Math.hypot(x[k] - x[k - 1], (y[k] - y[k - 1]) * stretch) * scale;
+      const pieces = Math.max(1, Math.min(200, Math.ceil(long / 4)));
+      for (let i = 0; i <= pieces; i++) {
+        const t = Math.min(this.data.told, t0 + ((t1 - t0) * i) / pieces), u = t1 > t0 ? (t - t0) / (t1 - t0) : 0;
+        points.push([...this.spot(evaluate(x, u) + dx, evaluate(y, u) + dy), t]);
+      }
+    }
+    return points;
+  }
+
+  trace(points, from, until, width, colour, opacity, rim) {
+    const { context } = this;
+    context.beginPath();
+    for (const [x, y, t] of points) if (t >= from && t <= until) context.lineTo(x, y);
+    context.lineJoin = context.lineCap = "round";
+    context.globalAlpha = opacity;
+    for (const [wide, ink] of rim ? [[width + rim, this.data.rim], [width, colour]] : [[width, colour]]) {
+      context.lineWidth = wide;
+      context.strokeStyle = ink;
+      context.stroke();
+    }
+    context.globalAlpha = 1;
+  }
+
+  draw() {
+    const { context, view, data, whole } = this, unit = view.unit;
+    const t = this.t, faint = whole || t >= data.told ? 1 : 0.3;
+    const density = this.canvas.width / view.size[0];
+    context.setTransform(density, 0, 0, density, 0, 0);
+    context.drawImage(view.place, 0, 0);
+    this.driven(whole ? data.shown : t);
+    for (const [ball, x, y] of data.strings) {
+      const path = data.balls[ball].path.state(t);
+      context.beginPath();
+      context.moveTo(...this.pixel(x, y));
+      context.lineTo(...this.pixel(path[0], path[1]));
+      context.lineWidth = 1.5 * unit;
+      context.strokeStyle = data.string;
+      context.stroke();
+    }
+    for (const ghost of data.ghosts) this.trace(ghost.line, 0, Infinity, 4.5 * unit, ghost.colour, data.earlier);
+    const balls = [...data.balls.filter((ball) => ball !== this.main), this.main];
+    for (const ball of balls) {
+      const width = ball.thickness * Math.max(2.5, 4.5 * unit), rim = 2 * Math.max(0.75, unit);
+      const here = [...this.spot(...ball.path.state(t)), t];
+      if (faint < 1) this.trace(ball.line, 0, Infinity, width, ball.colour, faint);
+      this.trace(faint < 1 ? [...ball.line.filter((point) => point[2] < t), here] : ball.line, 0, Infinity, width, ball.colour, 1, rim);
+    }
+    if (faint === 1 && view.along) context.drawImage(view.along, 0, 0);
+    for (const ghost of data.ghosts) this.ghost(ghost, t);
+    if (!whole && $("arrows").checked) this.vectors(t);
+    for (const ball of balls) this.ball(ball, t);
+    context.drawImage(view.over, 0, 0);
+    if (this.pointed) this.point();
+    this.now();
+  }
+
+  /** The surfaces that move, where they are at time t. */
+  driven(t) {
+    const { context, view, data } = this, { step, surfaces } = data.driven, { colour, thinnest } = data.driver;
+    for (const { radius, ends } of surfaces) {
+      const place = Math.min(t / (step || 1), ends.length - 1), i = Math.min(Math.floor(place), ends.length - 2);
+      const [ax, ay, bx, by] = ends[i].map((value, k) => value + (place - i) * (ends[i + 1][k] - value));
+      context.beginPath();
+      context.moveTo(...this.pixel(ax, ay));
+      context.lineTo(...this.pixel(bx, by));
+      Object.assign(context, { lineCap: "round", lineWidth: 2 * Math.max(radius * view.scale, thinnest * view.unit), strokeStyle: colour });
+      context.stroke();
+    }
+  }
+
+  ball(ball, t) {
+    if (ball.caught !== null && t >= ball.caught) return;
+    const { context, view, data } = this, [x, y] = ball.path.state(t);
+    const radius = Math.max(ball.radius * view.scale, view.least), [px, py] = this.spot(x, y, radius);
+    if (ball.shapes) this.flat(ball, px, py, radius, this.angle(ball, t));
+    else this.round(ball, t, x, y, px, py, radius);
+    if (data.balls.length === 1 && radius > data.unsaid * ball.radius * view.scale) {
+      const reach = ball.shapes && Math.max(...ball.shapes.flatMap(([corners]) => corners.map((corner) => Math.hypot(...corner))));
+      context.beginPath();
+      context.arc(px, py, ball.shapes ? reach * radius + 2 * view.unit : radius + 4.5 * view.unit, 0, 2 * Math.PI);
+      context.lineWidth = Math.max(1.2, 1.7 * view.unit);
+      context.strokeStyle = data.accent;
+      context.stroke();
+    }
+  }
+
+  round(ball, t, x, y, px, py, radius) {
+    const { context, view, data } = this;
+    this.shadow(ball, x, y, px, py, radius);
+    context.globalAlpha = data.light.rim;
+    this.disc(px, py, radius + this.rim, data.rim);
+    context.globalAlpha = 1;
+    const turn = ball.turning ? ball.turning.at(t) : times(turnedBy([0, 0, this.angle(ball, t)]), ball.lying);
+    ball.sprite.draw(context, px, py, radius, turn);
+  }
+
+  /** How far a ball or body is turned about the axis out of the picture, in rad. */
+  angle(ball, t) {
+    if (!ball.turned) return ball.path.angle(t);
+    const { times, angles } = ball.turned, place = Math.min(t / (times[1] || 1), times.length - 1), i = Math.min(Math.floor(place), times.length - 2);
+    return angles[i] + (place - i) * (angles[i + 1] - angles[i]);
+  }
+
+  /** The width of the thin dark rim around balls and bodies, in px. */
+  get rim() {
+    return Math.max(0.7, 0.8 * this.view.unit);
+  }
+
+  /** What is not round: shapes with corners in radii around (px, py). */
+  flat(ball, px, py, radius, angle) {
+    const { context, data } = this, c = radius * Math.cos(angle), s = radius * Math.sin(angle);
+    for (const [i, [corners, colour]] of ball.shapes.entries()) {
+      context.beginPath();
+      for (const [a, b] of corners) context.lineTo(px + c * a - s * b, py - s * a - c * b);
+      if (ball.rimmed && !i) {
+        context.closePath();
+        Object.assign(context, { globalAlpha: data.light.rim, lineWidth: 2 * this.rim, lineJoin: "round", strokeStyle: data.rim });
+        context.stroke();
+        context.globalAlpha = 1;
+      }
+      context.fillStyle = colour;
+      context.fill();
+    }
+  }
+
+  shadow(ball, x, y, px, py, radius) {
+    const { context, view, data } = this;
+    let at = [px + 0.4 * radius, py + 0.5 * radius], size = [1.05 * radius, 0.95 * radius], dark = 0.55;
+    if (data.ground) {
+      const ground = this.ground(x), height = y - ball.radius - ground;
+      if (height < -0.5 * ball.radius) return;
+      const near = 1 / (1 + (Math.max(0, height) * view.scale * view.stretch) / (80 * view.unit));
+      at = [px, this.pixel(x, ground)[1] + view.unit];
+      size = [radius * (2.2 - near), 0.35 * radius];
+      dark = 0.15 + 0.45 * near;
+    } else if (!data.shadows) return;
+    context.save();
+    context.translate(...at);
+    context.scale(...size);
+    const fading = context.createRadialGradient(0, 0, 0.4, 0, 0, 1.4);
+    fading.addColorStop(0, data.shadow);
+    fading.addColorStop(1, `${data.shadow}00`);
+    context.fillStyle = fading;
+    context.globalAlpha = dark;
+    context.fillRect(-1.5, -1.5, 3, 3);
+    context.restore();
+  }
+
+  disc(x, y, radius, colour) {
+    this.context.beginPath();
+    this.context.arc(x, y, radius, 0, 2 * Math.PI);
+    this.context.fillStyle = colour;
+    this.context.fill();
+  }
+
+  /** Another run's ball, with its name beside it. */
+  ghost(ghost, t) {
+    const { context, view } = this, { arcs } = ghost.path, until = Math.min(t, arcs[arcs.length - 1][1]);
+    const [x, y] = ghost.path.state(until), radius = Math.max(3, 6 * view.unit);
+    const [px, py] = this.spot(x + ghost.shift[0], y + ghost.shift[1], radius);
+    this.disc(px, py, radius, ghost.light);
+    context.font = `700 ${Math.max(11, 14.5 * view.unit)}px "Sandbox Sans", "Noto Sans", sans-serif`;
+    const wide = context.measureText(ghost.label).width + 12 * view.unit, tall = 22 * view.unit;
+    const left = Math.min(px - wide / 2, view.size[0] - wide - 4), top = py - radius - tall - 5 * view.unit;
+    context.fillStyle = this.data.card;
+    context.beginPath();
+    context.roundRect(Math.max(4, left), top, wide, tall, tall / 2);
+    context.fill();
+    context.fillStyle = ghost.light;
+    context.textBaseline = "middle";
+    context.fillText(ghost.label, Math.max(4, left) + 6 * view.unit, top + tall / 2);
+  }
+
+  // -------------------------------------------------------------------------------------------- arrows
+
+  /** Name and colour of each force, and its components in N at time t. */
+  forces(t) {
+    const { times: at, causes } = this.data.forces;
+    let i = at.findIndex((other) => other > t);
+    i = i < 0 ? at.length - 2 : Math.max(0, i - 1);
+    const u = at[i + 1] > at[i] ? Math.min(1, (t - at[i]) / (at[i + 1] - at[i])) : 1;
+    return causes.map(({ name, colour, x, y }) => {
+      const both = [x, y].map((values) => (values[i] === null || values[i + 1] === null ? null : values[i] + u * (values[i + 1] - values[i])));
+      return { name, colour, force: both.includes(null) ? null : both };
+    });
+  }
+
+  vectors(t) {
+    const { view, main, data } = this, [x, y, vx, vy] = main.path.state(t);
+    if (main.caught !== null && t >= main.caught) return;
+    const radius = Math.max(main.radius * view.scale, view.least), at = this.spot(x, y, radius);
+    const arrow = (vector, longest, length, width, colour) => {
+      const size = Math.hypot(...vector), shown = longest > 0 ? Math.min(1.5, size / longest) * length * view.unit : 0;
+      if (shown < data.arrow.shortest * view.unit) return;
+      const along = vector[0] / size, down = -vector[1] / size;
+      const tail = [at[0] + along * radius, at[1] + down * radius];
+      this.arrow(tail, along, down, shown, Math.min(width, shown / view.unit / 4.2) * view.unit, colour);
+    };
+    arrow([vx, vy], data.longest.fastest, data.arrow.velocity, 3.4, data.arrow.colour);
+    for (const { force, colour } of this.forces(t)) if (force) arrow(force, data.longest.strongest, data.arrow.force, 4.2, colour);
+  }
+
+  arrow([x, y], along, down, length, width, colour) {
+    const { context } = this, head = Math.min(3.5 * width, length), half = 0.62 * head, neck = length - head;
+    const corners = [[0, -width / 2], [neck, -width / 2], [neck, -half], [length, 0], [neck, half], [neck, width / 2], [0, width / 2]];
+    context.beginPath();
+    for (const [a, b] of corners) context.lineTo(x + a * along - b * down, y + a * down + b * along);
+    context.closePath();
+    context.lineJoin = "round";
+    context.lineWidth = 2 * Math.max(0.7, this.view.unit);
+    context.strokeStyle = this.data.shadow;
+    context.stroke();
+    context.fillStyle = colour;
+    context.fill();
+  }
+
+  // -------------------------------------------------------------------------------------------- what is said
+
+  /** Label and text of what a ball does at time t, as on the card of a frame. */
+  entries(ball, t) {
+    const [x, y, vx, vy, spin] = ball.path.state(t), rpm = (spin * 30) / Math.PI, speed = Math.hypot(vx, vy);
+    const place = this.data.ground
+      ? [["height", amount(Math.max(0, y - ball.radius - this.ground(x)), "m")]]
+      : [["x", amount(x, "m")], ["y", amount(y, "m")]];
+    return [
+      ["time", amount(t, "s")],
+      ["speed", amount(speed, "m/s")],
+      ...place,
+      ["direction", speed > 0.01 ? amount((Math.atan2(vy, vx) * 180) / Math.PI, "deg") : "–"],
+      ["spin", Math.abs(rpm) < 0.5 ? "none" : `${amount(Math.abs(rpm), "rpm")} ${this.data.spins[rpm > 0 ? 1 : 0]}`],
+    ];
+  }
+
+  now() {
+    const { data, main, t } = this, entries = this.entries(main, t).map((entry) => [...entry, ""]);
+    if (!(main.caught !== null && t >= main.caught)) {
+      for (const { name, force, colour } of this.forces(t)) if (force) entries.push([name, amount(Math.hypot(...force), "N"), colour]);
+    }
+    const list = $("now");
+    while (list.children.length > entries.length) list.lastChild.remove();
+    entries.forEach(([label, text, colour], i) => {
+      const item = list.children[i] || list.appendChild(document.createElement("div"));
+      if (!item.children.length) item.append(document.createElement("dt"), document.createElement("dd"));
+      const [term, value] = item.children;
+      if (term.textContent !== label) {
+        term.textContent = label;
+        if (colour) {
+          const dot = document.createElement("i");
+          dot.style.background = colour;
+          term.prepend(dot);
+        }
+      }
+      value.textContent = text;
+    });
+    const slider = $("time");
+    slider.value = t;
+    slider.setAttribute("aria-valuetext", entries.slice(0, data.ground ? 3 : 2).map(([label, text]) => `${label} ${text}`).join(", "));
+    $("clock").textContent = `${amount(t, "s")} of ${amount(data.duration, "s")}`;
+    $("play").textContent = this.playing ? "Pause" : "Play";
+    document.querySelectorAll("#events li").forEach((item, i) => item.classList.toggle("past", !this.whole && data.events[i] <= t));
+  }
+
+  // -------------------------------------------------------------------------------------------- time
+
+  seek(t) {
+    this.whole = false;
+    this.t = Math.min(Math.max(t, 0), this.data.duration);
+    this.draw();
+  }
+
+  play() {
+    this.playing = !this.playing;
+    if (this.playing && (this.whole || this.t >= this.data.duration)) this.seek(0);
+    this.last = performance.now();
+    if (this.playing) requestAnimationFrame((now) => this.tick(now));
+    this.now();
+  }
+
+  tick(now) {
+    if (!this.playing) return;
+    const passed = Math.max(0, Math.min((now - this.last) / 1000, 0.1));
+    this.last = now;
+    if (this.t + passed * 2 ** this.power >= this.data.duration) this.playing = false;
+    this.seek(this.t + passed * 2 ** this.power);
+    if (this.playing) requestAnimationFrame((next) => this.tick(next));
+  }
+
+  step(by) {
+    this.playing = false;
+    this.seek((this.whole ? 0 : this.t) + by * STEP);
+  }
+
+  faster(by) {
+    this.power = Math.min(Math.max(this.power + by, SLOWEST), FASTEST);
+    $("rate").value = this.power;
+  }
+
+  controls() {
+    const slider = $("time"), rate = $("rate");
+    slider.addEventListener("input", () => {
+      this.playing = false;
+      this.seek(Number(slider.value));
+    });
+    for (let power = SLOWEST; power <= FASTEST; power++) rate.add(new Option(power < 0 ? `1/${2 ** -power}` : `${2 ** power}×`, power));
+    rate.value = 0;
+    rate.addEventListener("change", () => (this.power = Number(rate.value)));
+    $("play").addEventListener("click", () => this.play());
+    $("back").addEventListener("click", () => this.step(-1));
+    $("on").addEventListener("click", () => this.step(1));
+    $("arrows").addEventListener("change", () => this.draw());
+    $("events").addEventListener("click", (event) => {
+      const item = event.target.closest("li");
+      if (!item) return;
+      this.playing = false;
+      this.seek(this.data.events[[...$("events").children].indexOf(item)]);
+    });
+  }
+
+  keys() {
+    const commands = {
+      " ": () => this.play(), r: () => { this.seek(0); if (!this.playing) this.play(); }, ",": () => this.step(-1), ".": () => this.step(1),
+      "+": () => this.faster(1), "=": () => this.faster(1), "-": () => this.faster(-1), o: () => $("arrows").click(),
+      ArrowLeft: () => this.step(-1), ArrowRight: () => this.step(1),
+      Home: () => this.seek(0), End: () => this.seek(this.data.duration),
+    };
+    document.addEventListener("keydown", (event) => {
+      const command = commands[event.key], on = event.target.closest("button, select, summary, input[type=checkbox]");
+      if (!command || event.ctrlKey || event.altKey || event.metaKey || (on && (event.key === " " || on.tagName === "SELECT"))) return;
+      event.preventDefault();
+      command();
+    });
+  }
+
+  // -------------------------------------------------------------------------------------------- pointing
+
+  pointer() {
+    const { canvas } = this;
+    const follow = (event) => {
+      const box = canvas.getBoundingClientRect();
+      this.pointed = this.nearest((event.clientX - box.left) / this.shown, (event.clientY - box.top) / this.shown);
+      this.hint.hidden = !this.pointed;
+      canvas.style.cursor = this.pointed ? "pointer" : "";
+      this.draw();
+    };
+    canvas.addEventListener("pointermove", follow);
+    canvas.addEventListener("pointerdown", follow);
+    canvas.addEventListener("pointerleave", (event) => {
+      if (event.pointerType === "mouse") [this.pointed, this.hint.hidden] = [null, true];
+      this.draw();
+    });
+    canvas.addEventListener("click", () => {
+      if (!this.pointed) return;
+      this.playing = false;
+      this.seek(this.pointed.t);
+    });
+  }
+
+  /** The ball and the time whose place on the picture is nearest to a point in px, if one is near. */
+  nearest(px, py) {
+    let least = NEAR / this.shown, found = null;
+    for (const ball of [...this.data.ghosts, ...this.data.balls]) {
+      for (let i = 1; i < ball.line.length; i++) {
+        const [ax, ay, at] = ball.line[i - 1], [bx, by, bt] = ball.line[i], long = (bx - ax) ** 2 + (by - ay) ** 2;
+        const share = long ? Math.min(1, Math.max(0, ((px - ax) * (bx - ax) + (py - ay) * (by - ay)) / long)) : 0;
+        const far = Math.hypot(ax + share * (bx - ax) - px, ay + share * (by - ay) - py);
+        if (far < least) [least, found] = [far, { ball, t: at + share * (bt - at) }];
+      }
+    }
+    return found;
+  }
+
+  point() {
+    const { ball, t } = this.pointed, { view, data } = this, [x, y] = ball.path.state(t), [dx, dy] = ball.shift || [0, 0];
+    const [px, py] = this.spot(x + dx, y + dy);
+    this.disc(px, py, 6 * view.unit, data.rim);
+    this.disc(px, py, 4.5 * view.unit, data.accent);
+    const name = ball.label || (data.balls.length > 1 ? ball.name : "");
+    this.hint.replaceChildren();
+    if (name) this.hint.append(Object.assign(document.createElement("b"), { textContent: name }));
+    for (const [label, text] of this.entries(ball, t)) this.hint.append(Object.assign(document.createElement("div"), { textContent: `${label} ${text}` }));
+    const left = px * this.shown, top = py * this.shown, wide = this.hint.offsetWidth, tall = this.hint.offsetHeight;
+    this.hint.style.left = `${Math.min(Math.max(4, left + 16), this.canvas.clientWidth - wide - 4)}px`;
+    this.hint.style.top = `${top - tall - 12 > 0 ? top - tall - 12 : top + 16}px`;
+  }
+}

@@ -1,0 +1,277 @@
+"""Runs as data for the player of pages: the place, the paths as polynomials, the forces."""
+
+from __future__ import annotations
+
+from math import atan2, isinf, isnan
+from typing import Any
+
+import numpy as np
+from PIL import Image
+
+from sandbox.engine.model.surface import Circle, Surface
+from sandbox.engine.paths.arc import Arc
+from sandbox.engine.paths.path import Path
+from sandbox.engine.paths.phase import Phase
+from sandbox.page.parts import css, picture, what_changed
+from sandbox.picture import ball as balls
+from sandbox.picture.above import AboveView
+from sandbox.picture.frames import to_image
+from sandbox.picture.moving import NOT_WORTH_NOTING, THINNEST
+from sandbox.picture.palette import palette
+from sandbox.picture.path import instants
+from sandbox.picture.sheet import CARD, Sheet
+from sandbox.picture.side import SideView
+from sandbox.picture.vectors import FORCE_LENGTH, SHORTEST, VELOCITY_LENGTH, colour_of
+from sandbox.picture.view import View
+from sandbox.scene.scene_run import SceneRun
+from sandbox.sport.amounts import DISPLAY_UNITS, ladder
+from sandbox.units import convert
+
+#: The picture that shows until the page's script draws, and where none runs, is at most so large, in px.
+POSTER = (640, 640)
+#: The forces are sampled at so many even times, and at each impact.
+SAMPLES = 240
+#: The poses a second of surfaces that move.
+POSES_A_SECOND = 120
+#: The ground's height is sampled at so many places.
+GROUND = 400
+#: Units of the numbers that the page itself writes.
+UNITS = ("m", "m/s", "deg", "rpm", "s", "N")
+#: To what, in m and rad/s, the path of a ball in a heap is rounded.
+HEAPED = 1e-12
+#: Most impacts and other events that are listed.
+MOST_EVENTS = 400
+
+
+def layout_data(view: View[Any]) -> dict[str, Any]:
+    """Return the poster of a run in its layers, with its camera; lengths in px."""
+    whole = {name: np.array(to_image(view.sheet.surface)) for name in view.layers()}
+    tall = round(view.card_row - 2 * view.sheet.gap)  # the card is below
+    place, paths, along, drawn, over = (whole[name][:tall] for name in ("place", "paths", "along", "balls", "over"))
+    poster = Image.fromarray(over)
+    poster.thumbnail(POSTER)
+    return {
+        **_seen_by(view, tall),
+        "room": view.heading.room,
+        "poster": picture(poster),
+        "place": picture(Image.fromarray(place)),
+        "along": picture(what_changed(paths, along), exact=True),
+        "over": picture(what_changed(drawn, over), exact=True),
+    }
+
+
+def stage_data(view: View[Any]) -> dict[str, Any]:
+    """Return the place of a run without the run, for aiming: its layers, with its camera; lengths in px."""
+    camera, tall = view.camera, round(view.card_row - 2 * view.sheet.gap)
+    sheet = Sheet(view.size, view.on_dark, view.stage())
+    view.behind(sheet.painter, camera, 0.0)
+    place = np.array(to_image(sheet.surface))[:tall]
+    view.before(sheet.painter, camera, 0.0)
+    view.measure(sheet, camera)
+    right = sheet.wind(*view.wind, sheet.frame.right, sheet.frame.top).left if any(view.wind) else sheet.frame.right
+    over = np.array(to_image(sheet.surface))[:tall]
+    return {
+        **_seen_by(view, tall),
+        "room": right - 2 * sheet.gap - sheet.frame.left,
+        "notes": view.notes(camera),
+        "place": picture(Image.fromarray(place), quick=True),
+        "along": None,
+        "over": picture(what_changed(place, over), exact=True, quick=True),
+    }
+
+
+def _seen_by(view: View[Any], tall: int) -> dict[str, Any]:
+    """The camera of a picture of so many rows, and the sizes of what is drawn on it, in px."""
+    camera = view.camera
+    too_large = max(0.0, balls.mark_radius(view.rows) - view.radius * camera.scale)
+    return {
+        "size": (view.size[0], tall),
+        "at": camera.at,
+        "anchor": camera.anchor,
+        "scale": camera.scale,
+        "stretch": camera.stretch,
+        "unit": view.unit,
+        "least": view.min_radius,
+        "lift": too_large if isinstance(view, SideView) and not isinf(view.MAX_STRETCH) else None,
+    }
+
+
+def place_data(view: View[Any]) -> dict[str, Any]:
+    """Return what a page needs of a place besides its layouts: looks, light, ground, colours, ladders of units."""
+    return {
+        "looks": [_look(look, view) for look in _looks(view)],
+        "light": {
+            "towards": (balls.LIGHT / np.linalg.norm(balls.LIGHT)).tolist(),
+            "dark": balls.DARK,
+            "edge": balls.EDGE,
+            "rim": balls.RIM,
+        },
+        "string": css(view.STRING_COLOUR),
+        "ground": _ground(view),
+        "arrow": {
+            "velocity": VELOCITY_LENGTH,
+            "force": FORCE_LENGTH,
+            "shortest": SHORTEST,
+            "colour": css(CARD["text"]),
+        },
+        "driver": {"colour": css(view.DRIVEN), "thinnest": THINNEST},
+        "shadows": isinstance(view, AboveView),
+        "spins": view.SPIN_NAMES,
+        "ladders": {unit: _ladder(unit) for unit in UNITS},
+        "heaped": HEAPED,
+        "unsaid": NOT_WORTH_NOTING,
+        "earlier": palette("trace")["earlier"],
+        "rim": css(palette("trace")["rim"]),
+        **{name: css(CARD[name]) for name in ("accent", "shadow")},
+        "card": css(CARD["background"]),
+    }
+
+
+def path_data(view: View[Any], run: SceneRun) -> dict[str, Any]:
+    """Return the paths of a run, with what moves, as a page draws and plays them on a place."""
+    names, looks = view.balls, [id(look) for look in _looks(view)]
+    return {
+        "ball": view.ball,
+        "balls": [
+            {
+                "name": name,
+                "radius": view.radii[name],
+                "colour": css(view.colour_of(name)),
+                "thickness": view.thickness(name),
+                "look": looks.index(id(view.looks[name])),
+                "lying": view.initial_turn(name).tolist(),
+                "rolls": view.rolls(name),
+                "turned": _turned(view, name, run.duration),
+                "caught": run.caught_at(name),
+                "path": _path(run.arcs[name]),
+            }
+            for name in names
+        ],
+        "ghosts": [
+            {
+                "label": ghost.label,
+                "radius": ghost.view.radius,
+                "colour": css(ghost.colour if not view.on_dark else ghost.light),
+                "light": css(ghost.light),
+                "shift": ghost.shift,
+                "path": _path(ghost.run.arcs[ghost.view.ball]),
+            }
+            for ghost in view.ghosts
+        ],
+        "strings": [[names.index(name), *at] for name, at in view.strings],
+        "driven": _driven(view, run),
+        "shown": view.driven_moment,
+        "events": [event.t for event in run.events[:MOST_EVENTS]],
+        "duration": max([run.duration, *(ghost.run.duration for ghost in view.ghosts)]),
+        "told": view.story_end,
+    }
+
+
+def force_data(view: View[Any], run: SceneRun) -> dict[str, Any]:
+    """Return the forces on the ball that is played, and how long their arrows are."""
+    return {
+        "forces": _forces(view, run),
+        "longest": dict(zip(("fastest", "strongest"), view.vectors.longest, strict=True)),
+    }
+
+
+def _looks(view: View[Any]) -> list[balls.Look]:
+    """The looks of all balls, each once."""
+    return list({id(view.looks[name]): view.looks[name] for name in view.balls}.values())
+
+
+def _path(arcs: Path) -> dict[str, Any]:
+    """The arcs of a ball, each until the next begins where it does not say otherwise.
+
+    Of the thousands of short steps in a heap and in contacts, whose last digits are not those of the physics, each
+    coefficient is what it differs from the one before, in units of HEAPED.
+    """
+    rows, last = [], [0, 0, 0]
+    for arc, end in zip(arcs, [*arcs.starts[1:], arcs[-1].t1], strict=True):
+        curves, within = [list(arc.x), list(arc.y), list(arc.curves[4])], _within(arc)
+        if within and isinstance(within[0], float):
+            whole = [[round(value / HEAPED) for value in curve] for curve in curves]
+            curves = [np.diff([start, *curve]).tolist() for start, curve in zip(last, whole, strict=True)]
+            last = [curve[-1] for curve in whole]
+        else:
+            last = [0, 0, 0]
+        times = arc.t0 if arc.t1 == end else [arc.t0, arc.t1]
+        rows.append([times, *curves, within])
+        if arc.curves[5:]:
+            rows[-1].append([list(curve) for curve in arc.curves[5:]])
+    return {"arcs": rows, "until": arcs[-1].t1}
+
+
+def _within(arc: Arc) -> Any:
+    """Its velocity where it is not the derivative of its place, at an impact; else 0. In a heap and in contacts, what
+    position correction adds to it, in m/s."""
+    if arc.t1 <= arc.t0:
+        return [[arc.start[2]], [arc.start[3]]]
+    return [round(speed, 9) for speed in arc.drift] if arc.phase in (Phase.CLUSTER, Phase.HEAP) else 0
+
+
+def _turned(view: View[Any], name: str, until: float) -> dict[str, Any] | None:
+    """Angles in rad at some times in s of what turns in a way of its own; None for what turns by its spin."""
+    if type(view).turn is View.turn:
+        return None
+    times = np.linspace(0.0, until, SAMPLES)
+    turns = [view.turn(name, float(t)) for t in times]
+    return {"times": times, "angles": np.unwrap([atan2(turn[1, 0], turn[0, 0]) for turn in turns])}
+
+
+def _driven(view: View[Any], run: SceneRun) -> dict[str, Any]:
+    """The surfaces that move, at even times often enough for straight lines between them: the ends of each in m, or
+    twice its middle."""
+    times = np.linspace(0.0, run.duration, max(2, round(run.duration * POSES_A_SECOND)))
+
+    def ends(surface: Surface, t: float) -> list[float]:
+        shape = surface.at(t).shape
+        return [*shape.center, *shape.center] if isinstance(shape, Circle) else [*shape.a, *shape.b]
+
+    surfaces = [
+        {"radius": each.shape.radius, "ends": [[round(x, 6) for x in ends(each, float(t))] for t in times]}
+        for each in view.driven
+    ]
+    return {"step": times[1], "surfaces": surfaces}
+
+
+def _look(look: balls.Look, view: View[Any]) -> dict[str, Any]:
+    """Return the shapes of a flat thing, or the two halves of a ball's skin next to each other, as large as needed."""
+    if isinstance(look, balls.Silhouette):
+        shapes = [[np.asarray(corners), css(colour)] for corners, colour in look.shapes]
+        return {"shapes": shapes, "rimmed": look.rimmed}
+    radius = max(view.min_radius, view.radius * view.camera.scale)
+    halves = look.skin(sum(radius >= mark.least for mark in look.marks))  # by half, column, row
+    skin = np.concatenate(list(halves), axis=0).transpose(1, 0, 2)
+    return {"skin": picture(Image.fromarray(np.ascontiguousarray(skin)), exact=True), "face": balls.FACE,
+            "gloss": look.gloss}  # fmt: skip
+
+
+def _ground(view: View[Any]) -> dict[str, Any] | None:
+    """Heights in m at even places; None in a view from above."""
+    if not isinstance(view, SideView):
+        return None
+    margin = 0.1 * float(np.ptp(view.points[:, 0])) + view.radius
+    places = np.linspace(view.points[:, 0].min() - margin, view.points[:, 0].max() + margin, GROUND)
+    heights = view.ground(places)
+    if np.ptp(heights) == 0.0:
+        places, heights = places[[0, -1]], heights[[0, -1]]
+    return {"from": places[0], "step": places[1] - places[0], "heights": heights.tolist()}
+
+
+def _forces(view: View[Any], run: SceneRun) -> dict[str, Any]:
+    """The components of each force in N at some times in s, None where it does not act."""
+    until = min(run.duration, run.caught_at(view.ball) or run.duration)
+    times = [float(t) for t in instants(run, SAMPLES, [view.ball]) if t <= until]
+    causes = [
+        {"name": name, "colour": css(colour_of(name))}
+        | {axis: [None if isnan(part) else float(f"{part:.6g}") for part in force[:, i]] for i, axis in enumerate("xy")}
+        for name, force in view.vectors.over(times).items()
+    ]
+    return {"times": times, "causes": causes}
+
+
+def _ladder(unit: str) -> list[list[Any]]:
+    """Return the steps by which numbers of a unit are written: the least size, the factor, unit and digits."""
+    steps = ladder(unit) or DISPLAY_UNITS["m"][-1:]
+    return [[step.least, convert(1.0, unit, step.unit), step.unit, step.digits] for step in steps]
