@@ -43,6 +43,7 @@ FLOORS = {
     "window": 5,
     "progress": 6,
     "report": 6,
+    "serve": 6,
     "rows": 6,
     "cli": 6,
     "__main__": 6,

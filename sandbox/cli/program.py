@@ -19,6 +19,7 @@ from sandbox.text import one_line, printable
 COMMANDS = {
     "scenes": ("list", "schema", "new", "play"),
     "run": ("run",),
+    "serve": ("serve",),
     "tasks": ("tasks",),
     "lab": ("aim", "fit", "spread", "sweep", "trade", "stress", "validate"),
 }

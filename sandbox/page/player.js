@@ -55,6 +55,12 @@ class Player {
     this.t = data.told;
     this.pointed = null;
     this.hint.hidden = true;
+    this.timeline();
+  }
+
+  /** The slider of time, with a mark at each event. */
+  timeline() {
+    const { data } = this;
     $("time").max = data.duration;
     $("marks").replaceChildren(...[...new Set(data.events)].map((t) => {
       const mark = document.createElement("i");
@@ -153,6 +159,7 @@ class Player {
       context.strokeStyle = data.string;
       context.stroke();
     }
+    this.beneath();
     for (const ghost of data.ghosts) this.trace(ghost.line, 0, Infinity, 4.5 * unit, ghost.colour, data.earlier);
     const balls = [...data.balls.filter((ball) => ball !== this.main), this.main];
     for (const ball of balls) {
@@ -166,9 +173,15 @@ class Player {
     if (!whole && $("arrows").checked) this.vectors(t);
     for (const ball of balls) this.ball(ball, t);
     context.drawImage(view.over, 0, 0);
+    this.above();
     if (this.pointed) this.point();
     this.now();
   }
+
+  /** What other pages draw on the place under all paths, and over everything. */
+  beneath() {}
+
+  above() {}
 
   /** The surfaces that move, where they are at time t. */
   driven(t) {
@@ -441,6 +454,8 @@ class Player {
     };
     document.addEventListener("keydown", (event) => {
       const command = commands[event.key], on = event.target.closest("button, select, summary, input[type=checkbox]");
+      const field = event.target.closest("input");
+      if (field && field.id !== "time" && field.type !== "checkbox") return; // it is typed into
       if (!command || event.ctrlKey || event.altKey || event.metaKey || (on && (event.key === " " || on.tagName === "SELECT"))) return;
       event.preventDefault();
       command();
@@ -451,24 +466,36 @@ class Player {
 
   pointer() {
     const { canvas } = this;
-    const follow = (event) => {
-      const box = canvas.getBoundingClientRect();
-      this.pointed = this.nearest((event.clientX - box.left) / this.shown, (event.clientY - box.top) / this.shown);
-      this.hint.hidden = !this.pointed;
-      canvas.style.cursor = this.pointed ? "pointer" : "";
-      this.draw();
-    };
-    canvas.addEventListener("pointermove", follow);
-    canvas.addEventListener("pointerdown", follow);
-    canvas.addEventListener("pointerleave", (event) => {
-      if (event.pointerType === "mouse") [this.pointed, this.hint.hidden] = [null, true];
-      this.draw();
-    });
-    canvas.addEventListener("click", () => {
-      if (!this.pointed) return;
-      this.playing = false;
-      this.seek(this.pointed.t);
-    });
+    canvas.addEventListener("pointermove", (event) => this.follow(event));
+    canvas.addEventListener("pointerdown", (event) => this.follow(event));
+    canvas.addEventListener("pointerleave", (event) => this.left(event));
+    canvas.addEventListener("click", () => this.go());
+  }
+
+  /** Read the path under the pointer. */
+  follow(event) {
+    this.pointed = this.nearest(...this.under(event));
+    this.hint.hidden = !this.pointed;
+    this.canvas.style.cursor = this.pointed ? "pointer" : "";
+    this.draw();
+  }
+
+  /** The place under the pointer, in px of the layer. */
+  under(event) {
+    const box = this.canvas.getBoundingClientRect();
+    return [(event.clientX - box.left) / this.shown, (event.clientY - box.top) / this.shown];
+  }
+
+  left(event) {
+    if (event.pointerType === "mouse") [this.pointed, this.hint.hidden] = [null, true];
+    this.draw();
+  }
+
+  /** Go to the time that is pointed at. */
+  go() {
+    if (!this.pointed) return;
+    this.playing = false;
+    this.seek(this.pointed.t);
   }
 
   /** The ball and the time whose place on the picture is nearest to a point in px, if one is near. */

@@ -7,6 +7,7 @@ from math import atan2, degrees, exp, hypot, inf, log
 from typing import Any, NamedTuple
 
 from sandbox.parameters import Parameter
+from sandbox.sport.controls import Controls
 from sandbox.window.session import Session
 
 #: The longest full pull, as a share of the stage's height; the shortest, in px, however near the window's edge is; and
@@ -48,8 +49,13 @@ class Speeds(NamedTuple):
 
 def speeds(session: Session) -> Speeds:
     """The speeds within reach of a pull: scaled to the scene's own, since one pull serves putts and drives."""
-    controls, parameter = session.controls, session.parameters.get(session.controls.speed)
-    base = session.base_value(controls.speed)
+    controls = session.controls
+    return pull_speeds(controls, session.parameters.get(controls.speed), session.base_value(controls.speed))
+
+
+def pull_speeds(controls: Controls, parameter: Parameter | None, base: Any) -> Speeds:
+    """The speeds within reach of a pull in a scene with these controls, whose own speed is ``base``; all within the
+    bounds of the speed's ``parameter``."""
     own = base if isinstance(base, float) and base > 0 else FROM_REST * controls.full_pull_speed
     low, high = controls.softest * own, min(controls.full_pull_speed, HARDEST * own)
     if parameter is not None:

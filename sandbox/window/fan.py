@@ -176,11 +176,36 @@ def cloud(
     elsewhere = elsewhere[: fan.left]
     shots = [shot for shot in (*fan.flown, *reversed(elsewhere)) if shot is not None]
     good, rest = fan.densities(elsewhere, camera, size)
-    sigmas = [f"{key.rpartition('.')[2]} ± {short(sigma)} {p.unit or ''}" for key, (p, sigma) in spread.items()]
-    said = _said(scene, asked, shots), ", ".join(map(str.rstrip, sigmas))
+    said = _said(scene, asked, shots), _by(spread)
     scored, left = sum(shot.scored for shot in shots), max(0, fan.left - len(elsewhere))
     left = SHOTS if quick else left
     return Cloud(*_drawn(good, rest, colours), said, len(shots), scored, left, _bars(scene, asked, shots))
+
+
+class FanShots(NamedTuple):
+    """The shots of a fan, and what is said of them."""
+
+    shots: Sequence[FanShot]
+    said: str  # how many score
+    by: str  # by how much the shots differ
+    bars: Bars | None
+
+
+def fan_of(scene: Scene, seconds: float) -> FanShots | None:
+    """The fan of a scene, as many of its shots as are computed in so many s; None for a shot without spread."""
+    spread, asked = players_spread(scene), _asked(scene)
+    if not spread:
+        return None
+    fan = Fan(scene, spread, asked, quick=False, backwards=False)
+    fan.go_on(fan.left, FEWEST, seconds)
+    shots = [shot for shot in fan.flown if shot is not None]
+    return FanShots(shots, _said(scene, asked, shots), _by(spread), _bars(scene, asked, shots))
+
+
+def _by(spread: _Spread) -> str:
+    """Text: by how much the shots differ."""
+    sigmas = [f"{key.rpartition('.')[2]} ± {short(sigma)} {p.unit or ''}" for key, (p, sigma) in spread.items()]
+    return ", ".join(map(str.rstrip, sigmas))
 
 
 def _said(scene: Scene, asked: Sequence[str], shots: Sequence[FanShot]) -> str:

@@ -1,0 +1,188 @@
+// Aiming on the picture: the path as it will be, similar shots, the pull by which a player aims.
+
+const SHORTEST_PULL = 60, CLICK = 8; // px on the screen: a full pull is never shorter, a pull is never as short
+const FULL = 0.42; // of the picture's height: a full pull
+const BORDER = 4; // px that a full pull leaves free before the window's edge
+const EDGE = 0.02; // of the picture: a path nearer to its edge is out of sight
+const SMALL = 0.5; // of the picture: a smaller path is seen from nearer
+
+class Aim extends Player {
+  constructor(data, hands) {
+    super(data);
+    this.hands = hands; // what is done when the player aims, lets go, turns
+  }
+
+  /** Take a run that is aimed with: it begins, and its whole path is shown. */
+  aim(data) {
+    this.load(data);
+    this.watched = false;
+    this.t = 0;
+    this.resized();
+  }
+
+  /** Take a run that was let go, and play it. */
+  watch(data) {
+    this.load(data);
+    this.watched = true;
+    this.resized();
+    this.seek(0);
+    this.play();
+  }
+
+  /** True if the whole path is seen, and large enough. */
+  get inSight() {
+    const [width, height] = this.view.size, { line } = this.main;
+    const at = (axis) => line.map((point) => point[axis]);
+    const [left, right, top, bottom] = [0, 1].flatMap((axis) => [Math.min(...at(axis)), Math.max(...at(axis))]);
+    const within = left > EDGE * width && right < (1 - EDGE) * width && top > EDGE * height && bottom < (1 - EDGE) * height;
+    return within && Math.max((right - left) / width, (bottom - top) / height) > SMALL * (this.reach || 0);
+  }
+
+  // -------------------------------------------------------------------------------------------- drawing
+
+  beneath() {
+    const { context, data, fan } = this;
+    if (!fan || this.watched) return;
+    for (const scores of [false, true]) {
+      context.beginPath();
+      for (const [scored, line] of fan.lines) {
+        if (scored !== scores) continue;
+        for (let i = 0; i < line.length; i += 2) context[i ? "lineTo" : "moveTo"](...this.spot(line[i], line[i + 1]));
+      }
+      Object.assign(context, { lineWidth: 1.5 * this.view.unit, strokeStyle: scores ? data.good : "#f4f6f8" });
+      context.globalAlpha = fan.late ? 0.12 : 0.35; // that of a moment ago
+      context.stroke();
+      context.globalAlpha = 1;
+    }
+  }
+
+  above() {
+    const { context, pull, data, shown } = this;
+    if (!pull) return;
+    const [from, to] = [pull.start, pull.at].map((at) => at.map((value) => value / shown));
+    for (const [width, colour] of [[5, data.rim], [2.5, data.accent]]) {
+      context.beginPath();
+      context.moveTo(...from);
+      context.lineTo(...to);
+      Object.assign(context, { lineWidth: width / shown, strokeStyle: colour, lineCap: "round" });
+      context.stroke();
+      for (const [place, radius] of [[from, 3], [to, 7]]) {
+        context.beginPath();
+        context.arc(...place, radius / shown, 0, 2 * Math.PI);
+        context.stroke();
+      }
+    }
+  }
+
+  /** Names of other runs are at their ends while the shot is aimed. */
+  ghost(ghost, t) {
+    super.ghost(ghost, this.watched ? t : this.data.told);
+  }
+
+  // -------------------------------------------------------------------------------------------- by hand
+
+  pointer() {
+    const { canvas } = this;
+    canvas.addEventListener("pointerdown", (event) => {
+      if (event.button || !this.hands?.may()) return;
+      canvas.setPointerCapture(event.pointerId);
+      canvas.focus({ preventScroll: true });
+      const start = this.inside(event);
+      this.pull = { start, at: start, last: start, fine: [0, 0], id: event.pointerId };
+      [this.pointed, this.hint.hidden] = [null, true];
+    });
+    canvas.addEventListener("pointermove", (event) => {
+      if (!this.pull) return this.data.hidden || this.follow(event);
+      if (event.pointerId === this.pull.id) this.pulled(event);
+    });
+    canvas.addEventListener("pointerup", (event) => {
+      const { pull } = this;
+      if (!pull || event.pointerId !== pull.id) return;
+      this.pull = null;
+      if (this.length(pull) >= CLICK) this.hands.shoot();
+      else if (this.watched) [this.pointed = this.nearest(...this.under(event)), this.go()];
+      this.draw();
+    });
+    canvas.addEventListener("pointercancel", () => this.cancel());
+    canvas.addEventListener("pointerleave", (event) => this.pull || this.left(event));
+    canvas.addEventListener("wheel", (event) => {
+      if (document.activeElement !== canvas || !this.hands?.may()) return;
+      event.preventDefault();
+      this.hands.spin(event.shiftKey ? 1 : 0, event.deltaY < 0 || event.deltaX < 0 ? 1 : -1);
+    }, { passive: false });
+  }
+
+  /** Stop pulling, without a shot. */
+  cancel() {
+    this.pull = null;
+    this.draw();
+  }
+
+  inside(event) {
+    const box = this.canvas.getBoundingClientRect();
+    return [event.clientX - box.left, event.clientY - box.top];
+  }
+
+  length({ start, at }) {
+    return Math.hypot(at[0] - start[0], at[1] - start[1]);
+  }
+
+  /** Pull on; with Shift by a tenth of the way. */
+  pulled(event) {
+    const { pull } = this, now = this.inside(event), share = event.shiftKey ? 0.1 : 1;
+    pull.at = pull.at.map((value, axis) => value + share * (now[axis] - pull.last[axis]));
+    pull.last = now;
+    const along = pull.at[0] - pull.start[0], down = pull.at[1] - pull.start[1], length = this.length(pull);
+    if (length < CLICK) return this.draw();
+    const box = this.canvas.getBoundingClientRect(), ends = [[box.left, innerWidth], [box.top, innerHeight]];
+    let room = Infinity; // px until the window's edge
+    ends.forEach(([offset, end], axis) => {
+      const by = axis ? down : along, at = offset + pull.start[axis];
+      if (by) room = Math.min(room, ((by > 0 ? end - at : at) - BORDER) * length / Math.abs(by));
+    });
+    const full = Math.max(SHORTEST_PULL, Math.min(FULL * this.canvas.clientHeight, room));
+    const angle = (Math.atan2(down / this.view.stretch, -along) * 180) / Math.PI;
+    this.hands.pull(Math.min(1, Math.max(0, (length - CLICK) / (full - CLICK))), angle);
+    this.draw();
+  }
+
+  keys() {
+    super.keys();
+    const turn = (by) => (event) => this.hands.turn(event.shiftKey ? by / 10 : by);
+    const push = (by) => (event) => this.hands.push(event.shiftKey ? by / 10 : by);
+    const commands = {
+      ArrowLeft: turn(1), ArrowRight: turn(-1), ArrowUp: push(1), ArrowDown: push(-1), Enter: () => this.hands.shoot(),
+      Escape: () => (this.pull ? this.cancel() : this.hands.again()),
+    };
+    this.canvas.addEventListener("keydown", (event) => {
+      const command = commands[event.key];
+      if (!command || event.ctrlKey || event.altKey || event.metaKey) return;
+      event.preventDefault();
+      event.stopPropagation();
+      if (event.key === "Escape" || this.hands.may()) command(event);
+    });
+  }
+}
+
+/** A histogram: bars of shots that score, and of the rest on them. */
+function drawBars(canvas, good, rest, [low, high]) {
+  const density = Math.max(1, devicePixelRatio || 1), [wide, tall] = [canvas.clientWidth, canvas.clientHeight], foot = 16;
+  [canvas.width, canvas.height] = [Math.round(wide * density), Math.round(tall * density)];
+  const context = canvas.getContext("2d"), most = Math.max(1, ...good.map((count, i) => count + rest[i])), each = wide / good.length;
+  context.setTransform(density, 0, 0, density, 0, 0);
+  good.forEach((count, i) => {
+    let top = tall - foot;
+    for (const [number, colour] of [[count, "#2bb673"], [rest[i], "#8a99a6"]]) {
+      const height = (number / most) * (tall - foot);
+      context.fillStyle = colour;
+      context.fillRect(i * each + 0.5, top - height, each - 1, height);
+      top -= height;
+    }
+  });
+  context.font = '12px "Sandbox Sans", "Noto Sans", sans-serif';
+  context.fillStyle = getComputedStyle(canvas).color;
+  context.textBaseline = "bottom";
+  context.fillText(low, 0, tall);
+  context.textAlign = "right";
+  context.fillText(high, wide, tall);
+}

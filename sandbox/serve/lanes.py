@@ -1,0 +1,115 @@
+"""Processes that compute for many players: one job of a kind a player, the newest wins, and long ones never keep short
+ones waiting."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Hashable
+from dataclasses import dataclass, field
+from time import monotonic
+from typing import Any
+
+from sandbox.serve.limits import LONG, RUN
+from sandbox.serve.work import Reply
+from sandbox.workers.pool import WorkerLost, cores
+from sandbox.workers.processes import Processes
+
+#: More processes than cores: as many long jobs may run at once.
+SPARE = 2
+#: Share of the last time in the time that a job is expected to take.
+LEARNED = 0.5
+
+
+@dataclass(eq=False)
+class Job:
+    """A call for a player, who is waiting for ``reply``; it is None if a newer one took its place."""
+
+    owner: Hashable
+    alike: Hashable  # what takes about as long
+    work: Callable[..., Reply]
+    args: tuple[Any, ...]
+    reply: asyncio.Future[Reply | None]
+    began: float = field(default=0.0)  # s, on the clock of monotonic
+
+
+class Lanes:
+    """``width`` processes. In the loop of the thread that makes it."""
+
+    def __init__(self, width: int | None = None) -> None:
+        self.width = width or cores() + SPARE
+        self._processes = [Processes(1) for _ in range(self.width)]
+        self._idle = list(self._processes)
+        self._running: dict[Hashable, Job] = {}  # by owner
+        self._waiting: dict[Hashable, Job] = {}  # the newest of each owner, in the order in which they came
+        self._takes: dict[Hashable, float] = {}  # s, by what takes about as long
+        self._tasks: set[asyncio.Task[None]] = set()
+
+    async def compute(self, owner: Hashable, alike: Hashable, work: Callable[..., Reply], *args: Any) -> Reply | None:
+        """The reply of ``work(*args)``, computed once the owner's last job has ended; None if the owner wants something
+        newer by then. One that takes too long is ended, which its reply says."""
+        job = Job(owner, alike, work, args, asyncio.get_running_loop().create_future())
+        older = self._waiting.get(owner)
+        if older is not None and not older.reply.done():
+            older.reply.set_result(None)
+        self._waiting[owner] = job  # in the place of the older one
+        self._start()
+        return await job.reply
+
+    async def each(self, work: Callable[..., Reply], *args: Any) -> None:
+        """Call ``work(*args)`` in every process."""
+        calls = [process.submit(work, *args) for process in self._processes]
+        await asyncio.gather(*map(asyncio.wrap_future, calls), return_exceptions=True)
+
+    def forget(self, owner: Hashable) -> None:
+        """Drop what an owner who left is waiting for."""
+        job = self._waiting.pop(owner, None)
+        if job is not None and not job.reply.done():
+            job.reply.set_result(None)
+
+    def close(self) -> None:
+        """End all processes, whatever they compute."""
+        for process in self._processes:
+            process.close(abandon=True)
+
+    def _start(self) -> None:
+        """Start what can be started: long jobs only as long as enough processes are left for short ones."""
+        now = monotonic()
+        long = sum(self._is_long(job, now) for job in self._running.values())
+        for owner, job in list(self._waiting.items()):
+            if not self._idle:
+                return
+            is_long = self._is_long(job, now)
+            if owner in self._running or (is_long and long >= max(1, self.width - cores())):
+                continue
+            del self._waiting[owner]
+            long += is_long
+            job.began = now
+            self._running[owner] = job
+            task = asyncio.create_task(self._run(job, self._idle.pop()))
+            self._tasks.add(task)
+            task.add_done_callback(self._tasks.discard)
+
+    def _is_long(self, job: Job, now: float) -> bool:
+        """True if a job is expected to take long, or has done so."""
+        return self._takes.get(job.alike, 0.0) > LONG or (job.began > 0.0 and now - job.began > LONG)
+
+    async def _run(self, job: Job, process: Processes) -> None:
+        reply: Reply
+        call = process.submit(job.work, *job.args)
+        ending = asyncio.get_running_loop().call_later(RUN, process.abandon, call)
+        try:
+            reply = await asyncio.wrap_future(call)
+        except WorkerLost:
+            late = monotonic() - job.began >= RUN
+            reply = {"error": f"this takes more than {RUN:g} s to compute, and was ended" if late else
+                     "the process that computed this was lost; try again"}  # fmt: skip
+        except Exception as error:
+            reply = {"error": f"this could not be computed: {type(error).__name__}"}
+        ending.cancel()
+        took = monotonic() - job.began
+        self._takes[job.alike] = LEARNED * took + (1 - LEARNED) * self._takes.get(job.alike, took)
+        del self._running[job.owner]
+        self._idle.append(process)
+        if not job.reply.done():
+            job.reply.set_result(reply)
+        self._start()

@@ -1,0 +1,134 @@
+"""What a browser may say: everything else is refused before anything is done with it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, StringConstraints, TypeAdapter, ValidationError
+
+from sandbox.errors import RequestError
+from sandbox.serve.limits import CHANGES, KEY, NAME, WORD
+from sandbox.text import one_line, printable
+
+Key = Annotated[str, StringConstraints(max_length=KEY)]
+Word = Annotated[str, StringConstraints(max_length=WORD)]
+Value = bool | Annotated[float, Field(allow_inf_nan=False)] | Word
+Changes = Annotated[dict[Key, Value], Field(max_length=CHANGES)]
+Number = Annotated[int, Field(ge=0, lt=2**53)]  # by which a browser recognises the answer
+
+
+class Message(BaseModel):
+    """Base of all messages: no unknown keys, no conversions."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+
+
+class Hello(Message):
+    """The first message: who it is, again after a lost connection; and what a link asks for."""
+
+    do: Literal["hello"]
+    session: Key = ""
+    name: Annotated[str, StringConstraints(max_length=4 * NAME)] = ""
+    source: Key = ""
+    changes: Changes = {}
+
+
+class Name(Message):
+    """Another name."""
+
+    do: Literal["name"]
+    name: Annotated[str, StringConstraints(max_length=4 * NAME)]
+
+
+class Play(Message):
+    """Another scene."""
+
+    do: Literal["play"]
+    source: Key
+    changes: Changes = {}
+
+
+class Aim(Message):
+    """Compute something with these parameters: the path, the place or the fan."""
+
+    do: Literal["path", "stage", "fan"]
+    n: Number
+    changes: Changes
+    narrow: bool = False
+
+
+class Shoot(Message):
+    """Let go, with what the player predicts of it if the teacher asks."""
+
+    do: Literal["shoot"]
+    n: Number
+    changes: Changes
+    predicted: Annotated[float, Field(allow_inf_nan=False)] | None = None
+
+
+class Lead(Message):
+    """The teacher sets a scene for all, or lets everybody choose where ``source`` is empty."""
+
+    do: Literal["lead"]
+    source: Key
+    changes: Changes = {}
+
+
+class Freeze(Message):
+    """The teacher stops everybody, or lets them go on."""
+
+    do: Literal["freeze"]
+    on: bool
+
+
+class Predict(Message):
+    """The teacher asks for a prediction of a result before each shot; of none where ``fact`` is empty."""
+
+    do: Literal["predict"]
+    fact: Key
+
+
+class Clear(Message):
+    """The teacher empties the table."""
+
+    do: Literal["clear"]
+
+
+PUPILS = (Hello, Name, Play, Aim, Shoot)
+_PUPIL: TypeAdapter[Any] = TypeAdapter(Annotated[Hello | Name | Play | Aim | Shoot, Field(discriminator="do")])
+_TEACHER: TypeAdapter[Any] = TypeAdapter(
+    Annotated[Hello | Aim | Lead | Freeze | Predict | Clear, Field(discriminator="do")]
+)
+
+
+def read(text: str, teacher: bool = False) -> Any:
+    """The message. Raises RequestError with a line on what is wrong with it."""
+    try:
+        return (_TEACHER if teacher else _PUPIL).validate_json(text)
+    except ValidationError as failure:
+        error = failure.errors(include_url=False, include_input=False, include_context=False)[0]
+        place = ".".join(map(str, error["loc"][1:]))[:KEY]
+        raise RequestError(f"message refused: {place}{': ' if place else ''}{error['msg'].lower()}") from None
+
+
+def named(name: str) -> str:
+    """A name as it is shown: one line, without control characters, at most NAME characters."""
+    return printable(one_line(name)).strip()[:NAME].strip()
+
+
+def check(changes: Mapping[str, Any], declared: Mapping[str, Mapping[str, Any]]) -> None:
+    """Raise RequestError unless each key is that of a parameter that may be changed, and its value within bounds.
+
+    ``declared`` are the parameters by key, as ``work.described`` has them.
+    """
+    for key, value in changes.items():
+        known = declared.get(key)
+        if known is None:
+            raise RequestError(f"{one_line(printable(key))}: cannot be changed here")
+        low, high, choices, unit = known["low"], known["high"], known["choices"], known["unit"]
+        if choices is not None:
+            if value not in choices or isinstance(value, bool) != isinstance(choices[0], bool):
+                raise RequestError(f"{key}: choose from {', '.join(map(str, choices))}")
+        elif isinstance(value, bool | str) or not low <= value <= high:
+            raise RequestError(f"{key}: must be a number from {low:.10g} to {high:.10g} {unit}".rstrip())

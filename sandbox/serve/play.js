@@ -1,0 +1,392 @@
+// The page of a player.
+
+const STILL = 150, SETTLED = 350; // ms without a change, after which the place and the fan are asked for again
+const MOST_COMPARED = 3;
+
+const state = { source: "", changes: {}, scene: null, stage: null, run: null, lead: {}, compared: [], shot: false, name: "" };
+let player = null, wire, ask, settings, timers = {};
+
+// ------------------------------------------------------------------------------------------------ the address
+
+/** Scene and parameters of a link: #golf?launch.speed=70 */
+function linked(hash) {
+  const [source, query] = decodeURI(hash.slice(1)).split(/\?(.*)/s), changes = {};
+  for (const [key, text] of new URLSearchParams(query || "")) {
+    const number = Number(text);
+    changes[key] = text === "true" || text === "false" ? text === "true" : text !== "" && Number.isFinite(number) ? number : text;
+  }
+  return { source, changes };
+}
+
+function link() {
+  const query = new URLSearchParams(state.changes).toString();
+  return `#${encodeURI(state.source)}${query ? `?${query}` : ""}`;
+}
+
+// ------------------------------------------------------------------------------------------------ asking
+
+const narrow = () => $("picture").clientWidth < 700;
+
+/** The parameters have changed: aim with them. */
+function changed(still = false) {
+  if (state.shot) again(false);
+  settings.show(state.changes);
+  history.replaceState(null, "", link());
+  $("link").value = location.href;
+  ask.path.ask({ changes: state.changes });
+  if (player?.fan) player.fan.late = true;
+  aimed();
+  later("fan", still ? 0 : SETTLED, askFan);
+}
+
+/** Do something after so many ms in which it was not asked for again. */
+function later(what, wait, action) {
+  clearTimeout(timers[what]);
+  timers[what] = setTimeout(action, wait);
+}
+
+function askStage() {
+  state.composedFor = JSON.stringify(state.changes);
+  ask.stage.ask({ changes: state.changes, narrow: narrow() });
+}
+
+function askFan() {
+  if ($("fan").checked && !state.shot && !state.lead.predict) ask.fan.ask({ changes: state.changes });
+}
+
+function set(values) {
+  const { by } = state.scene;
+  for (const [key, value] of Object.entries(values)) {
+    if (by.get(key)?.value === value) delete state.changes[key];
+    else state.changes[key] = value;
+  }
+  changed();
+}
+
+const value = (key) => (key in state.changes ? state.changes[key] : state.scene.by.get(key)?.value);
+
+/** Speed and angle, as they are aimed. */
+function aimed() {
+  const { pull, by } = state.scene;
+  const text = (key) => `${typed(value(key))}${by.get(key).unit === "deg" ? "°" : ` ${by.get(key).unit}`}`;
+  $("aimed").textContent = pull ? `${text(pull.speed)} at ${text(pull.angle)}` : "";
+}
+
+// ------------------------------------------------------------------------------------------------ aiming
+
+const within = ({ low, high }, number) => Math.min(high, Math.max(low, number));
+
+/** An angle within its bounds, by whole turns where that helps. */
+function turned(parameter, angle) {
+  const found = [angle, angle - 360, angle + 360].find((each) => each === within(parameter, each));
+  return found ?? within(parameter, angle);
+}
+
+const rounded = (number, digits) => Number(number.toFixed(digits));
+
+const hands = {
+  may: () => Boolean(state.scene?.pull && player && !state.lead.frozen && wire.open),
+  pull(share, angle) {
+    const { pull, by } = state.scene, place = share * (pull.speeds.length - 1), i = Math.min(Math.floor(place), pull.speeds.length - 2);
+    const speed = pull.speeds[i] + (place - i) * (pull.speeds[i + 1] - pull.speeds[i]);
+    set({ ...pull.sets, [pull.speed]: within(by.get(pull.speed), Number(speed.toPrecision(4))), [pull.angle]: turned(by.get(pull.angle), rounded(angle, 2)) });
+  },
+  turn(by) {
+    const { pull, by: known } = state.scene;
+    set({ ...pull.sets, [pull.angle]: turned(known.get(pull.angle), rounded(value(pull.angle) + by, 3)) });
+  },
+  push(by) {
+    const { pull, by: known } = state.scene;
+    set({ ...pull.sets, [pull.speed]: within(known.get(pull.speed), rounded(value(pull.speed) + by * pull.push, 6)) });
+  },
+  spin(which, by) {
+    const spin = state.scene.pull.spins[which], parameter = spin && state.scene.by.get(spin.key);
+    if (parameter) set({ ...state.scene.pull.sets, [spin.key]: within(parameter, rounded(value(spin.key) + by * spin.step, 6)) });
+  },
+  shoot() {
+    if (!player || state.lead.frozen) return;
+    const message = { changes: state.changes };
+    if (state.lead.predict) {
+      if (!$("prediction").reportValidity()) return;
+      state.predicted = message.predicted = Number($("predicted").value);
+    }
+    ask.shoot.forget();
+    ask.shoot.ask(message);
+  },
+  again: () => again(true),
+};
+
+/** Aim again; with `asking` with the same parameters. */
+function again(asking) {
+  state.shot = false;
+  $("playback").hidden = true;
+  if (asking) changed(true);
+}
+
+// ------------------------------------------------------------------------------------------------ what comes
+
+const heard = {
+  welcome({ session, name, scenes }) {
+    sessionStorage.setItem("session", session);
+    $("name").value = state.name = name;
+    const groups = new Map();
+    for (const [scene, about] of Object.entries(scenes)) {
+      const sport = scene.startsWith(".") ? scene : scene.split("/")[0];
+      if (!groups.has(sport)) groups.set(sport, Object.assign(document.createElement("optgroup"), { label: sport }));
+      groups.get(sport).append(Object.assign(new Option(scene, scene), { title: about }));
+    }
+    $("scene").replaceChildren(...(groups.size === 1 ? [...groups.values()][0].children : groups.values()));
+  },
+  name({ name }) {
+    $("name").value = state.name = name;
+  },
+  lead(lead) {
+    const before = state.lead;
+    state.lead = lead;
+    $("scene").disabled = Boolean(lead.source);
+    $("prediction").hidden = !lead.predict;
+    if (state.scene) predicting();
+    told("frozen", lead.frozen ? "The teacher has stopped the game for a moment." : "");
+    $("shoot").disabled = lead.frozen || !state.run;
+    if (player && state.scene && (before.predict || "") !== lead.predict && !state.shot) changed(true);
+    else if (before.frozen && !lead.frozen && state.scene) changed(true);
+  },
+  scene(scene) {
+    const other = state.source !== scene.source;
+    Object.assign(state, { source: scene.source, changes: { ...scene.changes }, scene, shot: false });
+    scene.by = new Map(scene.parameters.map((each) => [each.key, each]));
+    if (other || !state.stage) Object.assign(state, { stage: null, run: null, compared: [] });
+    if (player) player.fan = null;
+    compare();
+    document.title = `${scene.title}: sports sandbox`;
+    $("scene").value = scene.source;
+    $("about").textContent = [scene.about, scene.held && `${scene.held}: only in the window`].filter(Boolean).join(" · ");
+    $("playback").hidden = true;
+    settings.build(scene.parameters);
+    predicting();
+    for (const each of Object.values(ask)) each.forget();
+    changed(true);
+    askStage();
+  },
+  async stage({ n, stage }) {
+    if (!ask.stage.answered(n)) return;
+    state.stage = await staged(stage);
+    document.querySelector(".picture").classList.toggle("dark", stage.dark);
+    if (state.run) show(state.run, state.composedFor === JSON.stringify(state.changes));
+  },
+  path({ n, run }) {
+    if (!ask.path.answered(n) || state.shot) return;
+    state.run = run;
+    tell("");
+    $("shoot").disabled = Boolean(state.lead.frozen);
+    show(run);
+  },
+  shot({ n, run }) {
+    if (!ask.shoot.answered(n)) return;
+    tell("");
+    Object.assign(state, { run, shot: true });
+    show(run);
+    played(run);
+  },
+  fan({ n, said, by, lines, bars }) {
+    if (!ask.fan.answered(n) || !player) return;
+    player.fan = lines ? { lines } : null;
+    $("fan-said").hidden = false;
+    $("fan-score").textContent = said;
+    $("fan-by").textContent = by || "";
+    $("bars").hidden = !bars;
+    $("bars-title").textContent = bars?.title ?? "";
+    if (bars) drawBars($("bars"), bars.good, bars.rest, bars.ends);
+    player.draw();
+  },
+  error({ text, n }) {
+    tell(text);
+    for (const each of Object.values(ask)) if (n !== null && each.awaited === n) each.answered(n);
+  },
+};
+
+/** Show a run on the stage, once both are there; `composed` if the stage was made for it. */
+function show(run, composed = false) {
+  const { stage, scene } = state;
+  if (!stage) return;
+  const ghosts = state.compared.map((each, i) => ({ ...each, colour: stage.others[i % stage.others.length][0], light: stage.others[i % stage.others.length][0] }));
+  const data = onStage(stage, run, run.hidden ? [] : ghosts);
+  if (!player) window.player = player = new Aim(data, hands);
+  if (state.shot && composed) player.load(data), player.resized(), player.seek(player.data.duration);
+  else if (state.shot) player.watch(data);
+  else player.aim(data);
+  const line = player.main.line, spread = (axis) => Math.max(...line.map((p) => p[axis])) - Math.min(...line.map((p) => p[axis]));
+  if (composed) player.reach = Math.max(spread(0) / player.view.size[0], spread(1) / player.view.size[1]);
+  $("verdict").textContent = run.hidden ? `Predict the ${fact()?.label ?? "result"}, then shoot` : run.verdict;
+  $("notes").textContent = stage.view.notes.join("   ·   ");
+  player.heading($("picture").clientWidth);
+  card(run, ghosts);
+  const small = stage.view.size[0] < 1000;
+  if (!composed && (run.place !== stage.place || small !== narrow() || !(run.hidden || player.inSight))) later("stage", STILL, askStage);
+  $("keep").disabled = Boolean(run.hidden);
+}
+
+/** The results, with those of the shots that are compared. */
+function card(run, ghosts) {
+  const columns = [run, ...state.compared], labels = [...new Set(columns.flatMap(({ rows }) => rows.map(([label]) => label)))];
+  const cell = (kind, text, colour) => {
+    const made = Object.assign(document.createElement(kind), { textContent: text });
+    if (colour) made.style.color = colour;
+    return made;
+  };
+  const [head, body] = [$("card").tHead, $("card").tBodies[0]];
+  head.replaceChildren();
+  if (ghosts.length) head.insertRow().append(cell("td", ""), cell("th", "now"), ...ghosts.map(({ label, light }) => cell("th", label, light)));
+  body.replaceChildren(...labels.map((label) => {
+    const row = document.createElement("tr"), name = cell("th", label);
+    name.scope = "row";
+    row.append(name, ...columns.map(({ rows }, i) => cell("td", rows.find(([each]) => each === label)?.[1] ?? "–", i ? ghosts[i - 1]?.light : "")));
+    return row;
+  }));
+  if (state.shot && state.predicted !== undefined && state.lead.predict) {
+    const row = document.createElement("tr");
+    row.append(cell("th", "your prediction"), cell("td", `${typed(state.predicted)} ${fact()?.unit ?? ""}`));
+    body.prepend(row);
+  }
+}
+
+/** What a shot adds: events, energy. */
+function played(run) {
+  $("playback").hidden = false;
+  $("events").replaceChildren(...run.told_events.map(([t, ...words]) => {
+    const item = document.createElement("li"), button = Object.assign(document.createElement("button"), { type: "button" });
+    button.append(Object.assign(document.createElement("b"), { textContent: t }), ` ${words.filter(Boolean).join(" ")}`);
+    item.append(button);
+    return item;
+  }));
+  $("energy-figure").hidden = !run.energy;
+  if (run.energy) drawEnergy($("energy"), $("energy-legend"), run.energy);
+  player.now();
+}
+
+// ------------------------------------------------------------------------------------------------ comparing, predicting
+
+function compare() {
+  $("drop").hidden = !state.compared.length;
+}
+
+/** Keep this shot, to compare the next one with it. */
+function keep() {
+  const { run, changes, scene } = state;
+  if (!run || run.hidden) return;
+  const sets = new Set(Object.keys(scene.pull?.sets ?? {}));
+  const said = Object.entries(changes).filter(([key]) => !sets.has(key)).map(([key, each]) => `${labelOf(key).split(" ").slice(1).join(" ") || key} ${typeof each === "number" ? typed(each) : each}`);
+  const main = run.balls.find(({ name }) => name === run.ball);
+  const label = said.length ? said.slice(0, 2).join(", ") + (said.length > 2 ? ", ..." : "") : scene.title;
+  state.compared = [{ label, radius: main.radius, shift: [0, 0], path: main.path, rows: run.rows }, ...state.compared].slice(0, MOST_COMPARED);
+  compare();
+  show(run);
+}
+
+const fact = () => state.scene.facts.find(({ key }) => key === state.lead.predict);
+
+function predicting() {
+  $("predict-label").textContent = fact()?.label ?? "";
+  $("predict-unit").textContent = fact()?.unit ?? "";
+  state.predicted = undefined;
+}
+
+// ------------------------------------------------------------------------------------------------ messages for people
+
+const lines = {};
+
+/** A line at the top for as long as something holds; none where the text is empty. */
+function told(what, text) {
+  lines[what] = text;
+  $("told").textContent = Object.values(lines).filter(Boolean).join(" ");
+  $("told").hidden = !$("told").textContent;
+}
+
+const tell = (text) => told("error", text);
+
+// ------------------------------------------------------------------------------------------------ charts
+
+/** A canvas as sharp as the screen: its context and size in CSS px. */
+function sheet(canvas) {
+  const density = Math.max(1, devicePixelRatio || 1), [wide, tall] = [canvas.clientWidth, canvas.clientHeight];
+  [canvas.width, canvas.height] = [Math.round(wide * density), Math.round(tall * density)];
+  const context = canvas.getContext("2d");
+  context.setTransform(density, 0, 0, density, 0, 0);
+  context.font = '12px "Sandbox Sans", "Noto Sans", sans-serif';
+  context.fillStyle = getComputedStyle(canvas).color;
+  return { context, wide, tall };
+}
+
+function drawEnergy(canvas, legend, { times, bands }) {
+  const { context, wide, tall } = sheet(canvas), last = times[times.length - 1] || 1, foot = 18;
+  const high = Math.max(1e-9, ...bands.flatMap(({ top }) => top));
+  const at = (t, joules) => [(t / last) * wide, (tall - foot) * (1 - joules / high)];
+  context.textBaseline = "bottom";
+  context.fillText("0 s", 0, tall);
+  context.textAlign = "right";
+  context.fillText(amount(last, "s"), wide, tall);
+  for (const { top, foot: below, colour } of bands) {
+    context.beginPath();
+    times.forEach((t, i) => context.lineTo(...at(t, top[i])));
+    for (let i = times.length - 1; i >= 0; i--) context.lineTo(...at(times[i], below[i] ?? 0));
+    context.fillStyle = colour;
+    context.fill();
+  }
+  const energy = (joules) => (joules >= 1000 ? `${(joules / 1000).toFixed(1)} kJ` : joules >= 1 ? `${joules.toFixed(1)} J` : `${(1000 * joules).toPrecision(2)} mJ`);
+  const entry = (text, colour) => {
+    const item = document.createElement("li"), dot = document.createElement("i");
+    dot.style.background = colour;
+    item.append(...(colour ? [dot] : []), text);
+    return item;
+  };
+  const ends = bands.map(({ name, colour, top, foot: below }) => [name, colour, top[top.length - 1] - (below[below.length - 1] ?? 0)]);
+  const left = ends.map(([name, colour, joules]) => entry(joules >= 0.0005 * high ? `${name} ${energy(joules)}` : name, colour));
+  legend.replaceChildren(entry(`at the end, of ${energy(high)}:`, ""), ...left);
+}
+
+// ------------------------------------------------------------------------------------------------ the page
+
+function begin() {
+  settings = new Settings($("sliders"), $("rest"), (key, each) => state.lead.frozen ? settings.show(state.changes) : set({ [key]: each }));
+  const hello = () => {
+    const here = state.source ? { source: state.source, changes: state.changes } : linked(location.hash);
+    return { do: "hello", session: sessionStorage.getItem("session") || "", name: state.name || localStorage.getItem("name") || "", ...here };
+  };
+  wire = new Wire(hello, heard, (there, why) => {
+    $("state").hidden = there;
+    $("state").textContent = why ? `connection closed: ${why}` : "connection lost; trying again ...";
+  });
+  ask = Object.fromEntries(["path", "stage", "fan", "shoot"].map((kind) => [kind, new Latest(wire, kind)]));
+  $("shoot").addEventListener("click", () => hands.shoot());
+  $("prediction").addEventListener("submit", (event) => (event.preventDefault(), hands.shoot()));
+  $("again").addEventListener("click", () => again(true));
+  $("reset").addEventListener("click", () => ((state.changes = {}), changed(true)));
+  $("keep").addEventListener("click", keep);
+  $("drop").addEventListener("click", () => ((state.compared = []), compare(), state.run && show(state.run)));
+  $("scene").addEventListener("change", () => wire.send({ do: "play", source: $("scene").value, changes: {} }));
+  $("name").addEventListener("change", () => {
+    localStorage.setItem("name", $("name").value);
+    wire.send({ do: "name", name: $("name").value });
+  });
+  $("fan").addEventListener("change", () => {
+    $("fan-said").hidden = true;
+    if (player) [player.fan = null, player.draw()];
+    askFan();
+  });
+  $("copy").addEventListener("click", async () => {
+    $("link").select();
+    await (navigator.clipboard?.writeText($("link").value) ?? Promise.resolve(document.execCommand("copy")));
+    $("copy").textContent = "Copied";
+    later("copied", 1500, () => ($("copy").textContent = "Copy"));
+  });
+  addEventListener("resize", () => {
+    if (state.stage && (state.stage.view.size[0] < 1000) !== narrow()) later("stage", STILL, askStage);
+    if (state.shot && state.run.energy) drawEnergy($("energy"), $("energy-legend"), state.run.energy);
+  });
+  addEventListener("hashchange", () => {
+    const { source, changes } = linked(location.hash);
+    wire.send({ do: "play", source, changes });
+  });
+}
+
+begin();

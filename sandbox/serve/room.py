@@ -1,0 +1,348 @@
+"""The room: who is there, what is played, who shot what. It passes messages on and asks the lanes for computing."""
+
+from __future__ import annotations
+
+import asyncio
+import secrets
+from collections import deque
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from time import monotonic
+from typing import Any, NamedTuple
+
+from sandbox.errors import RequestError
+from sandbox.serve import messages, work
+from sandbox.serve.connection import LATER, Connection
+from sandbox.serve.lanes import Lanes
+from sandbox.serve.limits import PLAYERS, REMEMBERED, ROWS
+
+
+class Listed(NamedTuple):
+    """A scene that may be played here: its source as ``load`` takes it, and a line about it."""
+
+    source: str
+    about: str
+
+
+class Row(NamedTuple):
+    """One shot in the teacher's table."""
+
+    number: int
+    player: int
+    name: str
+    scene: str
+    changes: Mapping[str, Any]
+    verdict: str
+    scored: bool
+    facts: Mapping[str, float]
+    fact: str  # that was predicted, "" for none
+    predicted: float | None
+
+
+@dataclass(eq=False)
+class Player:
+    """One player, who may be away."""
+
+    number: int
+    session: str
+    name: str
+    source: str
+    changes: dict[str, Any]
+    connection: Connection | None = None
+    seen: float = 0.0  # s, on the clock of monotonic
+    shots: int = 0
+    last: dict[str, Any] | None = None  # what the others see of the last shot
+
+
+@dataclass(eq=False)
+class Lead:
+    """What the teacher has set."""
+
+    source: str = ""  # the scene for all; "" where everybody chooses
+    changes: dict[str, Any] = field(default_factory=dict)
+    frozen: bool = False
+    predict: str = ""  # the result to be predicted; "" for none
+
+    def as_message(self) -> dict[str, Any]:
+        return {"source": self.source, "changes": self.changes, "frozen": self.frozen, "predict": self.predict}
+
+
+class Room:
+    """Everybody who plays on one server. ``scenes`` may be played, by the names that are shown."""
+
+    def __init__(self, scenes: Mapping[str, Listed], lanes: Lanes, units: str) -> None:
+        self.scenes, self.lanes, self.units = scenes, lanes, units
+        self.first = next(iter(scenes))
+        self.players: dict[str, Player] = {}  # by session
+        self.teachers: set[Connection] = set()
+        self.lead = Lead()
+        self.rows: deque[Row] = deque(maxlen=ROWS)
+        self.counted = 0
+        self._numbered = 0
+        self._described: dict[str, asyncio.Task[Mapping[str, Any]]] = {}
+        self._tasks: set[asyncio.Task[None]] = set()
+
+    # Scenes
+
+    async def described(self, name: str) -> Mapping[str, Any]:
+        """What the browser needs of a scene; computed once. Raises RequestError."""
+        listed = self.scenes.get(name)
+        if listed is None:
+            raise RequestError("this scene is not played here")
+        if name not in self._described:
+            self._described[name] = asyncio.create_task(self._describe(name, listed))
+        try:
+            return await asyncio.shield(self._described[name])
+        except RequestError:
+            self._described.pop(name, None)
+            raise
+
+    async def _describe(self, name: str, listed: Listed) -> Mapping[str, Any]:
+        reply = await self.lanes.compute(("described", name), "described", work.described, listed.source)
+        if reply is None or "error" in reply:
+            raise RequestError(reply["error"] if reply else "this scene could not be loaded")
+        kept = reply["kept"]
+        return {**kept, "by_key": {each["key"]: each for each in kept["parameters"]}}
+
+    async def _checked(self, name: str, changes: Mapping[str, Any]) -> Mapping[str, Any]:
+        """The description of a scene whose parameters may be changed so. Raises RequestError."""
+        scene = await self.described(name)
+        messages.check(changes, scene["by_key"])
+        return scene
+
+    # A player
+
+    async def play(self, connection: Connection) -> None:
+        """Follow a player's connection to its end."""
+        player = None
+        try:
+            while (text := await connection.receive()) is not None:
+                try:
+                    message = messages.read(text)
+                    if player is None:
+                        player = await self._enter(connection, message)
+                        if player is None:
+                            return
+                    else:
+                        await self._do(player, connection, message)
+                except RequestError as error:
+                    connection.tell(str(error))
+        finally:
+            if player is not None and player.connection is connection:
+                self._leave(player)
+
+    async def _enter(self, connection: Connection, message: Any) -> Player | None:
+        """The player who says hello: a new one, or one who comes back; None if the room is full."""
+        if not isinstance(message, messages.Hello):
+            raise RequestError("message refused: hello comes first")
+        self._forget()
+        player = self.players.get(message.session)
+        if player is None:
+            if sum(each.connection is not None for each in self.players.values()) >= PLAYERS:
+                await connection.close(LATER, f"the room is full: {PLAYERS} players")
+                return None
+            self._numbered += 1
+            name = messages.named(message.name) or f"player {self._numbered}"
+            player = Player(self._numbered, secrets.token_urlsafe(12), name, self.first, {})
+            self.players[player.session] = player
+        elif player.connection is not None:
+            self._replace(player.connection)
+        player.connection, player.seen = connection, monotonic()
+        if message.name:
+            player.name = messages.named(message.name) or player.name
+        asked = (message.source, message.changes) if message.source else (player.source, player.changes)
+        if self.lead.source and self.lead.source != asked[0]:
+            asked = self.lead.source, self.lead.changes
+        connection.send("welcome", {"session": player.session, "number": player.number, "name": player.name,
+                                    "scenes": {name: each.about for name, each in self.scenes.items()}})  # fmt: skip
+        connection.send("lead", self.lead.as_message())
+        try:
+            await self._open(player, *asked)
+        except RequestError as error:  # such as a link of another version
+            connection.tell(str(error))
+            await self._open(player, self.lead.source or self.first, self.lead.changes)
+        self._tell_teachers()
+        return player
+
+    def _replace(self, connection: Connection) -> None:
+        """Close the connection of a player who has come back by another."""
+        task = asyncio.create_task(connection.close(LATER, "opened in another window"))
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+
+    def _leave(self, player: Player) -> None:
+        player.connection, player.seen = None, monotonic()
+        for kind in ("path", "hidden", "stage", "fan", "shot"):
+            self.lanes.forget((player.session, kind))
+        self._tell_teachers()
+
+    def _forget(self) -> None:
+        """Forget those who left long ago, and the first of those who left if they are too many."""
+        now = monotonic()
+        away = sorted((each for each in self.players.values() if each.connection is None), key=lambda each: each.seen)
+        for player in away:
+            if now - player.seen > REMEMBERED or len(self.players) >= 4 * PLAYERS:
+                del self.players[player.session]
+
+    async def _open(self, player: Player, name: str, changes: Mapping[str, Any]) -> None:
+        """Let a player play a scene. Raises RequestError."""
+        scene = await self._checked(name, changes)
+        player.source, player.changes = name, dict(changes)
+        shown = {key: value for key, value in scene.items() if key != "by_key"}
+        if player.connection is not None:
+            player.connection.send("scene", {"source": name, "changes": player.changes, **shown})
+
+    async def _do(self, player: Player, connection: Connection, message: Any) -> None:
+        """Do what a player asks for. Raises RequestError."""
+        match message:
+            case messages.Name():
+                player.name = messages.named(message.name) or player.name
+                connection.send("name", {"name": player.name})
+                self._tell_teachers()
+            case messages.Play():
+                if self.lead.source and message.source != self.lead.source:
+                    raise RequestError("the teacher has chosen the scene")
+                await self._open(player, message.source, message.changes)
+                self._tell_teachers()
+            case messages.Aim() | messages.Shoot():
+                await self._checked(player.source, message.changes)
+                if self.lead.frozen and not (isinstance(message, messages.Aim) and message.do == "stage"):
+                    raise RequestError("the teacher has stopped the game for a moment")
+                player.changes = dict(message.changes)
+                if isinstance(message, messages.Shoot):
+                    self._compute(player, "shot", message, self._shot_done(player, message))
+                elif not self.lead.predict or message.do == "stage":
+                    self._compute(player, message.do, message, None)
+                elif message.do == "path":
+                    self._compute(player, "hidden", message, None)
+            case _:
+                raise RequestError("message refused: hello was said already")
+
+    def _compute(self, player: Player, kind: work.Kind, message: Any, done: Any) -> None:
+        """Have something computed for a player, and sent; ``done`` is called with what the server keeps of it."""
+        task = asyncio.create_task(self._computed(player, kind, message, done))
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+
+    async def _computed(self, player: Player, kind: work.Kind, message: Any, done: Any) -> None:
+        source, narrow = player.source, getattr(message, "narrow", False)
+        args = (kind, self.scenes[source].source, dict(message.changes), message.n, narrow, self.units)
+        reply = await self.lanes.compute((player.session, kind), (kind, source), work.computed, *args)
+        connection = player.connection
+        if reply is None or connection is None:
+            return
+        if "error" in reply:
+            connection.tell(reply["error"], message.n)
+            return
+        if player.source == source:
+            connection.send("path" if kind == "hidden" else kind, reply["message"])
+        if done is not None:
+            done(source, reply["kept"])
+
+    def _shot_done(self, player: Player, message: messages.Shoot) -> Any:
+        """What to do when a shot is computed: put it into the teacher's table."""
+        fact = self.lead.predict
+
+        def done(source: str, kept: Mapping[str, Any]) -> None:
+            self.counted += 1
+            player.shots += 1
+            player.last = {"line": kept["line"], "scored": kept["scored"], "verdict": kept["verdict"], "source": source}
+            predicted = message.predicted if fact else None
+            self.rows.append(Row(self.counted, player.number, player.name, source, dict(message.changes),
+                                 kept["verdict"], kept["scored"], kept["facts"], fact, predicted))  # fmt: skip
+            self._tell_teachers()
+
+        return done
+
+    # The teacher
+
+    async def teach(self, connection: Connection) -> None:
+        """Follow a teacher's connection to its end."""
+        self.teachers.add(connection)
+        try:
+            while (text := await connection.receive()) is not None:
+                try:
+                    await self._taught(connection, messages.read(text, teacher=True))
+                except RequestError as error:
+                    connection.tell(str(error))
+        finally:
+            self.teachers.discard(connection)
+            for kind in ("path", "stage", "fan"):
+                self.lanes.forget((id(connection), kind))
+
+    async def _taught(self, connection: Connection, message: Any) -> None:
+        """Do what a teacher asks for. Raises RequestError."""
+        lead = self.lead
+        match message:
+            case messages.Hello():
+                connection.send("welcome", {"scenes": {name: each.about for name, each in self.scenes.items()}})
+                await self._show(connection)
+            case messages.Aim():
+                source = lead.source or self.first
+                await self._checked(source, message.changes)
+                args = (message.do, self.scenes[source].source, message.changes, message.n, message.narrow, self.units)
+                owner = (id(connection), message.do)
+                reply = await self.lanes.compute(owner, (message.do, source), work.computed, *args)
+                if reply is not None and "error" in reply:
+                    connection.tell(reply["error"])
+                elif reply is not None:
+                    connection.send(message.do, reply["message"])
+                return
+            case messages.Lead():
+                if message.source:
+                    await self._checked(message.source, message.changes)
+                self.lead = Lead(message.source, dict(message.changes), lead.frozen, "")
+                for player in list(self.players.values()):
+                    if message.source:
+                        player.last = None
+                        await self._open(player, message.source, message.changes)
+                for teacher in self.teachers:
+                    await self._show(teacher)
+            case messages.Freeze():
+                lead.frozen = message.on
+            case messages.Predict():
+                facts = (await self.described(lead.source or self.first))["facts"]
+                if message.fact and message.fact not in [fact["key"] for fact in facts]:
+                    raise RequestError("this result cannot be predicted")
+                lead.predict = message.fact
+            case messages.Clear():
+                self.rows.clear()
+                for player in self.players.values():
+                    player.last = None
+        for player in self.players.values():
+            if player.connection is not None:
+                player.connection.send("lead", self.lead.as_message())
+        self._tell_teachers()
+
+    async def _show(self, teacher: Connection) -> None:
+        """Tell a teacher which scene is shown."""
+        source = self.lead.source or self.first
+        scene = await self.described(source)
+        shown = {key: value for key, value in scene.items() if key != "by_key"}
+        teacher.send("scene", {"source": source, "changes": self.lead.changes, **shown})
+
+    def _tell_teachers(self) -> None:
+        """Tell the teachers what has changed: who is there, and all shots."""
+        if not self.teachers:
+            return
+        players = [
+            {"number": each.number, "name": each.name, "here": each.connection is not None, "shots": each.shots,
+             "source": each.source, "last": each.last}
+            for each in self.players.values()
+        ]  # fmt: skip
+        rows = [row._asdict() for row in list(self.rows)[-200:]]
+        for teacher in self.teachers:
+            teacher.send("room", {"lead": self.lead.as_message(), "players": players, "rows": rows,
+                                  "counted": len(self.rows)})  # fmt: skip
+
+    def table(self) -> tuple[Sequence[str], list[list[Any]]]:
+        """Columns and rows of all shots: parameters that were changed and results, by their keys."""
+        keys = list(dict.fromkeys(key for row in self.rows for key in row.changes))
+        facts = list(dict.fromkeys(key for row in self.rows for key in row.facts))
+        head = ["shot", "player", "name", "scene", *keys, "verdict", "scored", *facts, "predicted_result", "predicted"]
+        return head, [
+            [row.number, row.player, row.name, row.scene, *(row.changes.get(key, "") for key in keys), row.verdict,
+             row.scored, *(row.facts.get(key, "") for key in facts), row.fact,
+             "" if row.predicted is None else row.predicted]
+            for row in self.rows
+        ]  # fmt: skip

@@ -1,0 +1,142 @@
+"""The server itself: its address, and its life until Ctrl-C."""
+
+from __future__ import annotations
+
+import asyncio
+import secrets
+import socket
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import uvicorn
+
+from sandbox.errors import RequestError
+from sandbox.files import reason
+from sandbox.scene.finding import folder_of, listings, listings_of
+from sandbox.serve import work
+from sandbox.serve.app import Tokens, app_of
+from sandbox.serve.lanes import Lanes
+from sandbox.serve.limits import CONNECTIONS, MESSAGE, PLAYERS
+from sandbox.serve.room import Listed, Room
+
+LOOPBACK, ALL = "127.0.0.1", "0.0.0.0"
+#: The port that is taken if it is free and no other is asked for: links stay valid when the server starts again.
+PORT = 8765
+#: Bytes of a token: 72 bits cannot be guessed, and 12 letters can still be typed.
+TOKEN = 9
+#: At the end open connections are given so long, in s.
+GRACE = 1
+#: Scenes that every process imports before the first player comes.
+WARMED = 4
+
+
+class Address(NamedTuple):
+    """Where the server is: what players open, and what the teacher opens."""
+
+    url: str
+    teacher: str
+    port: int
+    shared: bool
+
+
+def scenes_of(names: Sequence[str]) -> dict[str, Listed]:
+    """The scenes that may be played, each with its presets, by the names that are shown; all installed ones by
+    default. Raises RequestError. No scene is imported for this."""
+    if not names:
+        return {each.name: Listed(each.name, each.about) for each in listings()}
+    found: dict[str, Listed] = {}
+    for name in names:
+        listed = listings_of(name)
+        exact = [each for each in listed if each.name == name]
+        if "/" in name and exact and folder_of(name) is not None:
+            listed = exact  # a preset comes alone
+        for each in listed if exact else [*listed[:1]]:
+            source = each.name if exact else name
+            found[each.name if exact else name] = Listed(source, each.about)
+    return found
+
+
+@dataclass(frozen=True)
+class Options:
+    """How scenes are served: ``jobs`` is the number of processes that compute, None for the usual."""
+
+    port: int | None = None
+    share: bool = False
+    units: str = "si"
+    jobs: int | None = None
+
+
+def serve(names: Sequence[str], options: Options, ready: Callable[[Address], None]) -> None:
+    """Serve these scenes until a signal comes; ``ready`` is called once players can come. Raises RequestError if the
+    scenes or the port cannot be used."""
+    scenes = scenes_of(names)
+    listener = _listening(options.port, options.share)
+    try:
+        asyncio.run(_serve(scenes, listener, options, ready))
+    finally:
+        listener.close()
+
+
+async def _serve(
+    scenes: dict[str, Listed], listener: socket.socket, options: Options, ready: Callable[[Address], None]
+) -> None:
+    share = options.share
+    tokens = Tokens(secrets.token_urlsafe(TOKEN), secrets.token_urlsafe(TOKEN))
+    port = listener.getsockname()[1]
+    host = _own_address() if share else LOOPBACK
+    hosts = {f"{name}:{port}" for name in (LOOPBACK, "localhost", host, *([socket.gethostname()] if share else []))}
+    lanes = Lanes(options.jobs)
+    try:
+        sources = list(dict.fromkeys(each.source for each in list(scenes.values())[:WARMED]))
+        await _checked(lanes, scenes)
+        warming = asyncio.create_task(lanes.each(work.warmed, sources))
+        room = Room(scenes, lanes, options.units)
+        config = uvicorn.Config(
+            app_of(room, tokens, hosts), log_config=None, access_log=False, lifespan="off", ws="websockets-sansio",
+            ws_max_size=MESSAGE, ws_max_queue=8, ws_per_message_deflate=False, limit_concurrency=CONNECTIONS,
+            timeout_graceful_shutdown=GRACE, h11_max_incomplete_event_size=MESSAGE, server_header=False,
+            proxy_headers=False,
+        )  # fmt: skip
+        server = uvicorn.Server(config)
+        base = f"http://{host}:{port}"
+        ready(Address(f"{base}/{tokens.players}/", f"{base}/{tokens.teacher}/", port, share))
+        await server.serve(sockets=[listener])
+        warming.cancel()
+    finally:
+        lanes.close()
+
+
+async def _checked(lanes: Lanes, scenes: dict[str, Listed]) -> None:
+    """Raise RequestError if the first scene cannot be loaded, before players come."""
+    first = next(iter(scenes.values()))
+    reply = await lanes.compute("first", "described", work.described, first.source)
+    if reply is not None and "error" in reply:
+        raise RequestError(reply["error"])
+
+
+def _listening(port: int | None, share: bool) -> socket.socket:
+    """A socket that listens on the port, by default on PORT or, where that is taken, on any. Raises RequestError."""
+    wanted = [port] if port is not None else [PORT, 0]
+    for number in wanted:
+        listener = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            listener.bind((ALL if share else LOOPBACK, number))
+            listener.listen(4 * PLAYERS)
+            return listener
+        except OSError as error:
+            listener.close()
+            if number == wanted[-1]:
+                raise RequestError(f"--port {number}: {reason(error)}") from None
+    raise AssertionError
+
+
+def _own_address() -> str:
+    """This machine's address in the network; nothing is sent to find it out."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        try:
+            probe.connect(("192.0.2.1", 9))  # reserved for documentation: only the route is looked up
+            return str(probe.getsockname()[0])
+        except OSError:
+            return LOOPBACK

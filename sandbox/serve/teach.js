@@ -1,0 +1,168 @@
+// The page of the teacher: who is there, what is played, everybody's shots.
+
+const COLOURS = ["#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00"]; // Okabe and Ito
+const BARS = 16;
+
+const state = { source: "", changes: {}, scene: null, stage: null, run: null, room: { players: [], rows: [] } };
+let board = null, wire, ask, settings;
+
+const colourOf = (number) => COLOURS[(number - 1) % COLOURS.length];
+
+/** Everybody's last shots, on the place of the scene; nothing is played. */
+class Board extends Player {
+  controls() {}
+  keys() {}
+  pointer() {}
+  timeline() {}
+  now() {}
+
+  draw() {
+    const { context } = this, density = this.canvas.width / this.view.size[0];
+    context.setTransform(density, 0, 0, density, 0, 0);
+    context.drawImage(this.view.place, 0, 0);
+    this.t = 0;
+    for (const ball of this.data.balls) this.ball(ball, 0);
+    context.drawImage(this.view.over, 0, 0);
+    const shots = state.room.players.filter(({ last }) => last && last.source === state.source);
+    for (const each of shots) this.shot(each);
+  }
+
+  shot({ name, number, last: { line } }) {
+    const { context, view } = this, points = [];
+    for (let i = 0; i < line.length; i += 2) points.push([...this.spot(line[i], line[i + 1]), i]);
+    if (!points.length) return;
+    this.trace(points, 0, Infinity, 3 * view.unit, colourOf(number), 0.9, view.unit);
+    const [x, y] = points[points.length - 1], [width, height] = view.size, size = Math.max(11, 15 * view.unit);
+    context.font = `700 ${size}px "Sandbox Sans", "Noto Sans", sans-serif`;
+    context.textBaseline = "middle";
+    const wide = context.measureText(name).width + 12 * view.unit, tall = 1.5 * size;
+    const left = Math.min(Math.max(4, x - wide / 2), width - wide - 4), top = Math.min(Math.max(4, y - tall - 8 * view.unit), height - tall - 4);
+    context.fillStyle = this.data.card;
+    context.beginPath();
+    context.roundRect(left, top, wide, tall, tall / 2);
+    context.fill();
+    context.fillStyle = "#f4f6f8";
+    context.fillText(name, left + 6 * view.unit, top + tall / 2);
+    this.disc(x, y, 4 * view.unit, colourOf(number));
+  }
+}
+
+const heard = {
+  welcome({ scenes }) {
+    $("scene").replaceChildren(...Object.entries(scenes).map(([name, about]) => Object.assign(new Option(name, name), { title: about })));
+  },
+  scene(scene) {
+    Object.assign(state, { source: scene.source, changes: { ...scene.changes }, scene });
+    scene.by = new Map(scene.parameters.map((each) => [each.key, each]));
+    $("scene").value = scene.source;
+    settings.build(scene.parameters);
+    settings.show(state.changes);
+    const options = (first) => [...first, ...scene.facts.map(({ key, label, unit }) => new Option(`${label} (${unit})`, key))];
+    $("fact").replaceChildren(...options([]));
+    $("predict").replaceChildren(...options([new Option("nothing", "")]));
+    for (const each of Object.values(ask)) each.forget();
+    ask.path.ask({ changes: state.changes });
+    ask.stage.ask({ changes: state.changes, narrow: $("picture").clientWidth < 700 });
+  },
+  async stage({ n, stage }) {
+    if (!ask.stage.answered(n)) return;
+    state.stage = await staged(stage);
+    document.querySelector(".picture").classList.toggle("dark", stage.dark);
+    show();
+  },
+  path({ n, run }) {
+    if (!ask.path.answered(n)) return;
+    state.run = run;
+    show();
+  },
+  room(room) {
+    state.room = room;
+    shown();
+  },
+  error({ text }) {
+    $("told").textContent = text;
+    $("told").hidden = false;
+    clearTimeout(state.clearing);
+    state.clearing = setTimeout(() => ($("told").hidden = true), 6000);
+  },
+};
+
+function show() {
+  if (!state.stage || !state.run) return;
+  const data = onStage(state.stage, state.run, []);
+  if (!board) window.board = board = new Board(data);
+  board.load(data);
+  board.resized();
+}
+
+const cell = (kind, text, name = "") => Object.assign(document.createElement(kind), { textContent: text, className: name });
+
+/** Players, table and histogram. */
+function shown() {
+  const { lead, players, rows } = state.room, here = players.filter((each) => each.here);
+  $("freeze").setAttribute("aria-pressed", lead.frozen);
+  $("freeze").textContent = lead.frozen ? "Go on" : "Freeze";
+  $("predict").value = lead.predict;
+  $("led").textContent = lead.source ? `All play ${lead.source}.` : "Everybody chooses a scene.";
+  $("count").textContent = `${here.length}`;
+  $("players").replaceChildren(...players.map((each) => {
+    const item = cell("li", "", each.here ? "" : "away"), dot = document.createElement("i");
+    dot.style.background = colourOf(each.number);
+    item.append(dot, each.name, cell("span", ` ${each.shots ? `${each.shots} ${each.shots === 1 ? "shot" : "shots"}` : ""}${each.here ? "" : " away"}`));
+    return item;
+  }));
+  table(rows);
+  board?.draw();
+}
+
+function table(rows) {
+  const { scene } = state, fact = scene?.facts.find(({ key }) => key === $("fact").value);
+  if (!fact) return;
+  const number = (value) => (typeof value === "number" ? String(Number(value.toPrecision(4))) : "–");
+  const own = rows.filter((row) => row.scene === state.source), predicted = own.some((row) => row.predicted !== null);
+  const sets = new Set(Object.keys(scene.pull?.sets ?? {}));
+  const head = document.createElement("tr");
+  const more = predicted ? [cell("th", "predicted", "number"), cell("th", "off by", "number")] : [];
+  head.append(cell("th", "#", "number"), cell("th", "name"), cell("th", `${fact.label} (${fact.unit})`, "number"), ...more, cell("th", "what happened"), cell("th", "changed"));
+  $("shots").tHead.replaceChildren(head);
+  $("shots").tBodies[0].replaceChildren(...[...own].reverse().map((row) => {
+    const line = document.createElement("tr"), value = row.facts[row.fact || fact.key];
+    const guess = predicted ? [cell("td", number(row.predicted), "number"), cell("td", row.predicted === null || value === undefined ? "–" : number(row.predicted - value), "number")] : [];
+    const changed = Object.entries(row.changes).filter(([key]) => !sets.has(key)).map(([key, each]) => `${labelOf(key)} ${typeof each === "number" ? typed(each) : each}`);
+    line.append(cell("td", row.number, "number"), cell("td", row.name), cell("td", number(row.facts[fact.key]), "number"), ...guess, cell("td", row.verdict), cell("td", changed.join(", ")));
+    return line;
+  }));
+  const known = own.filter((row) => typeof row.facts[fact.key] === "number"), values = known.map((row) => row.facts[fact.key]);
+  const low = Math.min(...values), high = Math.max(...values), good = Array(BARS).fill(0), rest = Array(BARS).fill(0);
+  known.forEach((row, i) => {
+    const bar = high > low ? Math.min(BARS - 1, Math.floor(((values[i] - low) / (high - low)) * BARS)) : BARS >> 1;
+    (row.scored ? good : rest)[bar] += 1;
+  });
+  const mean = values.reduce((sum, each) => sum + each, 0) / values.length;
+  $("bars-title").textContent = values.length ? `${fact.label}: ${values.length} shots, mean ${number(mean)} ${fact.unit}` : "no shots yet";
+  drawBars($("bars"), good, rest, values.length ? [`${number(low)} ${fact.unit}`, `${number(high)} ${fact.unit}`] : ["", ""]);
+}
+
+function begin() {
+  settings = new Settings($("sliders"), $("rest"), (key, value) => {
+    if (state.scene.by.get(key).value === value) delete state.changes[key];
+    else state.changes[key] = value;
+    settings.show(state.changes);
+  });
+  wire = new Wire(() => ({ do: "hello" }), heard, (there, why) => {
+    $("state").hidden = there;
+    $("state").textContent = why ? `connection closed: ${why}` : "connection lost; trying again ...";
+  });
+  ask = Object.fromEntries(["path", "stage"].map((kind) => [kind, new Latest(wire, kind)]));
+  $("lead").addEventListener("click", () => {
+    const source = $("scene").value;
+    wire.send({ do: "lead", source, changes: source === state.source ? state.changes : {} });
+  });
+  $("free").addEventListener("click", () => wire.send({ do: "lead", source: "", changes: {} }));
+  $("freeze").addEventListener("click", () => wire.send({ do: "freeze", on: !state.room.lead.frozen }));
+  $("predict").addEventListener("change", () => wire.send({ do: "predict", fact: $("predict").value }));
+  $("clear").addEventListener("click", () => wire.send({ do: "clear" }));
+  $("fact").addEventListener("change", () => table(state.room.rows));
+}
+
+begin();

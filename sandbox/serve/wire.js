@@ -1,0 +1,99 @@
+// The line to the server. Messages are JSON; what was computed comes deflated. A line that is lost comes back by itself.
+
+const SOONEST = 500, LATEST = 5000; // ms until it is tried again
+const FINAL = new Set([1008]); // refused: trying again would not help
+
+class Wire {
+  /** `hello` makes the first message; `heard` has what is done with each kind; `state` is told whether it is there. */
+  constructor(hello, heard, state) {
+    Object.assign(this, { hello, heard, state, wait: SOONEST });
+    this.connect();
+  }
+
+  connect() {
+    const socket = (this.socket = new WebSocket(`ws://${location.host}${location.pathname}talk`));
+    socket.binaryType = "arraybuffer";
+    let last = Promise.resolve(); // messages are read one after the other
+    socket.onopen = () => {
+      this.wait = SOONEST;
+      this.state(true, "");
+      this.send(this.hello());
+    };
+    socket.onmessage = ({ data }) => {
+      last = last.then(() => this.read(data)).catch((error) => console.error(error));
+    };
+    socket.onclose = ({ code, reason }) => {
+      if (this.socket !== socket) return;
+      this.state(false, reason);
+      if (FINAL.has(code) || reason.startsWith("opened")) return;
+      setTimeout(() => this.connect(), this.wait);
+      this.wait = Math.min(2 * this.wait, LATEST);
+    };
+  }
+
+  async read(data) {
+    let message = data;
+    if (typeof data === "string") message = JSON.parse(data);
+    else message = await new Response(new Blob([data]).stream().pipeThrough(new DecompressionStream("deflate"))).json();
+    await this.heard[message.is]?.(message);
+  }
+
+  get open() {
+    return this.socket.readyState === WebSocket.OPEN;
+  }
+
+  send(message) {
+    if (this.open) this.socket.send(JSON.stringify(message));
+  }
+}
+
+/** Asks for one thing at a time: while an answer is awaited, only the newest question is kept. */
+class Latest {
+  constructor(wire, kind) {
+    Object.assign(this, { wire, kind, n: 0, awaited: 0, next: null });
+  }
+
+  ask(message) {
+    this.next = message;
+    this.pump();
+  }
+
+  pump() {
+    if (!this.next || (this.awaited && performance.now() - this.sent < 2000)) return;
+    this.awaited = ++Latest.number;
+    this.sent = performance.now();
+    this.wire.send({ do: this.kind, n: this.awaited, ...this.next });
+    this.next = null;
+    clearTimeout(this.late);
+    this.late = setTimeout(() => this.pump(), 2100);
+  }
+
+  /** True if an answer is that to the last question. */
+  answered(n) {
+    if (n !== this.awaited) return false;
+    this.awaited = 0;
+    this.pump();
+    return true;
+  }
+
+  /** What was asked is not awaited any more. */
+  forget() {
+    this.awaited = 0;
+    this.next = null;
+  }
+}
+Latest.number = 0;
+
+/** A stage as it came, with its images. */
+async function staged(stage) {
+  for (const name of ["place", "over"]) stage.view[name] = await image(stage.view[name]);
+  for (const look of stage.looks) if (look.skin) look.skin = pixels(await image(look.skin));
+  stage.views = [stage.view];
+  return stage;
+}
+
+/** A run on a stage, as the player takes it. */
+function onStage(stage, run, ghosts) {
+  const still = { forces: { times: [0, 1], causes: [] }, longest: { fastest: 0, strongest: 0 } };
+  return { ...stage, ...still, ...run, ghosts };
+}

@@ -1,0 +1,115 @@
+"""One server for all tests of serving, as the program starts it, and a player without a browser."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import time
+import zlib
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from typing import Any, NamedTuple
+from urllib.parse import urlsplit
+
+import pytest
+
+from tests.own_scene import COMMAND
+from tests.page.conftest import browser  # noqa: F401
+
+pytest.importorskip("starlette", reason="serving is tested with the extra serve")
+
+
+class Served(NamedTuple):
+    """A server that runs, where it is, and a function that ends it and returns its exit code."""
+
+    url: str
+    teacher: str
+    port: int
+    pid: int
+    stop: Callable[[], int]
+
+
+@contextmanager
+def serving(*args: str, cwd: Any = None) -> Iterator[Served]:
+    """A server of its own process, on any port of the loopback."""
+    command = [*COMMAND, "serve", *args, "--port", "0", "--json"]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=cwd)
+    said = process.stdout.readline()
+
+    def stop() -> int:
+        if process.poll() is None:
+            process.send_signal(signal.SIGINT)
+        return process.wait(20)
+
+    try:
+        address = json.loads(said or "{}") or pytest.fail(process.stderr.read())
+        yield Served(address["url"], address["teacher"], address["port"], process.pid, stop)
+    finally:
+        stop()
+        process.stdout.close()
+        process.stderr.close()
+
+
+@pytest.fixture(scope="session")
+def served() -> Iterator[Served]:
+    with serving("basketball", "golf", "billiards", "--jobs", "2") as server:
+        yield server
+
+
+class Client:
+    """A player's browser without a window: says what it is told to, and hears the answers."""
+
+    def __init__(self, url: str, **hello: Any):
+        from websockets.sync.client import connect
+
+        place = urlsplit(url)
+        address, origin = f"ws://{place.netloc}{place.path}talk", f"http://{place.netloc}"
+        self._until_closed = ExitStack()
+        self.socket = self._until_closed.enter_context(connect(address, origin=origin, proxy=None, max_size=None))
+        self.n = 0
+        self.say(do="hello", **hello)
+
+    def say(self, **message: Any) -> None:
+        self.socket.send(json.dumps(message))
+
+    def ask(self, do: str, changes: dict[str, Any] | None = None, **more: Any) -> int:
+        self.n += 1
+        self.say(do=do, n=self.n, changes=changes or {}, **more)
+        return self.n
+
+    def hear(self, kind: str, within: float = 20.0, **wanted: Any) -> dict[str, Any]:
+        """The next message of a kind, with these entries."""
+        end = time.monotonic() + within
+        while True:
+            found = self.next(end - time.monotonic())
+            if found["is"] == kind and all(found[key] == value for key, value in wanted.items()):
+                return found
+
+    def next(self, within: float) -> dict[str, Any]:
+        data = self.socket.recv(timeout=max(0.0, within))
+        return json.loads(zlib.decompress(data) if isinstance(data, bytes) else data)
+
+    def close(self) -> None:
+        self._until_closed.close()
+
+
+@pytest.fixture
+def player(served: Served) -> Iterator[Callable[..., Client]]:
+    """Makes players, or the teacher."""
+    made: list[Client] = []
+
+    def enter(teacher: bool = False, url: str = "", **hello: Any) -> Client:
+        made.append(Client(url or (served.teacher if teacher else served.url), **hello))
+        return made[-1]
+
+    yield enter
+    for client in made:
+        client.close()
+
+
+def memory(pid: int) -> int:
+    """Resident memory of a process in bytes."""
+    with open(f"/proc/{pid}/statm") as file:  # noqa: PTH123
+        return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")

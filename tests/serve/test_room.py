@@ -1,0 +1,133 @@
+"""Players and the teacher over WebSocket, without a browser."""
+
+from __future__ import annotations
+
+import csv
+import io
+import os
+import urllib.request
+
+import pytest
+
+import sandbox
+from sandbox.page.replay import LAYOUTS
+from tests.own_scene import DROP, copy_of
+from tests.serve.conftest import Client, serving
+
+
+def test_a_path_is_that_of_python(player):
+    """With every number to 1 um, for changes within bounds."""
+    client = player()
+    scene = client.hear("scene")
+    assert scene["source"] == "basketball"
+    changes = {"launch.speed": 7.6, "launch.angle": 55.0, "air.wind[0]": -2.0}
+    n = client.ask("path", changes)
+    run = client.hear("path", n=n)["run"]
+    expected = sandbox.simulate(sandbox.load("basketball", changes))
+    assert run["verdict"] == expected.scene.verdict(expected)
+    assert run["rows"] == [list(row) for row in expected.scene.rows(expected)]
+    (ball,) = run["balls"]
+    assert ball["path"]["until"] == pytest.approx(expected.arcs["ball"][-1].t1, abs=1e-6)
+    for (times, x, y, *_), arc in zip(ball["path"]["arcs"], expected.arcs["ball"], strict=True):
+        assert (times[0] if isinstance(times, list) else times) == pytest.approx(arc.t0, abs=1e-6)
+        assert x == pytest.approx(list(arc.x), abs=1e-6)
+        assert y == pytest.approx(list(arc.y), abs=1e-6)
+
+
+def test_place_fan_and_shot_come_as_asked(player):
+    client = player(source="basketball")
+    stage = client.hear("stage", n=client.ask("stage", narrow=True))["stage"]
+    assert stage["view"]["size"][0] == LAYOUTS[1][0][0]
+    assert stage["view"]["place"].startswith("data:image/webp;base64,")
+    fan = client.hear("fan", n=client.ask("fan"))
+    assert len(fan["lines"]) == 100
+    assert fan["said"].startswith(f"{sum(scored for scored, _ in fan['lines'])} of 100 score")
+    run = client.hear("shot", n=client.ask("shoot"))["run"]
+    assert run["energy"]["bands"]
+    assert len(run["told_events"]) == len(run["events"]) > 0
+    assert run["forces"]["causes"]
+
+
+def test_a_link_and_a_lost_connection_give_the_state_back(player):
+    first = player(source="golf/driver", changes={"launch.angle": 15.5}, name="Ann")
+    session = first.hear("welcome")["session"]
+    scene = first.hear("scene")
+    assert (scene["source"], scene["changes"]) == ("golf/driver", {"launch.angle": 15.5})
+    n = first.ask("path", {"launch.angle": 17.0})
+    first.hear("path", n=n)
+    first.socket.socket.close()  # the network is gone
+    again = player(session=session)
+    welcome = again.hear("welcome")
+    assert (welcome["session"], welcome["name"]) == (session, "Ann")
+    assert again.hear("scene")["changes"] == {"launch.angle": 17.0}
+
+
+def test_the_teacher_leads_freezes_and_sees_the_shots(player):
+    teacher, ann, ben = player(teacher=True), player(name="Ann"), player(name="=Ben()")
+    for client in (ann, ben):
+        client.hear("scene")
+    teacher.say(do="clear")
+    teacher.say(do="lead", source="golf", changes={"launch.angle": 20.0})
+    for client in (ann, ben):
+        assert client.hear("scene", source="golf")["changes"] == {"launch.angle": 20.0}
+    ann.say(do="play", source="billiards")
+    assert "the teacher has chosen" in ann.hear("error")["text"]
+    teacher.say(do="predict", fact="carry")
+    assert ann.hear("lead", predict="carry")["source"] == "golf"
+    hidden = ann.hear("path", n=ann.ask("path", {"launch.angle": 25.0}))["run"]
+    assert hidden["hidden"]
+    assert hidden["duration"] == hidden["balls"][0]["path"]["until"] == 0.0
+    assert (hidden["verdict"], hidden["rows"]) == ("", [])
+    for client, angle, guess in ((ann, 25.0, 200.0), (ben, 30.0, 250.0)):
+        client.hear("shot", n=client.ask("shoot", {"launch.angle": angle}, predicted=guess))
+    room = teacher.hear("room", counted=2)
+    assert [each["last"]["scored"] for each in room["players"] if each["here"]] == [False, False]
+    assert [(row["name"], row["predicted"]) for row in room["rows"]] == [("Ann", 200.0), ("=Ben()", 250.0)]
+    address = teacher.socket.request.headers["Origin"] + teacher.socket.request.path.removesuffix("talk")
+    with urllib.request.urlopen(f"{address}shots.csv") as table:
+        rows = list(csv.DictReader(io.StringIO(table.read().decode())))
+    expected = sandbox.simulate(sandbox.load("golf", {"launch.angle": 30.0})).result
+    assert rows[1]["name"] == "'=Ben()"  # no formula
+    assert float(rows[1]["carry"]) == pytest.approx(expected["carry"], abs=1e-5)
+    assert (rows[1]["launch.angle"], rows[1]["predicted_result"], rows[1]["predicted"]) == ("30.0", "carry", "250.0")
+    teacher.say(do="freeze", on=True)
+    ann.hear("lead", frozen=True)
+    n = ann.ask("shoot")
+    assert "stopped the game" in ann.hear("error")["text"]
+    teacher.say(do="freeze", on=False)
+    teacher.say(do="lead", source="")
+    teacher.say(do="clear")
+    ann.hear("lead", source="", frozen=False)
+    assert ann.hear("path", n=ann.ask("path"))["n"] == n + 1
+
+
+def test_no_code_of_a_scene_runs_in_the_server_itself(tmp_path):
+    """A scene of one's own is imported where it is computed; and what never ends there is ended."""
+    scene = copy_of(DROP, tmp_path / "drop")
+    text = (scene / "scene.py").read_text("utf-8")
+    mark = f"\nimport os, pathlib\npathlib.Path({str(tmp_path)!r}, f'imported-{{os.getpid()}}').touch()\n"
+    (scene / "scene.py").write_text(text + mark, "utf-8")
+    with serving("./drop", "--jobs", "1", cwd=tmp_path) as server:
+        client = Client(server.url)
+        assert client.hear("scene")["source"] == "./drop"
+        assert client.hear("path", n=client.ask("path"))["run"]["verdict"]
+        client.close()
+        pids = {int(file.name.rpartition("-")[2]) for file in tmp_path.glob("imported-*")}
+        assert pids
+        assert server.pid not in pids
+        assert os.getpid() not in pids
+        assert server.stop() == 130
+
+
+@pytest.mark.parametrize(
+    ("args", "expected"),
+    [
+        (["nowhere"], "unknown scene nowhere"),
+        (["golf/nothing"], "golf has no preset nothing"),
+        (["golf", "--port", "70000"], "70000"),
+    ],
+)
+def test_what_cannot_be_served_is_refused(call, args: list[str], expected: str):
+    code, out, err = call("serve", *args)
+    assert (code, out) == (2, "")
+    assert expected in err
