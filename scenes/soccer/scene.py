@@ -1,12 +1,9 @@
 """Soccer from the side: a free kick over the wall and under the bar, or a kick up the field.
 
-Models: gravity; drag with its crisis; Magnus lift and dip; a uniform wind; bouncing, sliding and rolling on grass; the
-wall of players, the crossbar and the net as things to hit.
-Leaves out: everything sideways (see the view from above); the ball's loss of spin in the air; the wobble of a ball
-without spin; players who move; the deformation of grass, net and ball.
-
-Size of an effect: if a soccer ball lost its spin like a golf ball (k = 6e-5 in dw/dt = -k v w / r; nothing
-published for soccer), the dipping free kick would reach the goal 1.2 cm higher.
+Models: gravity; drag with its crisis; Magnus lift and dip; loss of spin; a uniform wind; bouncing, sliding and rolling
+on grass; the wall of players, the crossbar and the net as things to hit.
+Leaves out: everything sideways (see the view from above); the wobble of a ball without spin; players who move; the
+deformation of grass, net and ball.
 """
 
 from __future__ import annotations
@@ -21,6 +18,7 @@ from sandbox.kit import (
     LAUNCH,
     SOCCER_DRAG,
     SOCCER_LIFT,
+    Air,
     Circle,
     Controls,
     Event,
@@ -64,6 +62,11 @@ SPREAD = (Spread("launch.speed", 0.02), Spread("launch.angle", minimum=1.0), Spr
 
 class SoccerBall(Sphere, drag=SOCCER_DRAG, lift=SOCCER_LIFT):
     """The soccer ball, a hollow sphere."""
+
+    spin_decay: float = quantity(..., "", 0, 0.01, "k of dw/dt = -k |u| w / r, in air of 1.204 kg/m^3")
+
+    def decay_in(self, air: Air) -> float:
+        return self.spin_decay * air.density / 1.204
 
 
 class Wall(Solid):

@@ -12,9 +12,12 @@ from sandbox.physics.coefficients import (
     SOCCER_LIFT,
     asai_lift,
     goff_carre_drag,
+    mencke_lift,
+    pooled_lift,
     power_law_soccer_lift,
     textbook_soccer_drag,
 )
+from tests.reference.fit_soccer_lift import LAUNCH, SOURCES, aside, fit, law
 
 #: Reynolds number per m/s of the ball and air of Goff and Carre.
 PER_SPEED = 1.457e4
@@ -32,6 +35,8 @@ TEXTBOOK = {5e4: 0.47, 1e5: 0.47, 1.175e5: 0.345, 1.35e5: 0.22, 4e5: 0.22}
         *((goff_carre_drag, PER_SPEED * 25.0, s, 0.4127 * s**0.3056, 2e-4) for s in (0.05, 0.1, 0.2, 0.3)),
         *((textbook_soccer_drag, re, 0.0, drag, 1e-7) for re, drag in TEXTBOOK.items()),
         *((asai_lift, 4e5, s, lift, 0.0031) for s, lift in ((0.18, 0.21), (0.22, 0.24), (0.34, 0.29))),
+        *((pooled_lift, 4e5, s, lift, 0.02) for s, lift in ((0.10, 0.185), (0.20, 0.27), (0.24, 0.26), (0.71, 0.31))),
+        (mencke_lift, 2.7e5, 0.28, 0.5, 0.01),
         *((power_law_soccer_lift, 4e5, s, 0.385 * min(s, 1.0) ** 0.25, 1e-7) for s in (0.2, 3.0)),
     ],
 )
@@ -51,13 +56,22 @@ def test_drag_has_no_jumps():
     assert np.abs(np.diff(over_spin, axis=1)).max() < 2e-3
 
 
-def test_lift_grows_evenly_from_nothing_and_stays_bounded():
-    spins = np.linspace(0.0, 5.0, 501)
-    lift = asai_lift(np.full_like(spins, 4e5), spins)
+@pytest.mark.parametrize(("law", "most"), [(pooled_lift, 0.301), (mencke_lift, 0.54), (asai_lift, 0.498)])
+def test_lift_grows_evenly_from_nothing_and_stays_bounded(law, most: float):
+    spins = np.linspace(0.0, 2.0, 201)
+    lift = law(np.full_like(spins, 4e5), spins)
     assert lift[0] == 0.0
     assert (np.diff(lift) > 0.0).all()
     assert (np.diff(lift, 2) < 0.0).all()
-    assert lift[-1] < 0.5
+    assert lift[-1] < most
+
+
+def test_the_fit_of_lift_gives_the_numbers_of_the_laws():
+    greatest, scale = fit()
+    assert (greatest, scale) == pytest.approx((0.301, 0.108), abs=6e-4)
+    for name in SOURCES:
+        assert law(fit(name), 0.2) == pytest.approx(pooled_lift(4e5, 0.2), abs=0.009)
+    assert np.abs(aside(LAUNCH, np.array([0.54, 0.108]))).max() < 0.085  # m, from Mencke's track
 
 
 @pytest.mark.parametrize("name", [*SOCCER_DRAG, *SOCCER_LIFT])
