@@ -248,8 +248,10 @@ def checked(scene: Scene, option: str, key: str, value: Any) -> Any:
 
 def unit_of(scene: Scene, key: str) -> str:
     """The declared unit of a parameter; empty if none."""
-    plain = key.partition("[")[0]
-    return next((found.unit or "" for found in declared.walk(scene.parameters) if found.key == plain), "")
+    keys = {key, key.partition("[")[0]}  # balls[0].y has its own unit, air.wind[0] that of air.wind
+    return next(
+        (found.unit for found in declared.walk(scene.parameters, entries=True) if found.key in keys and found.unit), ""
+    )
 
 
 def label(scene: Scene, key: str) -> str:

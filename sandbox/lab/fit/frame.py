@@ -42,10 +42,9 @@ class Frame:
         """Times since the launch in s."""
         return np.asarray(t - self._named(free).get("track.time", 0.0))
 
-    @property
-    def starts(self) -> list[float]:
-        """Where the search begins."""
-        return [one.start for one in self.free]
+    def latest(self, t: np.ndarray) -> np.ndarray:
+        """The greatest times since the launch in s that the ranges allow."""
+        return self.elapsed(t, [one.low for one in self.free])
 
     def _named(self, free: Sequence[float]) -> dict[str, float]:
         return {one.key: value for one, value in zip(self.free, free, strict=True)}

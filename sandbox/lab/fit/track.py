@@ -55,8 +55,8 @@ class Track:
 
     @property
     def times(self) -> np.ndarray:
-        """The time of each residual in s."""
-        return np.repeat(self.frame.elapsed(self.t, self.frame.starts), 2)
+        """The time of each residual in s; where the launch is fitted, the greatest that its range allows."""
+        return np.repeat(self.frame.latest(self.t), 2)
 
     def check(self, scene: Scene) -> None:
         """Raise RequestError if it is of a ball that the scene does not have, or begins before the launch."""
