@@ -1,9 +1,9 @@
 """How honest the intervals of ``sandbox fit`` are: how often they hold the truth, of synthetic tracks.
 
 In eight scenes, with flight, bounces, sliding and cushions, values are drawn, a run is measured with normally
-distributed errors, and fitted. ``python benchmarks/fit.py``: how many of the 95 % intervals hold the true value, without
-and with three gross errors in each track and a robust loss, and the processor time of a fit. Three minutes of processor
-time; ``--tracks N`` of each scene, ``--seed S``, ``--only SCENE``.
+distributed errors, and fitted. ``python benchmarks/fit.py``: how many of the 95 % intervals hold the true value, and
+the processor time of a fit; without and with three gross errors in each track and a robust loss. Three minutes of
+processor time; ``--tracks N`` of each scene, ``--seed S``, ``--only SCENE``.
 """
 
 from __future__ import annotations

@@ -125,6 +125,12 @@ def print_formats(context: click.Context, option: click.Parameter, value: bool) 
     callback=print_formats,
     help="List known columns of tables, and exit.",
 )
+@click.option(
+    "--models",
+    metavar="KEY[=A,B]",
+    help="Fit each of these models, such as ball.drag.model=constant,none, and compare.",
+)
+@click.option("--robust", is_flag=True, help="Count points with gross errors less or not at all (Tukey's biweight).")
 @changes_options
 @json_option
 def fit(
@@ -138,6 +144,8 @@ def fit(
     balls: tuple[str, ...],
     mapping: tuple[str, ...],
     where: tuple[str, ...],
+    models: str | None,
+    robust: bool,
     changes: dict[str, Any],
     as_json: bool,
 ) -> None:
@@ -159,6 +167,7 @@ def fit(
     from sandbox.lab.fit.data import Reading
     from sandbox.lab.fit.formats import parse_entry
     from sandbox.lab.fit.frame import parse_free
+    from sandbox.lab.fit.models import compare, parse_models
     from sandbox.lab.fit.reading import Film, parse_ball, parse_pair, parse_scale
 
     chosen = load(scene, changes)
@@ -171,8 +180,13 @@ def fit(
     )
     entries = tuple(map(parse_entry, mapping))
     how = Reading(film, parse_free("--free", free), entries, pairs("--where", where))
-    found = fit_track(chosen, read_data(chosen, tracks, how), spans)
-    say(json_text(report.as_json(found)) if as_json else report.text(found))
+    data = read_data(chosen, tracks, how)
+    found = (
+        fit_track(chosen, data, spans, robust)
+        if models is None
+        else compare(chosen, data, spans, *parse_models(chosen, "--models", models), robust)
+    )
+    say(report.as_json(found) if as_json else "\n".join(report.as_text(found)))
 
 
 @click.command()

@@ -16,6 +16,7 @@ from sandbox.lab.fit.data import Reading, data_of, read_data, table_of
 from sandbox.lab.fit.formats import parse_entry
 from sandbox.lab.fit.frame import parse_free
 from sandbox.lab.fit.measured import Measured
+from sandbox.lab.fit.models import chosen_models, compare
 from sandbox.lab.fit.reading import Film, parse_scale
 from sandbox.lab.fit.squares import Fit, solve
 from sandbox.lab.fit.track import Track
@@ -38,6 +39,7 @@ def fit(
     balls: Mapping[str, str] | None = None,
     columns: Mapping[str, str] | None = None,
     where: Mapping[str, str] | None = None,
+    models: str | Mapping[str, Sequence[Any]] | None = None,
     robust: bool = False,
 ) -> Fit:
     """The values of parameters that explain a measured track, with 95 % intervals.
@@ -71,7 +73,12 @@ def fit(
         paths = [track] if isinstance(track, str | Path) else track
         measured = read_data(chosen, [Path(path) for path in paths], how)
     spans = [_span(chosen, "vary", key, given) for key, given in vary.items()]
-    return fit_track(chosen, measured, spans, robust)
+    if models is None:
+        return fit_track(chosen, measured, spans, robust)
+    if isinstance(models, Mapping) and len(models) != 1:
+        raise RequestError('models: must name one parameter, such as {"ball.drag.model": ["constant", "none"]}')
+    key, words = (models, ()) if isinstance(models, str) else next(iter(models.items()))
+    return compare(chosen, measured, spans, key, chosen_models(chosen, "models", key, words), robust)
 
 
 def fit_track(scene: Scene, measured: Measured, spans: Sequence[Span], robust: bool = False) -> Fit:

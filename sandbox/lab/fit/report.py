@@ -2,37 +2,141 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from math import inf
 from typing import Any
 
-from sandbox.lab.fit.squares import Fit
-from sandbox.text import counted
+from sandbox.files import json_text
+from sandbox.lab.fit.advice import advice
+from sandbox.lab.fit.loss import SQUARES, TUKEY
+from sandbox.lab.fit.squares import OUTLIER, Fit, Value
+from sandbox.lab.tables import length, paragraph, table
+from sandbox.sport.amounts import significant
+from sandbox.text import counted, one_line
 
-#: Two values whose errors are correlated more strongly than this cannot be told apart.
-CORRELATED = 0.95
+#: Two values whose errors are correlated more strongly than this can hardly be told apart, and this not at all.
+HARDLY, NOT = 0.95, 0.999
+
+#: Differences of Akaike's criterion up to which models are alike, and from which one is ruled out (Burnham & Anderson
+#: 2002, section 2.6).
+AS_GOOD, RULED_OUT = 2.0, 10.0
+
+#: Most outliers that are listed.
+_MOST = 12
+
+#: The headings of ``value_rows``.
+VALUES = ("", "value", "", "95 % interval", "")
 
 
-def text(found: Fit) -> str:
-    """The fit for people."""
-    measured = found.measured
-    lines = [f"{found.scene.title}: {counted(measured.count, measured.what)}, {found.loss}"]
+def as_text(found: Fit) -> list[str]:
+    """Lines for the terminal."""
+    said = [line for sentence in sentences(found) for line in paragraph(sentence)]
+    return [*paragraph(title(found), ""), *table(VALUES, value_rows(found), "lrllr"), *said]
+
+
+def title(found: Fit) -> str:
+    """``basketball: 40 points, least squares``."""
+    return f"{found.scene.title}: {counted(found.measured.count, found.measured.what)}, {found.loss}"
+
+
+def value_rows(found: Fit) -> list[tuple[str, ...]]:
+    """Key, value, unit, interval, and half of it as a share of the value."""
+    rows: list[tuple[str, ...]] = []
     for key, one in found.values.items():
-        line = f"  {key} = {one.value:.6g}{' ' * bool(one.unit)}{one.unit}  95 %: {one.low:.6g} to {one.high:.6g}"
-        lines.append(line + ("; at an end of its range, so the interval does not hold" if one.at_bound else ""))
-    sds = zip(found.residual_sd.items(), measured.units, strict=True)
-    said = ", ".join(f"{sd:.3g} {unit} in {name}" for (name, sd), unit in sds)
-    lines.append(f"  standard deviation of the residuals: {said}")
-    for (first, second), value in found.correlations.items():
-        if abs(value) > CORRELATED:
-            lines.append(f"  {first} and {second} can hardly be told apart (correlation {value:.3f})")
+        digits = _digits(one)
+        half = 0.5 * (one.high - one.low)
+        share = f"± {significant(100.0 * half / abs(one.value))} %" if one.value and half < abs(one.value) else ""
+        rows.append((key, f"{one.value:.{digits}f}", one.unit, f"{one.low:.{digits}f} to {one.high:.{digits}f}", share))
+    return rows
+
+
+def _digits(one: Value) -> int:
+    """Decimals that show the interval with two digits."""
+    half = 0.5 * (one.high - one.low)
+    return max(0, 1 - int(f"{half:e}".partition("e")[2])) if half > 0.0 else 6
+
+
+def residual_text(found: Fit) -> str:
+    """``4.7 mm in x, 4.4 mm in y``."""
+    sds = zip(found.residual_sd.items(), found.measured.units, strict=True)
+    parts = [f"{length(sd) if unit == 'm' else f'{significant(sd)} {unit}'.rstrip()} in {name}"
+             for (name, sd), unit in sds]  # fmt: skip
+    return ", ".join(parts)
+
+
+def sentences(found: Fit) -> Iterator[str]:
+    """All that is to be said of a fit, the most important first."""
+    yield f"standard deviation of the residuals: {residual_text(found)}"
+    if found.pattern:
+        yield (
+            f"the model does not explain all: the residuals have a pattern, and are {significant(found.pattern)} times "
+            "as large as neighbouring ones differ. The intervals are then too narrow"
+        )
+    yield from _of_values(found)
+    yield from _of_pairs(found)
+    if found.models:
+        yield models_text(found)
     if found.outliers:
-        lines.append(f"  outliers: row {', '.join(map(str, found.outliers))}")
-    lines += [f"  {remark}" for remark in found.remarks]
-    return "\n".join(lines)
+        rows = ", ".join(map(str, found.outliers[:_MOST]))
+        more = f" and {len(found.outliers) - _MOST} more" if len(found.outliers) > _MOST else ""
+        hint = "; --robust counts them less" if found.loss == SQUARES.name else ""
+        yield f"{'outliers' if len(found.outliers) > 1 else 'outlier'}, beyond {OUTLIER:g} sd: row {rows}{more}{hint}"
+    if found.late:
+        yield (
+            f"{counted(found.late, found.measured.what)} later than {found.end:.3g} s, where this scene ends its runs: "
+            "compared with the run that goes on"
+        )
+    yield from found.remarks
+    yield assumed(found)
 
 
-def as_json(found: Fit) -> dict[str, Any]:
-    """The fit in JSON's types."""
-    return {
+def assumed(found: Fit) -> str:
+    """What was assumed of the errors."""
+    names = " and ".join(found.measured.names)
+    alike = "" if len(found.measured.names) == 1 else f", alike in {names}" if found.pooled else f"; {names} weighted"
+    apart = "" if found.pooled or len(found.measured.names) == 1 else " by the scatter of each"
+    robust = f"; what is {TUKEY:.1f} sd off does not count" if found.loss != SQUARES.name else ""
+    return f"assumed: errors of all {found.measured.what}s are independent and normal{alike}{apart}{robust}"
+
+
+def _of_values(found: Fit) -> Iterator[str]:
+    for key, one in found.values.items():
+        if one.at_bound:
+            end = f"{one.value:g} {one.unit}".rstrip()
+            yield f"{key} stopped at the end of its range, {end}: its interval does not hold"
+        elif one.unknown:
+            yield f"{key} is not determined by these {found.measured.what}s: its interval is all of its range"
+
+
+def _of_pairs(found: Fit) -> Iterator[str]:
+    for (first, second), value in found.correlations.items():
+        known = not (found.values[first].unknown or found.values[second].unknown)
+        if abs(value) > HARDLY and known:
+            can = "cannot" if abs(value) > NOT else "can hardly"
+            help_ = advice(found, first, second)
+            yield (
+                f"{first} and {second} {can} be told apart (correlation {value:.3f})" + (f": {help_}" if help_ else "")
+            )
+
+
+def models_text(found: Fit) -> str:
+    """Which model fits best, in a sentence."""
+    (best, _), *others = found.models.items()
+    words = {("fits", "fit", "as well"): AS_GOOD, ("fits", "fit", "worse"): RULED_OUT, ("is", "are", "ruled out"): inf}
+    said, beyond = [f"{found.models_of}: {best} fits best"], -inf
+    for (one, several, rest), limit in words.items():
+        some = [f"{name} (AICc {each.behind:.1f} more)" for name, each in others if beyond <= each.behind < limit]
+        said += [f"{', '.join(some)} {several if len(some) > 1 else one} {rest}"] if some else []
+        beyond = limit
+    failed = [f"{name}: {one_line(each.failure)}" for name, each in others if each.fit is None]
+    return "; ".join([*said, *(f"not fitted, {why}" for why in failed)])
+
+
+def as_json(found: Fit) -> str:
+    """One JSON object; every value in its unit."""
+    told: dict[str, Any] = {
+        "scene": found.scene.name,
+        "preset": found.scene.preset,
         "values": {
             key: {
                 "value": one.value,
@@ -48,4 +152,13 @@ def as_json(found: Fit) -> dict[str, Any]:
         "correlations": {f"{one}, {other}": value for (one, other), value in found.correlations.items()},
         "outliers": list(found.outliers),
         "points": found.measured.count,
+        "late": found.late,
+        "loss": found.loss,
+        "pattern": found.pattern,
+        "models": {
+            word: {"behind": each.behind if each.fit is not None else None, "failure": each.failure or None}
+            for word, each in found.models.items()
+        },
+        "said": list(sentences(found)),
     }
+    return json_text(told)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import combinations
+from math import inf
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,7 @@ from sandbox.lab.fit.loss import HUBERS, SQUARES, TUKEYS, Loss
 from sandbox.lab.fit.measured import Measured
 from sandbox.lab.fit.problem import Problem
 from sandbox.lab.fit.search import ALIKE, ENOUGH, neumann, robust_sds, search
+from sandbox.lab.runs import runs
 from sandbox.scene import Scene
 from sandbox.text import counted
 
@@ -50,6 +52,15 @@ class Value:
 
 
 @dataclass(frozen=True)
+class Model:
+    """One of several models that were compared: how far it is behind the best, and its fit, or why there is none."""
+
+    behind: float  # difference of AICc to the best; inf for a model that could not be fitted
+    fit: Fit | None
+    failure: str = ""
+
+
+@dataclass(frozen=True)
 class Fit:
     """The result of a fit: ``values`` with 95 % intervals, ``correlations``, ``residuals``, ``outliers``.
 
@@ -68,8 +79,13 @@ class Fit:
     pooled: bool  # whether groups in one unit were weighted alike
     loss: str  # "least squares", "Tukey's biweight"
     outliers: tuple[int, ...]  # rows of the data, the first is 1
-    pattern: bool  # whether the residuals have one: the model does not explain the data
+    pattern: float  # how much larger residuals are than the differences of neighbours say; 0.0 if they are as large
     remarks: tuple[str, ...]
+    slopes: np.ndarray = field(repr=False)  # of the computed by the values in their units, (residuals, values)
+    late: int = 0  # points after the end of the scene's own run
+    end: float = inf  # s, that end
+    models: Mapping[str, Model] = field(default_factory=dict)  # that were compared, by name
+    models_of: str = ""  # the parameter that chooses the model
 
     @property
     def free(self) -> list[float]:
@@ -77,9 +93,20 @@ class Fit:
         return [self.values[one.key].value for one in self.measured.free]
 
     @property
-    def freedom(self) -> int:
-        """Residuals without those that the values use up."""
-        return len(self.residuals) - len(self.values)
+    def aicc(self) -> float:
+        """Akaike's information criterion, corrected for few residuals (Hurvich & Tsai 1989): the lower, the better.
+        Each group has its own standard deviation."""
+        groups, count = self.measured.groups, len(self.residuals)
+        likelihood, free = 0.0, len(self.values)
+        for group in np.unique(groups).tolist():
+            own = self.residuals[groups == group]
+            squares = own**2
+            if self.loss != SQUARES.name:  # Ronchetti (1985): what outliers cost is bounded
+                sd = self.residual_sd[self.measured.names[group]]
+                squares = 2.0 * sd**2 * TUKEYS.cost(own / sd)
+            likelihood += len(own) * float(np.log(max(float(squares.mean()), 1e-300)))
+            free += 1
+        return likelihood + 2.0 * free * count / max(count - free - 1, 1)
 
 
 def solve(scene: Scene, measured: Measured, spans: Sequence[Span], robust: bool = False) -> Fit:
@@ -115,13 +142,14 @@ def _slopes(problem: Problem, place: Place, sds: np.ndarray) -> np.ndarray:
 def _refined(problem: Problem, place: Place, robust: bool) -> tuple[Place, np.ndarray, Loss]:
     """The place with each group weighted by its own scatter, the scale of each residual, and the loss."""
     groups, everywhere = problem.measured.groups, np.ones(len(problem.measured.groups), bool)
+    counts, units, used = np.bincount(groups), problem.measured.units, np.ones(len(groups))
+    first = np.unique(groups, return_index=True)[1]
     if robust:
         sds = robust_sds(place.residuals, groups, everywhere)
         for loss in (HUBERS, HUBERS, TUKEYS, TUKEYS):
             place = descend(problem, place.share, 1.0 / sds, loss)
-            sds = robust_sds(place.residuals, groups, everywhere)
+            sds = pooled(robust_sds(place.residuals, groups, everywhere)[first], counts, units)[groups]
         return place, sds, TUKEYS
-    counts, units, used = np.bincount(groups), problem.measured.units, np.ones(len(groups))
     for _ in range(ROUNDS):
         by_group = pooled(group_sds(place.residuals, place.slopes, used, groups), counts, units)
         by_group = np.maximum(by_group, max(1e-9 * float(by_group.max()), 1e-300))
@@ -157,9 +185,28 @@ def _finished(problem: Problem, place: Place, sds: np.ndarray, loss: Loss) -> Fi
         bool(np.ptp(sds) == 0.0),
         loss.name,
         tuple(np.unique(measured.rows[~kept]).tolist()),
-        0.0 < neumann(problem, np.where(kept, place.residuals, 0.0)) < ALIKE,
+        _pattern(problem, np.where(kept, place.residuals, 0.0)),
         measured.remarks(best, values[len(problem.scene_keys) :]),
+        -place.slopes / problem.width,
+        *_late(problem, best, values[len(problem.scene_keys) :]),
     )
+
+
+def _pattern(problem: Problem, residuals: np.ndarray) -> float:
+    """How many times larger residuals are than those of neighbours differ; 0.0 if they are not, or are too few."""
+    ratio = neumann(problem, residuals)
+    return 0.0 if ratio == 0.0 or ratio >= ALIKE else float(np.sqrt(2.0 / ratio))
+
+
+def _late(problem: Problem, best: Scene, free: Sequence[float]) -> tuple[int, float]:
+    """The points after the end of the scene's own run, where balls still move; and that end in s."""
+    points = problem.measured.points(best, free)
+    if points is None or np.isnan(points.t).all():
+        return 0, inf
+    run = next(runs(best, (), [()], asked=()))
+    if isinstance(run, Exception) or run.ended == "rest":
+        return 0, inf
+    return int((points.t > run.duration * (1.0 + 1e-9)).sum()), run.duration
 
 
 def _values(problem: Problem, share: np.ndarray, errors: Errors) -> dict[str, Value]:

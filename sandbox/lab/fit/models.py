@@ -1,0 +1,89 @@
+"""Which of several models explains the data best: a fit with each, compared by Akaike's criterion."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from math import inf
+from typing import Any
+
+from sandbox.errors import RequestError, RunError
+from sandbox.lab.axes import Span, checked
+from sandbox.lab.fit.measured import Measured
+from sandbox.lab.fit.squares import Fit, Model, solve
+from sandbox.parameters import groups_of, path_of, value_at, words_of
+from sandbox.scene import Scene
+from sandbox.text import nearest
+from sandbox.toml import toml_value
+
+#: Fewer models cannot be compared.
+FEWEST = 2
+
+
+def parse_models(scene: Scene, option: str, text: str) -> tuple[str, tuple[Any, ...]]:
+    """``KEY=A,B,C``, or ``KEY`` for all that it can be. Raises RequestError."""
+    key, equals, body = (part.strip() for part in text.partition("="))
+    words = [toml_value(part.strip()) for part in body.split(",")] if equals else []
+    return key, chosen_models(scene, option, key, words)
+
+
+def chosen_models(scene: Scene, option: str, key: str, words: Sequence[Any] = ()) -> tuple[Any, ...]:
+    """The models to compare, by default all that the parameter ``key`` can name. Raises RequestError."""
+    known = _choices(scene.parameters, key)
+    if not known:
+        checked(scene, option, key, "")  # says what is wrong with the key
+    for word in words:
+        if word not in known:
+            near = nearest(str(word), [str(each) for each in known])
+            hint = f"did you mean {near}?" if near else f"choose from {', '.join(map(str, known))}"
+            raise RequestError(f"{option} {key}: no {word!r}; {hint}")
+    found = tuple(dict.fromkeys(words)) or known
+    if len(found) < FEWEST:
+        raise RequestError(f"{option} {key}: {found[0]} alone cannot be compared; name at least two")
+    return found
+
+
+def _choices(parameters: Any, key: str) -> tuple[Any, ...]:
+    """The words that a parameter can be, also those that make another kind of group of the one it is in."""
+    try:
+        *groups, name = path_of("models", key)
+    except RequestError:
+        return ()
+    kinds: tuple[Any, ...] = (type(parameters),)
+    for step in groups:
+        fields = [kind.model_fields[step] for kind in kinds if step in kind.model_fields]
+        kinds = tuple(kind for field in fields for kind in groups_of(field.annotation))
+    words = [words_of(kind.model_fields[name].annotation) for kind in kinds if name in kind.model_fields]
+    return tuple(dict.fromkeys(word for some in words for word in some))
+
+
+def compare(
+    scene: Scene, measured: Measured, spans: Sequence[Span], key: str, words: Sequence[Any], robust: bool = False
+) -> Fit:
+    """The fit of the best model, with all that were compared. Raises RequestError or RunError if none can be fitted.
+
+    Each is fitted with those of the ranges whose parameter it has.
+    """
+    found: dict[str, Model] = {}
+    failure: RequestError | RunError | None = None
+    for word in words:
+        try:
+            changed = scene.changed({key: word}, "--models")
+            own = [span for span in spans if value_at(changed.parameters, span.key) is not None]
+            if not own:
+                raise RequestError(f"{word} has none of the parameters to fit")
+            found[str(word)] = Model(0.0, solve(changed, measured, own, robust))
+        except (RequestError, RunError) as error:
+            failure = failure or error
+            found[str(word)] = Model(inf, None, str(error))
+    least = min((each.fit.aicc for each in found.values() if each.fit is not None), default=inf)
+    if least == inf:
+        assert failure is not None
+        raise failure
+    models = {
+        word: each if each.fit is None else replace(each, behind=each.fit.aicc - least) for word, each in found.items()
+    }
+    ordered = dict(sorted(models.items(), key=lambda item: item[1].behind))
+    best = next(iter(ordered.values())).fit
+    assert best is not None
+    return replace(best, models=ordered, models_of=key)
