@@ -92,7 +92,8 @@ def sentences(found: Fit) -> Iterator[str]:
 
 def assumed(found: Fit) -> str:
     """What was assumed of the errors."""
-    names = " and ".join(found.measured.names)
+    *most, last = found.measured.names
+    names = f"{', '.join(most)} and {last}" if most else last
     alike = "" if len(found.measured.names) == 1 else f", alike in {names}" if found.pooled else f"; {names} weighted"
     apart = "" if found.pooled or len(found.measured.names) == 1 else " by the scatter of each"
     robust = f"; what is {TUKEY:.1f} sd off does not count" if found.loss != SQUARES.name else ""
