@@ -125,12 +125,19 @@ def json_text(value: Any) -> str:
     return json.dumps(json_ready(value), allow_nan=False, ensure_ascii=False)
 
 
+def is_given(path: Path) -> bool:
+    """True if there is a file of that name. Raises RequestError for a folder, and for a pipe or a device, from which a
+    reader might wait for ever: it is not passed over."""
+    if path.is_file() or not path.exists():
+        return path.is_file()
+    raise RequestError(f"{path}: is {'a folder' if path.is_dir() else 'a pipe or a device'}; a file is needed")
+
+
 def read_given(path: Path, most: int) -> bytes:
     """The contents of a file that a user names. Raises RequestError if it cannot be read, is no file but a pipe or a
     device, which may never end, or has more than ``most`` bytes."""
     try:
-        if path.exists() and not path.is_file():
-            raise RequestError(f"{path}: is {'a folder' if path.is_dir() else 'a pipe or a device'}; a file is needed")
+        is_given(path)
         size = path.stat().st_size
         if size > most:
             raise RequestError(f"{path}: has {size / 1e6:.3g} MB; such a file has at most {most / 1e6:.3g} MB")

@@ -69,6 +69,14 @@ def test_a_pipe_is_no_part_of_a_scene(call: Call, drop: Path):
     assert_refused(call("run", drop), "drop.toml: is a pipe or a device; a file is needed")
 
 
+@pytest.mark.parametrize("name", ["picture.py", "scene.py", "__init__.py"])
+def test_a_pipe_is_no_module_of_a_scene(call: Call, drop: Path, name: str):
+    (drop / name).unlink(missing_ok=True)
+    os.mkfifo(drop / name)
+    said = f"{name}: is a pipe or a device; a file is needed"
+    assert_refused(call("run", drop, "--poster", "drop.png"), said)
+
+
 def test_a_device_is_no_scene(call: Call):
     assert_refused(call("run", "/dev/zero"), "/dev/zero: is a pipe or a device; a file is needed")
 

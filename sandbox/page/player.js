@@ -47,9 +47,12 @@ class Player {
     }
     for (const ball of [...data.balls, ...data.ghosts]) {
       if (!(ball.path instanceof Path)) ball.path = new Path(ball.path, data.heaped);
+      ball.tied = null; // where its string is tied
       if (ball.rolls) ball.turning = new Turning(ball.path, ball.lying);
     }
     this.main = data.balls.find((ball) => ball.name === data.ball);
+    for (const [ball, ...tied] of data.strings) data.balls[ball].tied = tied;
+    for (const ghost of data.ghosts) ghost.tied = this.main.tied;
     this.whole = true;
     this.playing = false;
     this.t = data.told;
@@ -105,8 +108,10 @@ class Player {
     return [anchor[0] + (x - at[0]) * scale, anchor[1] - (y - at[1]) * scale * stretch];
   }
 
-  /** Where a ball of a radius in px is drawn: one that is drawn too large lies on the ground and not in it. */
-  spot(x, y, radius = 0) {
+  /** Where a ball of a radius in px is drawn: one on a string raised so that this does not stretch, for swings are
+   *  simulated as small ones, along a level; one that is drawn too large lies on the ground and not in it. */
+  spot(ball, x, y, radius = 0) {
+    if (ball.tied) y = ball.tied[1] - Math.sqrt(Math.max(0, (ball.tied[1] - y) ** 2 - (x - ball.tied[0]) ** 2));
     const [px, py] = this.pixel(x, y);
     if (!this.data.ground || this.view.lift === null) return [px, py];
     const ground = this.ground(x);
@@ -123,7 +128,7 @@ class Player {
       const pieces = Math.max(1, Math.min(200, Math.ceil(long / 4)));
       for (let i = 0; i <= pieces; i++) {
         const t = Math.min(this.data.told, t0 + ((t1 - t0) * i) / pieces), u = t1 > t0 ? (t - t0) / (t1 - t0) : 0;
-        points.push([...this.spot(evaluate(x, u) + dx, evaluate(y, u) + dy), t]);
+        points.push([...this.spot(ball, evaluate(x, u) + dx, evaluate(y, u) + dy), t]);
       }
     }
     return points;
@@ -150,11 +155,11 @@ class Player {
     context.setTransform(density, 0, 0, density, 0, 0);
     context.drawImage(view.place, 0, 0);
     this.driven(whole ? data.shown : t);
-    for (const [ball, x, y] of data.strings) {
-      const path = data.balls[ball].path.state(t);
+    for (const ball of data.balls.filter((ball) => ball.tied)) {
+      const [x, y] = ball.path.state(t);
       context.beginPath();
-      context.moveTo(...this.pixel(x, y));
-      context.lineTo(...this.pixel(path[0], path[1]));
+      context.moveTo(...this.pixel(...ball.tied));
+      context.lineTo(...this.spot(ball, x, y));
       context.lineWidth = 1.5 * unit;
       context.strokeStyle = data.string;
       context.stroke();
@@ -164,7 +169,7 @@ class Player {
     const balls = [...data.balls.filter((ball) => ball !== this.main), this.main];
     for (const ball of balls) {
       const width = ball.thickness * Math.max(2.5, 4.5 * unit), rim = 2 * Math.max(0.75, unit);
-      const here = [...this.spot(...ball.path.state(t)), t];
+      const here = [...this.spot(ball, ...ball.path.state(t).slice(0, 2)), t];
       if (faint < 1) this.trace(ball.line, 0, Infinity, width, ball.colour, faint);
       this.trace(faint < 1 ? [...ball.line.filter((point) => point[2] < t), here] : ball.line, 0, Infinity, width, ball.colour, 1, rim);
     }
@@ -200,7 +205,7 @@ class Player {
   ball(ball, t) {
     if (ball.caught !== null && t >= ball.caught) return;
     const { context, view, data } = this, [x, y] = ball.path.state(t);
-    const radius = Math.max(ball.radius * view.scale, view.least), [px, py] = this.spot(x, y, radius);
+    const radius = Math.max(ball.radius * view.scale, view.least), [px, py] = this.spot(ball, x, y, radius);
     if (ball.shapes) this.flat(ball, px, py, radius, this.angle(ball, t));
     else this.round(ball, t, x, y, px, py, radius);
     if (data.balls.length === 1 && radius > data.unsaid * ball.radius * view.scale) {
@@ -286,7 +291,7 @@ class Player {
   ghost(ghost, t) {
     const { context, view } = this, { arcs } = ghost.path, until = Math.min(t, arcs[arcs.length - 1][1]);
     const [x, y] = ghost.path.state(until), radius = Math.max(3, 6 * view.unit);
-    const [px, py] = this.spot(x + ghost.shift[0], y + ghost.shift[1], radius);
+    const [px, py] = this.spot(ghost, x + ghost.shift[0], y + ghost.shift[1], radius);
     this.disc(px, py, radius, ghost.light);
     context.font = `700 ${Math.max(11, 14.5 * view.unit)}px "Sandbox Sans", "Noto Sans", sans-serif`;
     const wide = context.measureText(ghost.label).width + 12 * view.unit, tall = 22 * view.unit;
@@ -317,7 +322,7 @@ class Player {
   vectors(t) {
     const { view, main, data } = this, [x, y, vx, vy] = main.path.state(t);
     if (main.caught !== null && t >= main.caught) return;
-    const radius = Math.max(main.radius * view.scale, view.least), at = this.spot(x, y, radius);
+    const radius = Math.max(main.radius * view.scale, view.least), at = this.spot(main, x, y, radius);
     const arrow = (vector, longest, length, width, colour) => {
       const size = Math.hypot(...vector), shown = longest > 0 ? Math.min(1.5, size / longest) * length * view.unit : 0;
       if (shown < data.arrow.shortest * view.unit) return;
@@ -514,7 +519,7 @@ class Player {
 
   point() {
     const { ball, t } = this.pointed, { view, data } = this, [x, y] = ball.path.state(t), [dx, dy] = ball.shift || [0, 0];
-    const [px, py] = this.spot(x + dx, y + dy);
+    const [px, py] = this.spot(ball, x + dx, y + dy);
     this.disc(px, py, 6 * view.unit, data.rim);
     this.disc(px, py, 4.5 * view.unit, data.accent);
     const name = ball.label || (data.balls.length > 1 ? ball.name : "");

@@ -148,9 +148,19 @@ class BallDrawing(SceneOptions[P]):
 
     # Where
 
-    def spots(self, camera: Camera, points: np.ndarray, radius: float) -> np.ndarray:
-        """The places in px of balls of ``radius`` px at points in m, both of shape (n, 2)."""
-        return camera.pixels(points)
+    def spots(self, camera: Camera, points: np.ndarray, radius: float, name: str = "") -> np.ndarray:
+        """The places in px of balls of ``radius`` px at points in m, both of shape (n, 2): of the ball of this name, or
+        of the one that is played."""
+        return camera.pixels(self._hung(name or self.ball, points))
+
+    def _hung(self, name: str, points: np.ndarray) -> np.ndarray:
+        """Points of a ball, raised where it hangs on a string, which does not stretch: swings are simulated as small
+        ones, along a level."""
+        if name not in (tied := dict(self.strings)):
+            return points
+        x, y = tied[name]
+        length, aside = y - points[:, 1], points[:, 0] - x
+        return np.column_stack([points[:, 0], y - np.sqrt(np.maximum(0.0, length**2 - aside**2))])
 
     def shadow(self, painter: Painter, camera: Camera, name: str, t: float, at: Point, radius: float) -> None:
         """Draw the shadow of a ball at time t in s that is drawn at ``at`` with ``radius`` (px)."""
@@ -170,7 +180,7 @@ class BallDrawing(SceneOptions[P]):
         placed, least = {}, self._least(in_frame)
         for name in self.present(t):
             radius = max(self.radii[name] * camera.scale, least)
-            x, y = self.spots(camera, np.array([self.run.state(name, t)[:2]]), radius)[0]
+            x, y = self.spots(camera, np.array([self.run.state(name, t)[:2]]), radius, name)[0]
             placed[name] = (float(x), float(y)), radius
         return placed
 
@@ -188,14 +198,14 @@ class BallDrawing(SceneOptions[P]):
 
     # Paths
 
-    def traced(self, camera: Camera, points: np.ndarray) -> np.ndarray:
-        """A path in px, in as many points as can be told apart."""
-        traced = self.spots(camera, points, 0.0)
+    def traced(self, camera: Camera, points: np.ndarray, name: str = "") -> np.ndarray:
+        """The path of a ball, or of the one that is played, in px, in as many points as can be told apart."""
+        traced = self.spots(camera, points, 0.0, name)
         return traced[apart(traced, FINEST)]
 
     def _traces(self, sheet: Sheet, camera: Camera) -> None:
         """All paths, other runs' below; that of the ball that is played is kept as ``trace``, in px."""
-        traces = {name: self.traced(camera, path.points) for name, path in self.paths.items()}
+        traces = {name: self.traced(camera, path.points, name) for name, path in self.paths.items()}
         self.trace = traces.pop(self.ball)
         for ghost in self.ghosts:
             ghost.draw(sheet, self.traced(camera, ghost.points))
@@ -242,8 +252,8 @@ class BallDrawing(SceneOptions[P]):
     def _strings(self, painter: Painter, camera: Camera, t: float) -> None:
         """Draw the strings of balls that hang."""
         for name, (x, y) in self.strings:
-            ends = [camera.pixel(x, y), camera.pixel(*self.run.state(name, t)[:2])]
-            painter.line(ends, STRING * self.unit, self.STRING_COLOUR)
+            hung = self.spots(camera, np.array([self.run.state(name, t)[:2]]), 0.0, name)[0]
+            painter.line([camera.pixel(x, y), hung], STRING * self.unit, self.STRING_COLOUR)
 
     @cached_property
     def driven(self) -> list[Surface]:
@@ -273,7 +283,7 @@ class BallDrawing(SceneOptions[P]):
         for name, (moments, places) in self._tracks.items():
             if t <= self.story_end:
                 been = np.vstack([places[: np.searchsorted(moments, t)], self.run.state(name, t)[:2]])
-                painter.thread(self.spots(camera, been, 0.0), self.unit, self.faint_of(name))
+                painter.thread(self.spots(camera, been, 0.0, name), self.unit, self.faint_of(name))
             self.trail(painter, camera, name, t)
         sheet.surface.set_clip(None)
 
@@ -281,7 +291,7 @@ class BallDrawing(SceneOptions[P]):
         """Draw where a ball has been of late, at time t in s."""
         path = self.paths[name]
         first, last = np.searchsorted(path.samples[:, 0], (t - self.TRAIL, t))
-        late = self.spots(camera, np.vstack([path.points[first:last], self.run.state(name, t)[:2]]), 0.0)
+        late = self.spots(camera, np.vstack([path.points[first:last], self.run.state(name, t)[:2]]), 0.0, name)
         if np.ptp(late, axis=0).max() > 2:
             width = 1.1 * max(self.radii[name] * camera.scale, self.min_radius)
             painter.fading(late[apart(late, 3.0)], width, self.colour_of(name), 0.9)

@@ -300,7 +300,7 @@ class SideView(View[P]):
     def _under(self, x: float) -> float:
         return float(self.ground(np.array([x]))[0])
 
-    def spots(self, camera: Camera, points: np.ndarray, radius: float) -> np.ndarray:
+    def spots(self, camera: Camera, points: np.ndarray, radius: float, name: str = "") -> np.ndarray:
         """On the path, raised so that balls which are drawn too large along it lie on the ground and not in it."""
         spots, ground = camera.pixels(points), self.ground(points[:, 0])
         if isinf(self.MAX_STRETCH):  # heights are to be read

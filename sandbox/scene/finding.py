@@ -20,7 +20,7 @@ from typing import Any
 
 from sandbox import resources
 from sandbox.errors import RequestError
-from sandbox.files import from_here, reason
+from sandbox.files import from_here, is_given, reason
 from sandbox.text import nearest, shortened
 from sandbox.toml import read_toml, shown
 
@@ -148,7 +148,7 @@ def _is_path(text: str) -> bool:
 def _at(path: Path, given: str = "") -> SceneSource:
     """The scene that a path refers to; messages call it ``given``."""
     path = path.parent if path.name == "scene.py" else path
-    if (path / "scene.py").is_file():
+    if is_given(path / "scene.py"):
         return _in_folder(path.resolve().name, path)
     if path.is_file() or (path.suffix == ".toml" and not path.is_dir()):
         return _of_file(path)
@@ -156,8 +156,7 @@ def _at(path: Path, given: str = "") -> SceneSource:
         return _in_folder(path.parent.resolve().name, path.parent, path.name)
     if path.is_dir():
         raise RequestError(f"{path}: a folder without scene.py is not a scene")
-    if path.exists():
-        raise RequestError(f"{path}: is a pipe or a device; a file is needed")
+    is_given(path)
     raise RequestError(f"{shortened(given or str(path))}: there is no such folder or file")
 
 

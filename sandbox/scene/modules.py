@@ -16,6 +16,7 @@ from types import ModuleType
 
 from sandbox import resources
 from sandbox.errors import RequestError, sys_exit_as_error
+from sandbox.files import is_given
 
 #: Scene folders are imported as packages below this name, which nothing else uses.
 NAMESPACE = "sandbox_scenes"
@@ -76,7 +77,7 @@ def _package(name: str, folder: Path) -> None:
     if name in sys.modules:
         return
     init = folder / "__init__.py"
-    if not init.is_file():
+    if not is_given(init):
         package = sys.modules[name] = ModuleType(name)
         package.__path__ = [str(folder)]
         return

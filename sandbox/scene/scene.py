@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 from sandbox import display
 from sandbox import parameters as declared
 from sandbox.errors import RequestError, RunError, sys_exit_as_error
-from sandbox.files import from_here
+from sandbox.files import from_here, is_given
 from sandbox.scene.finding import SceneSource, default_file, docstring, find, first_comment
 from sandbox.scene.modules import module_in
 from sandbox.sport.controls import Controls
@@ -85,10 +85,11 @@ class Scene:
         """The scene's ``picture.py``, or a simple one for a scene without; imported on first use, as it imports
         pygame."""
         os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")  # no greeting on stdout, which is for --json
-        if not (self.folder / "picture.py").is_file():
+        file = self.folder / "picture.py"
+        if not is_given(file):
             return display.pictures()
         module = module_in(self.folder, "picture")
-        file, picture = self.folder / "picture.py", getattr(module, "Picture", None)
+        picture = getattr(module, "Picture", None)
         if isinstance(picture, type) and not issubclass(picture, display.pictures().View):
             raise RequestError(f"{file}: Picture must be a SideView or an AboveView of sandbox.kit")
         _check_calls(file, "Picture", picture)

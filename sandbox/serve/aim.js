@@ -47,7 +47,7 @@ class Aim extends Player {
       context.beginPath();
       for (const [scored, line] of fan.lines) {
         if (scored !== scores) continue;
-        for (let i = 0; i < line.length; i += 2) context[i ? "lineTo" : "moveTo"](...this.spot(line[i], line[i + 1]));
+        for (let i = 0; i < line.length; i += 2) context[i ? "lineTo" : "moveTo"](...this.spot(this.main, line[i], line[i + 1]));
       }
       Object.assign(context, { lineWidth: 1.5 * this.view.unit, strokeStyle: scores ? data.good : "#f4f6f8" });
       context.globalAlpha = fan.late ? 0.12 : 0.35; // that of a moment ago

@@ -29,7 +29,7 @@ class Board extends Player {
 
   shot({ name, number, last: { line } }) {
     const { context, view } = this, points = [];
-    for (let i = 0; i < line.length; i += 2) points.push([...this.spot(line[i], line[i + 1]), i]);
+    for (let i = 0; i < line.length; i += 2) points.push([...this.spot(this.main, line[i], line[i + 1]), i]);
     if (!points.length) return;
     this.trace(points, 0, Infinity, 3 * view.unit, colourOf(number), 0.9, view.unit);
     const [x, y] = points[points.length - 1], [width, height] = view.size, size = Math.max(11, 15 * view.unit);

@@ -171,7 +171,7 @@ def _pull(scene: Scene) -> dict[str, Any] | None:
     speed, angle = ({p.key: p for p in walk(scene.parameters)}.get(key) for key in (controls.speed, controls.angle))
     if speed is None or angle is None:
         return None
-    speeds: Speeds = pull_speeds(controls, speed, speed.value)
+    speeds: Speeds = pull_speeds(controls, scene.parameters, speed, speed.value)
     return {
         "speed": controls.speed,
         "angle": controls.angle,

@@ -98,6 +98,8 @@ class Controls:
     speed: str = "launch.speed"
     angle: str = "launch.angle"  # deg, counter-clockwise from +x
     full_pull_speed: float = 30.0  # the highest speed of a full pull, in the speed's unit
+    #: From the parameters to the highest speed that they allow, where that may be less: what strings can bear.
+    speed_limit: Callable[[Any], float] | None = None
     softest: float = 0.05  # the speed of the shortest pull, as a share of the scene file's
     spins: tuple[Spin, ...] = ()  # of the wheel, and of the wheel with Shift
     ball: str = "ball"  # the ball that is pulled: its name, or the key that holds its name

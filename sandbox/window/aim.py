@@ -50,14 +50,17 @@ class Speeds(NamedTuple):
 def speeds(session: Session) -> Speeds:
     """The speeds within reach of a pull: scaled to the scene's own, since one pull serves putts and drives."""
     controls = session.controls
-    return pull_speeds(controls, session.parameters.get(controls.speed), session.base_value(controls.speed))
+    speed = session.parameters.get(controls.speed)
+    return pull_speeds(controls, session.scene.parameters, speed, session.base_value(controls.speed))
 
 
-def pull_speeds(controls: Controls, parameter: Parameter | None, base: Any) -> Speeds:
-    """The speeds within reach of a pull in a scene with these controls, whose own speed is ``base``; all within the
-    bounds of the speed's ``parameter``."""
+def pull_speeds(controls: Controls, parameters: Any, parameter: Parameter | None, base: Any) -> Speeds:
+    """The speeds within reach of a pull in a scene with these controls and parameters, whose own speed is ``base``; all
+    within the bounds of the speed's ``parameter``."""
     own = base if isinstance(base, float) and base > 0 else FROM_REST * controls.full_pull_speed
-    low, high = controls.softest * own, min(controls.full_pull_speed, HARDEST * own)
+    limit = controls.speed_limit(parameters) if controls.speed_limit is not None else inf
+    own = min(own, OWN * limit)
+    low, high = controls.softest * own, min(controls.full_pull_speed, HARDEST * own, limit)
     if parameter is not None:
         low, high = parameter.within(low), parameter.within(high)
     return Speeds(min(low, own), own, max(high, own))

@@ -3,7 +3,7 @@
 Models: impulses for a lone pair, Hertz's contact law where others are reached; friction; gravity; a floor or a bowl,
 and balls that lie on one another; drag in the wind; strings of a cradle; boxes, ellipses, capsules and bowling pins,
 whose blows are impulses at one or two points.
-Leaves out: the third dimension; the rise of a ball on its string, 0.4 % of a swing's time at 15 deg; lift.
+Leaves out: the third dimension; the rise of a ball on its string (only drawn), 0.4 % of a swing's time at 15 deg; lift.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import accumulate, pairwise
-from math import cos, hypot, pi, sin
+from math import cos, hypot, inf, pi, sin, sqrt
 from typing import Any, Literal, NamedTuple
 
 from sandbox.engine.contact.manifold import ContactManifold, meeting
@@ -84,8 +84,24 @@ class Parameters(SceneParameters):
     duration: float = quantity(..., "s", 0.01, 60, "shown at most")
 
 
+def speed_on_string(it: Parameters, aside: float = 0.0) -> float:
+    """The speed in m/s with which a ball of a cradle, so many m aside, swings as high as its string is long: it can be
+    thrown no faster. Infinite without strings, or without gravity."""
+    if not it.strings or not it.gravity:
+        return inf
+    return sqrt(max(0.0, it.gravity * (it.strings - aside * aside / it.strings)))
+
+
+def speed_limit(it: Parameters) -> float:
+    """The speed in m/s of the strongest pull at the ball that is played: a little below what its string allows."""
+    hung = dict(zip([body.name for body in it.balls], hangs(it), strict=True)) if it.balls else {}
+    aside = [abs(body.x - hung[body.name]) for body in it.balls if body.name == it.launch.ball]
+    return max(0.01, 0.99 * speed_on_string(it, *aside))
+
+
 CONTROLS = Controls(
     full_pull_speed=10.0,
+    speed_limit=speed_limit,
     ball="launch.ball",
     sliders=(
         *("contact.restitution", "contact.friction", "balls[0].mass", "balls[1].mass"),
@@ -167,7 +183,7 @@ def _on_string(body: Body, hung: float, velocity: Vector, it: Parameters) -> Vec
     if rise > 0.5 * it.strings:
         raise RequestError(
             f"{who} of {it.strings:g} m: {aside:.3g} m aside with {speed:.3g} m/s it swings over the string's end; "
-            f"at most {(it.gravity * it.strings) ** 0.5:.3g} m/s where it hangs, or {it.strings:g} m aside at rest"
+            f"at most {speed_on_string(it):.3g} m/s where it hangs, or {it.strings:g} m aside at rest"
         )
     return velocity[0], 0.0
 

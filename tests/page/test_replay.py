@@ -23,7 +23,13 @@ from sandbox.sport.amounts import amount, shown_in
 from tests.scenes.play import run_of
 
 #: A flight with rolling, balls that turn about all axes, a heap, a body that turns.
-RUNS = {"golf": None, "billiards": None, "collisions/bowl": {"duration": 0.6}, "collisions/tumbling-box": None}
+RUNS = {
+    "golf": None,
+    "billiards": None,
+    "collisions/bowl": {"duration": 0.6},
+    "collisions/tumbling-box": None,
+    "collisions/cradle-3": {"balls[0].x": -0.2, "duration": 0.2},
+}
 
 
 @pytest.fixture(scope="module")
@@ -69,7 +75,7 @@ def test_every_instant_is_that_of_python(browser, pages, name: str):
             else:
                 assert angle[i] == pytest.approx(run.angle(ball, t), abs=1e-9)
     radius, places = view.min_radius, [balls[0][:2] for balls in states]
-    spots = browser.run("arguments[0].map(([x, y]) => player.spot(x, y, arguments[1]))", places, radius)
+    spots = browser.run("arguments[0].map(([x, y]) => player.spot(player.main, x, y, arguments[1]))", places, radius)
     first = np.array([run.state(view.balls[0], t)[:2] for t in times])
     np.testing.assert_allclose(spots, view.spots(view.camera, first, radius), atol=0.5)
     assert browser.complaints() == []
@@ -122,7 +128,7 @@ def test_it_plays_by_mouse_keyboard_and_touch(browser, pages):
     assert amount(landing, "s") in browser.text("#events li.past")[0]
     # a path is read by pointing at it, and a click goes there
     t, (x, y, *_) = 3.0, run.state("ball", 3.0)
-    px, py = browser.run(f"player.spot({x}, {y}).map((value) => value * player.shown)")
+    px, py = browser.run(f"player.spot(player.main, {x}, {y}).map((value) => value * player.shown)")
     canvas = driver.find_element(By.ID, "picture")
     box = canvas.rect
     ActionChains(driver).move_to_element_with_offset(
@@ -145,7 +151,7 @@ def test_it_plays_by_mouse_keyboard_and_touch(browser, pages):
     assert browser.run("player.view === player.data.views[1]")
     x, y, *_ = run.state("ball", 2.0)
     at = browser.run(
-        f"""(() => {{ const box = player.canvas.getBoundingClientRect(), [px, py] = player.spot({x}, {y});
+        f"""(() => {{ const box = player.canvas.getBoundingClientRect(), [px, py] = player.spot(player.main, {x}, {y});
         return [box.left + px * player.shown, box.top + py * player.shown]; }})()"""
     )
     point = {"x": at[0], "y": at[1]}

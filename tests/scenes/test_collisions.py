@@ -88,6 +88,17 @@ def test_what_strings_cannot_do_is_refused(changes: dict[str, Any], words: str):
         run_of("collisions/cradle-5", **changes)
 
 
+def test_strings_are_drawn_as_long_as_they_are():
+    """0.2 m aside on a string of 0.25 m: drawn 0.15 m below its end, not 0.25."""
+    run = run_of("collisions/cradle-3", **{"balls[0].x": -0.2})
+    view = run.scene.picture(run, (640, 360))
+    name, tied = view.strings[0]
+    for t in np.linspace(0.0, run.duration, 40):
+        at = np.array([run.state(name, t)[:2]])
+        (drawn,), end = view.spots(view.camera, at, 0.0, name), view.camera.pixel(*tied)
+        assert dist(drawn, end) / view.camera.scale == pytest.approx(0.25, rel=1e-6)
+
+
 def test_a_dropped_ball_leaps_off_another():
     """One impact after another: the floor turns the large one round, e V; then the small one."""
     run = run_of("collisions/ball-on-ball")

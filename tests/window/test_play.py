@@ -170,6 +170,14 @@ def test_a_pull_from_rest_has_a_strength_too(player):
     assert 0.5 < player.game.session.value("launch.speed") < 2.0
 
 
+def test_the_strongest_pull_is_what_strings_allow(player):
+    """One ball of a cradle, 0.25 m long, hangs 0.05 m aside: 1.53 m/s lifts it as high as its string is long."""
+    player = player("collisions/cradle-5")
+    player.pull((-2000, 0))
+    assert player.game.session.value("launch.speed") == pytest.approx(0.99 * 1.534, rel=1e-3)
+    assert not (player.game.messages.message and player.game.messages.message.bad)
+
+
 def test_a_click_is_no_shot_and_wheel_and_keys_aim(player):
     player = player("golf")
     player.click((400, 300))

@@ -9,7 +9,7 @@ import numpy as np
 from sandbox.engine.contact.surfaces import press, takeoff_speed
 from sandbox.engine.contact.touch import SIDE
 from sandbox.engine.many.arc_rows import CURVES, END, T1, resting_columns
-from sandbox.engine.many.batch_forces import FAILURES, accelerations
+from sandbox.engine.many.batch_forces import accelerations, raise_if_ctrl_c
 from sandbox.engine.many.batch_record import QUERIES, BatchRecord
 from sandbox.engine.many.bernstein_many import elevated, first_downward_crossing
 from sandbox.engine.many.continuation import ExitReason
@@ -218,7 +218,8 @@ class BatchContacts:
                 names, at = (setup.balls[0].name, setup.surfaces[surface].name), self._flying.state[:2, lane].tolist()
                 events.append(Event(float(self._flying.t[lane]), what, *names, 0.0, *at))
                 over = setup.ends_with(events) or over
-        except FAILURES:
+        except BaseException as error:
+            raise_if_ctrl_c(error)
             del events[noted:]
             return ExitReason.AFTER_IMPACT if hit else ExitReason.CONTACT_CHANGE
         return ExitReason.UNTIL if over else ExitReason.REST if what == "rest" else ExitReason.NONE

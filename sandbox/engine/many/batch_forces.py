@@ -12,12 +12,15 @@ from sandbox.engine.model.tolerances import ROUNDING
 from sandbox.engine.motion.forces_on_ball import acceleration_function, by_cause
 from sandbox.physics.integrators import AccelerationFunction
 
-#: Exceptions that a scene's own function may raise.
-FAILURES = (Exception, SystemExit)
-
 
 class NotVectorizable(Exception):
     """Forces that cannot take arrays, or that return other values for arrays than for floats."""
+
+
+def raise_if_ctrl_c(error: BaseException) -> None:
+    """Raise Ctrl-C again. Whatever else a scene's own function raises is a failure of its shot, which runs alone."""
+    if isinstance(error, KeyboardInterrupt):
+        raise error
 
 
 def accelerations(acceleration_at: AccelerationFunction, t: np.ndarray, state: np.ndarray) -> Any:
@@ -29,7 +32,8 @@ def accelerations(acceleration_at: AccelerationFunction, t: np.ndarray, state: n
     try:
         for row, part in zip(found, acceleration_at(t, tuple(state)), strict=True):
             np.copyto(row, part)
-    except FAILURES as error:  # such as complex numbers, or arrays of the wrong shape
+    except BaseException as error:  # such as complex numbers, or arrays of the wrong shape
+        raise_if_ctrl_c(error)
         raise NotVectorizable from error
     return found
 
@@ -46,5 +50,6 @@ def check_forces(setups: Stack, flying: InFlight, lanes: np.ndarray, together: n
                 size = sum(abs(fx) + abs(fy) for _, (fx, fy) in by_cause(ball.forces, t, state)) / ball.mass
                 if error > ROUNDING * (size + abs(alone[2])):
                     raise NotVectorizable
-        except FAILURES as error:
+        except BaseException as error:
+            raise_if_ctrl_c(error)
             raise NotVectorizable from error

@@ -8,7 +8,7 @@ import numpy as np
 
 from sandbox.engine.contact.surfaces import bounce_off, tilted
 from sandbox.engine.contact.touch import SIDE
-from sandbox.engine.many.batch_forces import FAILURES
+from sandbox.engine.many.batch_forces import raise_if_ctrl_c
 from sandbox.engine.many.batch_record import IMPACTS, BatchRecord
 from sandbox.engine.many.continuation import ExitReason
 from sandbox.engine.many.impulse_lanes import lanes_for
@@ -74,7 +74,8 @@ class BatchImpacts:
             own = self._record.setups[shots[i]].surfaces[surface[i]]
             try:
                 bounces[i] = bounce_off(own, float(approach[i]), float(along[i]))
-            except FAILURES:
+            except BaseException as error:
+                raise_if_ctrl_c(error)
                 lawful[i] = False
         return bounces, lawful
 

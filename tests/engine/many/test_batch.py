@@ -36,7 +36,7 @@ from sandbox.engine.model.tolerances import TOUCHING_GAP
 from sandbox.engine.paths.arc import Arc, hermite_arc
 from sandbox.engine.paths.path import Above, Path, climb
 from sandbox.engine.paths.run import Run
-from sandbox.errors import RunError
+from sandbox.errors import ExitCalled, RunError
 from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity
 from sandbox.physics.impulse import after_impulse
@@ -479,6 +479,23 @@ def test_what_a_scene_gets_wrong_is_an_error_of_its_shot():
                     simulate(setup, resolve())
             else:
                 assert_same(run, simulate(setup, resolve()))
+
+
+class OwnExit(BaseException):
+    """Neither an Exception nor Ctrl-C."""
+
+
+@pytest.mark.parametrize("raised", [GeneratorExit, OwnExit])
+@pytest.mark.parametrize("part", ["force", "law", "until"])
+def test_what_is_no_exception_fails_its_shot_too(part: str, raised: type[BaseException]):
+    def fail(*_: Any) -> Any:
+        raise raised
+
+    surfaces = [replace(FLOOR, law=fail) if part == "law" else FLOOR]
+    changes = {"surfaces": surfaces, "until": fail if part == "until" else None}
+    setups = [thrown(1.0 + 0.1 * i, -1.0, extra=fail if part == "force" else None) for i in range(40)]
+    setups = [replace(setup, **changes) for setup in setups]
+    assert {type(run) for run in simulate_many(setups, resolve())} == {ExitCalled}
 
 
 def test_starts_in_touch_and_in_overlap():
