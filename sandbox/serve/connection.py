@@ -59,17 +59,22 @@ class Connection:
         if self._told.take():
             self.send("error", {"text": line, "n": n})
 
-    async def receive(self) -> str | None:
-        """The next message that came at no more than the rate; None at the end of the connection."""
+    async def receive(self, within: float | None = None) -> str | None:
+        """The next message that came at no more than the rate; None at the end of the connection, which is closed if
+        none comes ``within`` s."""
         while self.is_open:
             try:
-                message = await self._socket.receive()
+                message = await asyncio.wait_for(self._socket.receive(), within)
+            except TimeoutError:
+                await self.close(REFUSED, "no hello came")
+                break
             except (WebSocketDisconnect, RuntimeError):
                 break
             if message["type"] == "websocket.disconnect":
                 break
             text = message.get("text")
             if self._rate.take():
+                self._dropped = 0 if self._rate.left > BURST / 2 else self._dropped
                 if text is not None:
                     return str(text)
                 self.tell("message refused: only text is read")

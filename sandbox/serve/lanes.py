@@ -1,4 +1,4 @@
-"""Processes that compute for many players: one job of a kind a player, the newest wins, and long ones never keep short
+"""Processes that compute for many players: one job a player at a time, the newest wins, and long ones never keep short
 ones waiting."""
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ LEARNED = 0.5
 class Job:
     """A call for a player, who is waiting for ``reply``; it is None if a newer one took its place."""
 
-    owner: Hashable
+    turn: Hashable  # of jobs with the same one, one runs at a time
     alike: Hashable  # what takes about as long
     work: Callable[..., Reply]
     args: tuple[Any, ...]
@@ -39,19 +39,22 @@ class Lanes:
         self.width = width or cores() + SPARE
         self._processes = [Processes(1) for _ in range(self.width)]
         self._idle = list(self._processes)
-        self._running: dict[Hashable, Job] = {}  # by owner
-        self._waiting: dict[Hashable, Job] = {}  # the newest of each owner, in the order in which they came
+        self._running: dict[Hashable, Job] = {}  # by turn
+        self._waiting: dict[Hashable, Job] = {}  # the newest of each want, in the order in which they came
         self._takes: dict[Hashable, float] = {}  # s, by what takes about as long
         self._tasks: set[asyncio.Task[None]] = set()
 
-    async def compute(self, owner: Hashable, alike: Hashable, work: Callable[..., Reply], *args: Any) -> Reply | None:
-        """The reply of ``work(*args)``, computed once the owner's last job has ended; None if the owner wants something
-        newer by then. One that takes too long is ended, which its reply says."""
-        job = Job(owner, alike, work, args, asyncio.get_running_loop().create_future())
-        older = self._waiting.get(owner)
+    async def compute(
+        self, turn: Hashable, want: Hashable, alike: Hashable, work: Callable[..., Reply], *args: Any
+    ) -> Reply | None:
+        """The reply of ``work(*args)``, computed once no other job with this ``turn`` runs; None if something newer was
+        wanted by then, of the same ``want``. One that takes too long is ended, which its reply says. Jobs that are
+        ``alike`` take about as long."""
+        job = Job(turn, alike, work, args, asyncio.get_running_loop().create_future())
+        older = self._waiting.get((turn, want))
         if older is not None and not older.reply.done():
             older.reply.set_result(None)
-        self._waiting[owner] = job  # in the place of the older one
+        self._waiting[turn, want] = job  # in the place of the older one
         self._start()
         return await job.reply
 
@@ -60,11 +63,12 @@ class Lanes:
         calls = [process.submit(work, *args) for process in self._processes]
         await asyncio.gather(*map(asyncio.wrap_future, calls), return_exceptions=True)
 
-    def forget(self, owner: Hashable) -> None:
-        """Drop what an owner who left is waiting for."""
-        job = self._waiting.pop(owner, None)
-        if job is not None and not job.reply.done():
-            job.reply.set_result(None)
+    def forget(self, turn: Hashable) -> None:
+        """Drop what is waited for with this turn: who wanted it has left."""
+        for key in [key for key, job in self._waiting.items() if job.turn == turn]:
+            job = self._waiting.pop(key)
+            if not job.reply.done():
+                job.reply.set_result(None)
 
     def close(self) -> None:
         """End all processes, whatever they compute."""
@@ -75,16 +79,16 @@ class Lanes:
         """Start what can be started: long jobs only as long as enough processes are left for short ones."""
         now = monotonic()
         long = sum(self._is_long(job, now) for job in self._running.values())
-        for owner, job in list(self._waiting.items()):
+        for key, job in list(self._waiting.items()):
             if not self._idle:
                 return
             is_long = self._is_long(job, now)
-            if owner in self._running or (is_long and long >= max(1, self.width - cores())):
+            if job.turn in self._running or (is_long and long >= max(1, self.width - cores())):
                 continue
-            del self._waiting[owner]
+            del self._waiting[key]
             long += is_long
             job.began = now
-            self._running[owner] = job
+            self._running[job.turn] = job
             task = asyncio.create_task(self._run(job, self._idle.pop()))
             self._tasks.add(task)
             task.add_done_callback(self._tasks.discard)
@@ -108,7 +112,7 @@ class Lanes:
         ending.cancel()
         took = monotonic() - job.began
         self._takes[job.alike] = LEARNED * took + (1 - LEARNED) * self._takes.get(job.alike, took)
-        del self._running[job.owner]
+        del self._running[job.turn]
         self._idle.append(process)
         if not job.reply.done():
             job.reply.set_result(reply)

@@ -31,5 +31,7 @@ MEMORY = 4 << 30
 UNREAD = 10.0
 #: Rows of the teacher's table; the oldest go first.
 ROWS = 2000
+#: A connection that has not said what it wants after so many s is closed.
+HELLO = 10.0
 #: Connections at once, browsers with several pages included.
 CONNECTIONS = 4 * PLAYERS

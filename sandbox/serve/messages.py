@@ -9,7 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field, StringConstraints, TypeAdapte
 
 from sandbox.errors import RequestError
 from sandbox.serve.limits import CHANGES, KEY, NAME, WORD
-from sandbox.text import one_line, printable
+from sandbox.text import one_line
 
 Key = Annotated[str, StringConstraints(max_length=KEY)]
 Word = Annotated[str, StringConstraints(max_length=WORD)]
@@ -114,7 +114,8 @@ def read(text: str, teacher: bool = False) -> Any:
 
 def named(name: str) -> str:
     """A name as it is shown: one line, without control characters, at most NAME characters."""
-    return printable(one_line(name)).strip()[:NAME].strip()
+    shown = "".join(letter for letter in " ".join(name.split()) if letter.isprintable())
+    return shown[:NAME].strip()
 
 
 def check(changes: Mapping[str, Any], declared: Mapping[str, Mapping[str, Any]]) -> None:
@@ -125,7 +126,7 @@ def check(changes: Mapping[str, Any], declared: Mapping[str, Mapping[str, Any]])
     for key, value in changes.items():
         known = declared.get(key)
         if known is None:
-            raise RequestError(f"{one_line(printable(key))}: cannot be changed here")
+            raise RequestError(f"{one_line(key)}: cannot be changed here")
         low, high, choices, unit = known["low"], known["high"], known["choices"], known["unit"]
         if choices is not None:
             if value not in choices or isinstance(value, bool) != isinstance(choices[0], bool):

@@ -14,7 +14,7 @@ from sandbox.errors import RequestError
 from sandbox.serve import messages, work
 from sandbox.serve.connection import LATER, Connection
 from sandbox.serve.lanes import Lanes
-from sandbox.serve.limits import PLAYERS, REMEMBERED, ROWS
+from sandbox.serve.limits import HELLO, PLAYERS, REMEMBERED, ROWS
 
 
 class Listed(NamedTuple):
@@ -98,7 +98,7 @@ class Room:
             raise
 
     async def _describe(self, name: str, listed: Listed) -> Mapping[str, Any]:
-        reply = await self.lanes.compute(("described", name), "described", work.described, listed.source)
+        reply = await self.lanes.compute("described", name, "described", work.described, listed.source)
         if reply is None or "error" in reply:
             raise RequestError(reply["error"] if reply else "this scene could not be loaded")
         kept = reply["kept"]
@@ -116,7 +116,7 @@ class Room:
         """Follow a player's connection to its end."""
         player = None
         try:
-            while (text := await connection.receive()) is not None:
+            while (text := await connection.receive(None if player else HELLO)) is not None:
                 try:
                     message = messages.read(text)
                     if player is None:
@@ -172,8 +172,8 @@ class Room:
 
     def _leave(self, player: Player) -> None:
         player.connection, player.seen = None, monotonic()
-        for kind in ("path", "hidden", "stage", "fan", "shot"):
-            self.lanes.forget((player.session, kind))
+        for is_fan in (False, True):
+            self.lanes.forget((player.session, is_fan))
         self._tell_teachers()
 
     def _forget(self) -> None:
@@ -227,7 +227,8 @@ class Room:
     async def _computed(self, player: Player, kind: work.Kind, message: Any, done: Any) -> None:
         source, narrow = player.source, getattr(message, "narrow", False)
         args = (kind, self.scenes[source].source, dict(message.changes), message.n, narrow, self.units)
-        reply = await self.lanes.compute((player.session, kind), (kind, source), work.computed, *args)
+        turn = player.session, kind == "fan"
+        reply = await self.lanes.compute(turn, kind, (kind, source), work.computed, *args)
         connection = player.connection
         if reply is None or connection is None:
             return
@@ -267,8 +268,7 @@ class Room:
                     connection.tell(str(error))
         finally:
             self.teachers.discard(connection)
-            for kind in ("path", "stage", "fan"):
-                self.lanes.forget((id(connection), kind))
+            self.lanes.forget(connection)
 
     async def _taught(self, connection: Connection, message: Any) -> None:
         """Do what a teacher asks for. Raises RequestError."""
@@ -281,8 +281,7 @@ class Room:
                 source = lead.source or self.first
                 await self._checked(source, message.changes)
                 args = (message.do, self.scenes[source].source, message.changes, message.n, message.narrow, self.units)
-                owner = (id(connection), message.do)
-                reply = await self.lanes.compute(owner, (message.do, source), work.computed, *args)
+                reply = await self.lanes.compute(connection, message.do, (message.do, source), work.computed, *args)
                 if reply is not None and "error" in reply:
                     connection.tell(reply["error"])
                 elif reply is not None:

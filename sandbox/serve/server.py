@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import uvicorn
+from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from sandbox.errors import RequestError
 from sandbox.files import reason
@@ -17,7 +18,7 @@ from sandbox.scene.finding import folder_of, listings, listings_of
 from sandbox.serve import work
 from sandbox.serve.app import Tokens, app_of
 from sandbox.serve.lanes import Lanes
-from sandbox.serve.limits import CONNECTIONS, MESSAGE, PLAYERS
+from sandbox.serve.limits import CONNECTIONS, HELLO, MESSAGE, PLAYERS
 from sandbox.serve.room import Listed, Room
 
 LOOPBACK, ALL = "127.0.0.1", "0.0.0.0"
@@ -93,7 +94,8 @@ async def _serve(
         warming = asyncio.create_task(lanes.each(work.warmed, sources))
         room = Room(scenes, lanes, options.units)
         config = uvicorn.Config(
-            app_of(room, tokens, hosts), log_config=None, access_log=False, lifespan="off", ws="websockets-sansio",
+            app_of(room, tokens, hosts), log_config=None, access_log=False, lifespan="off", http=_Asking,
+            ws="websockets-sansio",
             ws_max_size=MESSAGE, ws_max_queue=8, ws_per_message_deflate=False, limit_concurrency=CONNECTIONS,
             timeout_graceful_shutdown=GRACE, h11_max_incomplete_event_size=MESSAGE, server_header=False,
             proxy_headers=False,
@@ -107,10 +109,23 @@ async def _serve(
         lanes.close()
 
 
+class _Asking(H11Protocol):
+    """A connection over which no whole request has come after HELLO s is closed: a few hundred silent ones would
+    otherwise keep everybody out."""
+
+    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
+        super().connection_made(transport)
+        self.loop.call_later(HELLO, self._close_if_silent)
+
+    def _close_if_silent(self) -> None:
+        if self.scope is None and not self.transport.is_closing():
+            self.transport.close()
+
+
 async def _checked(lanes: Lanes, scenes: dict[str, Listed]) -> None:
     """Raise RequestError if the first scene cannot be loaded, before players come."""
     first = next(iter(scenes.values()))
-    reply = await lanes.compute("first", "described", work.described, first.source)
+    reply = await lanes.compute("first", "", "described", work.described, first.source)
     if reply is not None and "error" in reply:
         raise RequestError(reply["error"])
 

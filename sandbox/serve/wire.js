@@ -1,6 +1,7 @@
 // The line to the server. Messages are JSON; what was computed comes deflated. A line that is lost comes back by itself.
 
 const SOONEST = 500, LATEST = 5000; // ms until it is tried again
+const EVERY = 33; // ms between two questions of a kind: the server reads 40 messages a second
 const FINAL = new Set([1008]); // refused: trying again would not help
 
 class Wire {
@@ -50,7 +51,7 @@ class Wire {
 /** Asks for one thing at a time: while an answer is awaited, only the newest question is kept. */
 class Latest {
   constructor(wire, kind) {
-    Object.assign(this, { wire, kind, n: 0, awaited: 0, next: null });
+    Object.assign(this, { wire, kind, awaited: 0, next: null, sent: -EVERY });
   }
 
   ask(message) {
@@ -60,6 +61,12 @@ class Latest {
 
   pump() {
     if (!this.next || (this.awaited && performance.now() - this.sent < 2000)) return;
+    const early = this.sent + EVERY - performance.now();
+    if (early > 0) {
+      clearTimeout(this.late);
+      this.late = setTimeout(() => this.pump(), early);
+      return;
+    }
     this.awaited = ++Latest.number;
     this.sent = performance.now();
     this.wire.send({ do: this.kind, n: this.awaited, ...this.next });
