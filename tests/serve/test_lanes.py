@@ -53,7 +53,7 @@ def test_long_jobs_never_keep_others_waiting(monkeypatch: pytest.MonkeyPatch):
 
     async def play(made: Lanes) -> list[float]:
         await made.compute("first", "path", "break", time.sleep, 0.15)
-        breaks = [asyncio.create_task(made.compute(f"break {n}", "path", "break", time.sleep, 0.15)) for n in range(5)]
+        breaks = [asyncio.create_task(made.compute(f"break {n}", "path", "break", time.sleep, 0.6)) for n in range(3)]
         waits = []
         for n in range(20):
             began = time.monotonic()
@@ -63,7 +63,7 @@ def test_long_jobs_never_keep_others_waiting(monkeypatch: pytest.MonkeyPatch):
         await asyncio.gather(*breaks)
         return waits
 
-    assert sorted(run(play, 3))[10] < 0.05
+    assert max(run(play, 3)) < 0.5
 
 
 def test_what_takes_too_long_or_breaks_is_ended(monkeypatch: pytest.MonkeyPatch):
