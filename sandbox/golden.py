@@ -28,7 +28,7 @@ from __future__ import annotations
 import io
 import json
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import isfinite
 from pathlib import Path
@@ -206,14 +206,10 @@ class Golden:
         if drawing is None and physics is None:
             return
         if update:
-            written: dict[Path, tuple[bytes, str]] = {}
-            if drawing is not None:
-                written[png] = _png(coarser(image)), drawing
+            written = {} if drawing is None else {png: (_png(coarser(image)), drawing)}
             if run is not None and physics is not None:
                 written[text] = _recorded(name, run, until, tolerance), physics
-            write_together({path: data for path, (data, _) in written.items()})
-            for path, (_, change) in written.items():
-                self.note(WRITTEN, f"{path}: {change}")
+            self._write(written)
         elif expected is None or physics == NEW:
             what, path = ("picture", png) if expected is None else ("run", text)
             said = f"{name} has no golden {what} at {path}"
@@ -223,6 +219,12 @@ class Golden:
             lines = list(_kind_of_change(name, known, actual, physics, drawing, tolerance))
             self._report(name, lines, image, expected, [] if known is None else _all_changes(known, actual, tolerance))
             _fail(*lines, *self._shown(name, expected, image, drawing), HOW_TO_ACCEPT)
+
+    def _write(self, written: Mapping[Path, tuple[bytes, str]]) -> None:
+        """Write new golden files, all or none, and note how each has changed."""
+        write_together({path: data for path, (data, _) in written.items()})
+        for path, (_, change) in written.items():
+            self.note(WRITTEN, f"{path}: {change}")
 
     def _report(
         self,

@@ -54,61 +54,76 @@ class Ledger:
 
 def ledger(run: Run) -> Ledger:
     """The energy ledger of a run."""
-    work: dict[str, float] = defaultdict(float)
-    impacts: dict[str, float] = defaultdict(float)
-    contacts: dict[str, float] = defaultdict(float)
-    jumps: dict[float, float] = defaultdict(float)
-    start = end = residue = 0.0
-    met = _Impacts(run)
+    books = _Books(run)
+    start = end = 0.0
     for ball in run.setup.balls:
         arcs = run.arcs[ball.name]
         start += kinetic(ball, arcs[0].start)
         end += kinetic(ball, arcs[-1].state(arcs[-1].t1), arcs[-1].t1)
         for arc in arcs:
             setup, ball = _at(run, arc.t0, ball)
-            gain = kinetic(ball, arc.state(arc.t1), arc.t1) - kinetic(ball, arc.start, arc.t0)
-            if isinstance(arc.contact, InCluster):
-                impacts[met.partner(ball.name, *arc.contact) or ""] += gain
-                continue
-            if setup.plane is not None:
-                plane = setup.plane_of(ball.name)
-                pulled = _pulled(strip(plane, arc.start)[0], ball, arc)
-                if pulled:
-                    work["slope"] += pulled
-                contacts[plane.name] += gain - pulled
-            elif isinstance(arc.contact, InHeap):
-                lifted = -_work_of_forces(ball, arc, arc.contact)
-                contacts["position correction"] += lifted
-                contacts["heap"] += gain - lifted - _book(ball, arc, work, contacts)
-            else:
-                residue += gain - _book(ball, arc, work, contacts)
+            books.enter_arc(setup, ball, arc)
         for before, after in pairwise(arcs):
-            jump = kinetic(ball, after.start, after.t0) - kinetic(ball, before.state(before.t1), after.t0)
-            hit = met.partner(ball.name, after.t0, after.t0)
-            lasting = after.contact or before.contact
-            if isinstance(after.contact, SetByHand):
-                work["set by hand"] += jump
-                continue
-            by = lasting.obstacle.surface.name if hit is None and isinstance(lasting, SustainedContact) else hit
-            if by is None and jump != 0.0 and not lasting:
-                by = _driven_off(run, ball, after)
-            driven, kicked = _active_in_impact(run, ball, by, before.state(before.t1), after) if by else (0.0, 0.0)
-            if driven:
-                work[f"driven by {by}"] += driven
-            if kicked:
-                work[f"kicked by {by}"] += kicked
-            jump -= driven + kicked
-            jumps[after.t0] += jump
-            if hit is not None:
-                impacts[hit] += jump
-            elif isinstance(lasting, InHeap):
-                contacts["heap"] += jump
-            elif by is not None:
-                contacts[by] += jump
-            else:
-                residue += jump
-    jumped = sum(jump for jump in jumps.values() if jump > 0.0)
-    return Ledger(start, end, dict(work), dict(impacts), dict(contacts), residue, jumped)
+            books.enter_jump(ball, before, after)
+    jumped = sum(jump for jump in books.jumps.values() if jump > 0.0)
+    return Ledger(start, end, dict(books.work), dict(books.impacts), dict(books.contacts), books.residue, jumped)
+
+
+class _Books:
+    """What each cause has added to the kinetic energy so far, in J."""
+
+    def __init__(self, run: Run) -> None:
+        self._run, self._met = run, _Impacts(run)
+        self.work: dict[str, float] = defaultdict(float)
+        self.impacts: dict[str, float] = defaultdict(float)
+        self.contacts: dict[str, float] = defaultdict(float)
+        self.jumps: dict[float, float] = defaultdict(float)  # by time in s
+        self.residue = 0.0
+
+    def enter_arc(self, setup: Setup, ball: Ball, arc: Arc) -> None:
+        """Book what a ball gains along an arc."""
+        gain = kinetic(ball, arc.state(arc.t1), arc.t1) - kinetic(ball, arc.start, arc.t0)
+        if isinstance(arc.contact, InCluster):
+            self.impacts[self._met.partner(ball.name, *arc.contact) or ""] += gain
+        elif setup.plane is not None:
+            plane = setup.plane_of(ball.name)
+            pulled = _pulled(strip(plane, arc.start)[0], ball, arc)
+            if pulled:
+                self.work["slope"] += pulled
+            self.contacts[plane.name] += gain - pulled
+        elif isinstance(arc.contact, InHeap):
+            lifted = -_work_of_forces(ball, arc, arc.contact)
+            self.contacts["position correction"] += lifted
+            self.contacts["heap"] += gain - lifted - _book(ball, arc, self.work, self.contacts)
+        else:
+            self.residue += gain - _book(ball, arc, self.work, self.contacts)
+
+    def enter_jump(self, ball: Ball, before: Arc, after: Arc) -> None:
+        """Book what a ball gains at once, between two arcs."""
+        jump = kinetic(ball, after.start, after.t0) - kinetic(ball, before.state(before.t1), after.t0)
+        hit = self._met.partner(ball.name, after.t0, after.t0)
+        lasting = after.contact or before.contact
+        if isinstance(after.contact, SetByHand):
+            self.work["set by hand"] += jump
+            return
+        by = lasting.obstacle.surface.name if hit is None and isinstance(lasting, SustainedContact) else hit
+        if by is None and jump != 0.0 and not lasting:
+            by = _driven_off(self._run, ball, after)
+        driven, kicked = _active_in_impact(self._run, ball, by, before.state(before.t1), after) if by else (0.0, 0.0)
+        if driven:
+            self.work[f"driven by {by}"] += driven
+        if kicked:
+            self.work[f"kicked by {by}"] += kicked
+        jump -= driven + kicked
+        self.jumps[after.t0] += jump
+        if hit is not None:
+            self.impacts[hit] += jump
+        elif isinstance(lasting, InHeap):
+            self.contacts["heap"] += jump
+        elif by is not None:
+            self.contacts[by] += jump
+        else:
+            self.residue += jump
 
 
 def warnings(run: Run) -> list[str]:

@@ -244,26 +244,13 @@ class LiveSimulation(Simulation):
         around = Surroundings(change.setup, self._accuracy.skin)
         new = [around.mover(ball, _start(change.setup, ball), self._accuracy, self._numerics) for ball in change.added]
         self._refuse_overlaps(t, change, there, new)
-
         self.record.changes.append((t, changes))
         self._eras.append((t, change.setup))
         self._t = t
         self._over = self._over and "until" not in change.given
         self._ended = ""
-        balls = {ball.name: ball for ball in change.setup.balls}
-        for index, state in here.items():
-            mover = self._movers[index]
-            mover.arrive(t, state)
-            if index in there:
-                mover.path.append(resting_arc(t, t, there[index], SetByHand()))
-            mover.change(balls[mover.ball.name], change.setup)
-            mover.place(t, there.get(index, state))
-            if everything:
-                mover.obstacles, mover.traps = around.obstacles[mover.ball.radius], around.traps_for(mover.ball)
-        for mover in new:
-            mover.place(t, mover.state)
-            self._moving.add(len(self._movers))
-            self._movers.append(mover)
+        self._place(t, here, there, change.setup, around if everything else None)
+        self._add(t, new)
         woken = self._take_out(t, [present[name] for name in change.removed])
         if everything or new:
             self._set_up(change.setup)
@@ -271,6 +258,34 @@ class LiveSimulation(Simulation):
             self._renew_heap()
         self._setup = change.setup
         self._resolve_contacts(t, [*here, *range(len(self._movers) - len(new), len(self._movers))], woken)
+
+    def _place(
+        self,
+        t: float,
+        here: Mapping[int, State],
+        there: Mapping[int, State],
+        setup: Setup,
+        around: Surroundings | None,
+    ) -> None:
+        """Go on at t in s with balls that are ``here``, at once ``there`` if they are moved, in a new setup, and with
+        other surfaces and traps ``around`` them."""
+        balls = {ball.name: ball for ball in setup.balls}
+        for index, state in here.items():
+            mover = self._movers[index]
+            mover.arrive(t, state)
+            if index in there:
+                mover.path.append(resting_arc(t, t, there[index], SetByHand()))
+            mover.change(balls[mover.ball.name], setup)
+            mover.place(t, there.get(index, state))
+            if around is not None:
+                mover.obstacles, mover.traps = around.obstacles[mover.ball.radius], around.traps_for(mover.ball)
+
+    def _add(self, t: float, new: Sequence[MovingBall]) -> None:
+        """Begin with new balls at t in s."""
+        for mover in new:
+            mover.place(t, mover.state)
+            self._moving.add(len(self._movers))
+            self._movers.append(mover)
 
     def _take_out(self, t: float, indices: Sequence[int]) -> bool:
         """Take these balls out; returns True if others in a heap have lain on them or under them."""

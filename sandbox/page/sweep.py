@@ -70,20 +70,24 @@ def page_of(plan: Plan, rows: Iterable[Row], of: str | None = None) -> str:
         "radius": next((run.setup.balls[0].radius for run in done if isinstance(run, SceneRun)), 0.0),
         "fonts": fonts(),
     }
-    over = [word for axis in plan.axes for word in ("--over", f"{axis.key}={_values(axis)}")]
-    options = ["--points", "points.csv"] if plan.listed else over
-    options += ["--samples", str(plan.samples), "--seed", str(plan.seed)] if plan.samples else []
-    options += ["--check"] if plan.check else []
-    options += ["--of", of] if of is not None else []
-    options += ["--out", "sweep.csv", "--html", "sweep.html"]
     return filled(
         "sweep.html",
         title=html(title),
         about=html(f"{plan.size:,} shots; all other parameters as in the scene file"),
         legend=legend,
-        command=html(command(scene, "sweep", *options)),
+        command=html(command(scene, "sweep", *_options(plan, of))),
         data=packed(data),
     )
+
+
+def _options(plan: Plan, of: str | None) -> list[str]:
+    """The options of the command that makes the page."""
+    over = [word for axis in plan.axes for word in ("--over", f"{axis.key}={_values(axis)}")]
+    options = ["--points", "points.csv"] if plan.listed else over
+    options += ["--samples", str(plan.samples), "--seed", str(plan.seed)] if plan.samples else []
+    options += ["--check"] if plan.check else []
+    options += ["--of", of] if of is not None else []
+    return [*options, "--out", "sweep.csv", "--html", "sweep.html"]
 
 
 def _axis(plan: Plan, number: int) -> dict[str, Any]:
