@@ -96,6 +96,8 @@ def read_table(option: str, path: Path) -> Table:
         raise RequestError(f"{option} {error}") if not str(error).startswith(where) else error from None
     if not text.strip():
         raise RequestError(f"{where}: is empty")
+    if text.lstrip()[0] == "<":
+        raise RequestError(f"{where}: is no table but XML or HTML; in Tracker it is File, Export, Data File")
     if text.lstrip()[0] in "{[":
         return _of_json(where, text)
     rows, separator = _rows(where, text)
@@ -235,7 +237,8 @@ def known_unit(text: str) -> str:
 
 def _of_json(where: str, text: str) -> Table:
     """A table of JSON: a list of objects, one object for each line, or an object with such a list in it; a value inside
-    an object has its keys joined by dots as its name, as in ``BallData.Speed``."""
+    an object has its keys joined by dots as its name, as in ``BallData.Speed``. Or of an object with a list for each
+    column."""
     try:
         try:
             found = json.loads(text)
@@ -247,7 +250,10 @@ def _of_json(where: str, text: str) -> Table:
         ) from None
     if isinstance(found, Mapping):
         lists = [value for value in found.values() if isinstance(value, list) and value]
-        found = lists[0] if len(lists) == 1 and all(isinstance(item, Mapping) for item in lists[0]) else [found]
+        if len(lists) == len(found) > 1 and len(set(map(len, lists))) == 1:  # a list for each column
+            found = [dict(zip(found, row, strict=True)) for row in zip(*lists, strict=True)]
+        else:
+            found = lists[0] if len(lists) == 1 and all(isinstance(item, Mapping) for item in lists[0]) else [found]
     if not found or not all(isinstance(item, Mapping) for item in found):
         raise RequestError(f"{where}: is JSON, but no list of objects with a value for each column")
     rows = [dict(_flat("", item)) for item in found]

@@ -28,6 +28,9 @@ WRITTEN = {
     "Tracker's CSV": "#multi:\n,mass A,,,\nt,frame,x,y,\n0.0,0,1.0,2.0,\n0.1,3,1.5,2.25,\n0.2,6,2.0,2.0,\n",
     "spaces, a comment": "# by hand\n t   x    y\n 0.0 1.0  2.0\n 0.1 1.5  2.25\n\n 0.2 2.0 2.0\n",
     "names behind #": "# t,x,y\n0,1,2\n0.1,1.5,2.25\n0.2,2,2\n",
+    "Vernier": "Latest: Time (s),Latest: X (m),Latest: Y (m)\n0,1,2\n0.1,1.5,2.25\n0.2,2,2\n",
+    "JSON by columns": '{"t": [0, 0.1, 0.2], "x": [1, 1.5, 2], "y": [2, 2.25, 2]}',
+    "JSON by rows": '[{"t": 0, "x": 1, "y": 2}, {"t": 0.1, "x": 1.5, "y": 2.25}, {"t": 0.2, "x": 2, "y": 2}]',
     "our own": "t,ball,x,y,vx,vy,spin\n0,,1,2,5,1,0\n0.1,,1.5,2.25,5,0,0\n0.2,,2,2,5,-1,0\n",
 }
 
@@ -92,6 +95,7 @@ WRONG = {
     "\n \n": "is empty",
     "Dear teacher,\nhere is my track\n": "is no table",
     "hello": "is no table",
+    "<!DOCTYPE html>\n<html></html>\n": "is no table but XML or HTML",
     "\x89PNG\r\n\x1a\n\x00\x00": "is no table but a binary file",
     '{"a": ': "is neither a table nor JSON",
     't,x,y\n"0,1,2\n': "a quote in it is not closed",
@@ -270,6 +274,15 @@ def test_a_table_that_is_not_known_says_so(tmp_path):
     assert recognized(read_table("track", tmp_path / "x.csv"), sandbox.load("golf")) is None
     with pytest.raises(RequestError, match=r"needs one column x .* a table of launches needs --map, see --formats"):
         sandbox.fit("golf", tmp_path / "x.csv", {"air.density": (1, 2)})
+
+
+def test_a_table_for_another_scene_or_of_what_is_fitted_says_so(tmp_path, carries):
+    file = tmp_path / "shots.csv"
+    file.write_text(devices(carries)["trackman"], "utf-8")
+    with pytest.raises(RequestError, match=r"looks like TrackMan .*, whose columns are known for golf; for basketball"):
+        sandbox.fit("basketball", file, {"air.density": (1, 2)})
+    with pytest.raises(RequestError, match=r"--vary launch\.spin: is a column of the table"):
+        sandbox.fit("golf", file, {"launch.spin": (1000, 4000)})
 
 
 # A table of one's own in place of the published ones ------------------------------------------------------------------

@@ -15,6 +15,7 @@ from sandbox.lab.axes import Span, as_axis, checked
 from sandbox.lab.fit.data import Reading, data_of, read_data, table_of
 from sandbox.lab.fit.formats import parse_entry
 from sandbox.lab.fit.frame import parse_free
+from sandbox.lab.fit.launches import Launches
 from sandbox.lab.fit.measured import Measured
 from sandbox.lab.fit.models import chosen_models, compare
 from sandbox.lab.fit.reading import Film, parse_scale
@@ -87,6 +88,11 @@ def fit_track(scene: Scene, measured: Measured, spans: Sequence[Span], robust: b
     twice = next((key for key in keys if keys.count(key) > 1), None)
     if twice is not None:
         raise RequestError(f"--vary {twice}: given twice")
+    given = next((key for key in keys if isinstance(measured, Launches) and key in measured.given), None)
+    if given is not None:
+        raise RequestError(
+            f"--vary {given}: is a column of the table; to fit it, leave that out by naming the others (--map)"
+        )
     return solve(scene, measured, spans, robust)
 
 

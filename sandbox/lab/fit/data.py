@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from sandbox.errors import RequestError
-from sandbox.lab.fit.formats import Entry, recognized, stated
+from sandbox.lab.fit.formats import Entry, device, recognized, stated
 from sandbox.lab.fit.frame import frame_of
 from sandbox.lab.fit.launches import launches
 from sandbox.lab.fit.measured import Measured
@@ -46,6 +46,9 @@ def data_of(scene: Scene, tables: Sequence[tuple[str, Table]], how: Reading) -> 
         until = LONGER * simulate(scene).duration
         return Outline(found.positions, found.balls, found.rows, until, frame, found.where)
     form = stated(how.entries, first, scene) if how.entries else recognized(first, scene)
+    if form is None and (known := device(first)) is not None:
+        about = f"looks like {known.title}, whose columns are known for {known.scene}"
+        raise RequestError(f"{first.where}: {about}; for {scene.title} name them by --map")
     if form is None:
         try:
             measurements(tables, how.film)  # says which column is missing

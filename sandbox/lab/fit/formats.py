@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 from sandbox import units
 from sandbox.errors import RequestError
@@ -31,8 +32,9 @@ class Form:
 
     entries: tuple[Entry, ...]
     title: str = ""  # of a known device; "" where the user says it
+    scene: str = ""  # the scene whose shots it measures
     source: str = ""  # where its names are from
-    total_spin: Sequence[str] = ()  # columns whose spin, times the cosine of the axis's tilt, is the backspin
+    total_spin: tuple[str, ...] = ()  # columns whose spin, times the cosine of the axis's tilt, is the backspin
     spin_axis: str = ""  # the column of that tilt in deg
     length_unit: str = ""  # the column that names the unit of lengths
     zeros: bool = False  # 0 stands for what was not measured
@@ -55,17 +57,20 @@ def parse_entry(text: str) -> Entry:
 def forms() -> Mapping[str, Form]:
     """The known devices by name."""
     known = tomllib.loads(Path(__file__).with_suffix(".toml").read_text("utf-8"))
-    return {
-        name: Form(tuple(parse_entry(f"{column}={target}") for column, target in given.pop("columns").items()), **given)
-        for name, given in known.items()
-    }
+    return {name: _form(given) for name, given in known.items()}
+
+
+def _form(given: dict[str, Any]) -> Form:
+    """A known device, as the file writes it."""
+    columns, total = given.pop("columns"), tuple(given.pop("total_spin", ()))
+    return Form(tuple(parse_entry(f"{column}={to}") for column, to in columns.items()), total_spin=total, **given)
 
 
 def as_text() -> str:
     """All known devices with their columns, as ``--map`` takes them, and where the names are from."""
     lines = ["Known columns of tables. A unit in the file, in a name or in a row of units, comes before these."]
     for form in forms().values():
-        lines += ["", f"{form.title}", f"  names: {form.source}"]
+        lines += ["", f"{form.title}, for {form.scene}", f"  names: {form.source}"]
         lines += [f'  --map "{one.column}={one.key} {one.unit}"' for one in form.entries]
         if form.spin_axis:
             lines.append(f"  {' and '.join(form.total_spin)} times the cosine of {form.spin_axis} is the backspin")
@@ -73,10 +78,19 @@ def as_text() -> str:
 
 
 def recognized(table: Table, scene: Scene) -> Form | None:
-    """The form of the known device most of whose columns the table has, launch and result both, or None."""
-    found = [_usable(form, table, scene) for form in forms().values()]
+    """The form of the known device for this scene most of whose columns the table has, launch and result both, or
+    None."""
+    found = [_usable(form, table, scene) for form in forms().values() if form.scene == scene.name]
     complete = [form for form in found if _is_complete(form, scene)]
     return max(complete, key=lambda form: len(form.entries), default=None)
+
+
+def device(table: Table) -> Form | None:
+    """The known device at least three of whose columns the table has, whatever the scene; or None."""
+    names = {name.lower() for name in table.names}
+    counts = {form: sum(entry.column.lower() in names for entry in form.entries) for form in forms().values()}
+    best = max(counts, key=lambda form: counts[form])
+    return best if counts[best] >= 3 else None
 
 
 def _usable(form: Form, table: Table, scene: Scene) -> Form:

@@ -112,7 +112,8 @@ def measurements(tables: Sequence[tuple[str, Table]], film: Film) -> Measurement
 
 def _places(table: Table, what: str) -> list[int]:
     """The places of the columns for t, x, y, ball or frame."""
-    return [place for place, name in enumerate(table.names) if name.lower() in NAMES[what]]
+    plain = [name.lower().rpartition(": ")[2] for name in table.names]  # Vernier writes "Latest: Time (s)"
+    return [place for place, name in enumerate(plain) if name in NAMES[what]]
 
 
 def _of_table(table: Table, film: Film, name: str) -> Iterable[Measurements]:
