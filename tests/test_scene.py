@@ -83,7 +83,7 @@ def test_every_preset_describes_itself_ends_and_stays_finite(listing: Any):
         assert np.isfinite(run.trajectory(ball.name)).all()
     numbers = {key: value for key, value in run.result.items() if isinstance(value, float)}
     assert all(math.isfinite(number) for number in numbers.values())
-    ratios = {"smash_factor", "speed_kept", "drag_coefficient", "lift_coefficient"}
+    ratios = {"smash_factor", "speed_kept", "drag_coefficient", "lift_coefficient", "pace_rating"}
     assert {key for key in numbers if not scene.units[key]} <= ratios
     assert scene.rows(run)
     assert scene.verdict(run)

@@ -1,7 +1,8 @@
 """Tennis from the side: serves, drives, slices and lobs, over the net, and what the court makes of them.
 
 Models: gravity; drag and Magnus lift; the strings of the racket; the net as a thing to hit; a bounce in which the ball
-slides, or grips and springs back along the court. Table tennis is the same game, on a table.
+slides, or grips and springs back along the court; hard, clay and grass by their pace rating and bounce. Table tennis is
+the same game, on a table.
 Leaves out: everything sideways; the sag of the net; how the contact point moves under a ball; the loss of spin in air.
 """
 
@@ -11,13 +12,15 @@ from typing import Literal
 
 from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.surface import Segment, Surface
+from sandbox.engine.paths.run import Run
 from sandbox.parameters import choice, group, quantity
 from sandbox.physics.coefficients import TENNIS_DRAG, TENNIS_LIFT
+from sandbox.physics.court import court_pace, is_pace_test, pace_category
 from sandbox.physics.swing import RUBBER, STRINGS
 from sandbox.scene.scene_run import SceneRun
 from sandbox.sport import net_game
 from sandbox.sport.controls import Controls, Handle, Spin, Spread
-from sandbox.sport.facts import ENDED
+from sandbox.sport.facts import ENDED, Fact
 from sandbox.sport.flight import Release, Sphere
 from sandbox.sport.readings import LAUNCH
 from sandbox.sport.solids import level
@@ -91,10 +94,26 @@ def build(parameters: Parameters) -> Setup:
     return Setup([played], surfaces, 20.0, net_game.Bounces(2))
 
 
-FACTS = (*net_game.FACTS, *net_game.BOUNCE_FACTS, *LAUNCH, ENDED)
+def pace_rating(run: Run, parameters: Parameters) -> float | None:
+    """The ITF's pace rating of the court, if the ball arrives at it as in that test; otherwise None."""
+    down, up = net_game.landing(run, parameters), net_game.rebound(run, parameters)
+    if down is None or up is None or not is_pace_test(down.speed, down.descent, down.rpm / 60.0):
+        return None
+    return court_pace((down.vx, down.vy), (up.vx, up.vy))
+
+
+FACTS = (
+    *net_game.FACTS,
+    Fact("pace_rating", "court pace", "", pace_rating, net_game.is_down),
+    *net_game.BOUNCE_FACTS,
+    *LAUNCH,
+    ENDED,
+)
 
 
 def verdict(run: SceneRun, parameters: Parameters) -> str:
     """Return the outcome in a sentence."""
-    said = net_game.verdict(run, parameters)
-    return f"Fault: {said[0].lower()}{said[1:]}" if parameters.shot == "serve" and not run.result["in"] else said
+    said, pace = net_game.verdict(run, parameters), run.result["pace_rating"]
+    if parameters.shot == "serve" and not run.result["in"]:
+        said = f"Fault: {said[0].lower()}{said[1:]}"
+    return said if pace is None else f"{said}; court pace {pace:.0f}, {pace_category(pace)}"

@@ -30,6 +30,7 @@ PRESETS = {
     "tennis/slice": ("in", "In, 6.5 m before the baseline"),
     "tennis/lob": ("in", "In, 0.65 m before the baseline"),
     "tennis/clay": ("in", "In, 0.52 m before the service line"),
+    "tennis/pace-test": ("in", "In, 11 m before the baseline; court pace 36, medium"),
     "tennis/grass": ("in", "In, 0.52 m before the service line"),
     "tennis/table-tennis-smash": ("in", "In, 0.33 m before the end of the table"),
     "volleyball/float-serve": ("in", "In, 0.83 m before the end line"),
