@@ -15,7 +15,7 @@ run: .venv/ready
 	$(BIN)/sandbox run golf --poster out/golf.png
 
 play: .venv/ready
-	$(BIN)/sandbox play golf
+	$(BIN)/sandbox play
 
 test: .venv/ready-dev
 	$(BIN)/python -m pytest --numprocesses=auto --dist=worksteal $(PYTEST_OPTIONS)

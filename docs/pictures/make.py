@@ -1,4 +1,4 @@
-"""The pictures of README.md, made anew: ``make pictures``."""
+"""The pictures of README.md, and the tiles of the window's first screen, made anew: ``make pictures``."""
 
 from __future__ import annotations
 
@@ -14,9 +14,14 @@ from PIL import Image
 import sandbox
 from sandbox.cli import main as program
 from sandbox.picture.frames import to_image
+from sandbox.scene.finding import installed_folders
 from sandbox.window.app import App
+from sandbox.window.canvas import Canvas
+from sandbox.window.front import TILE, TILE_FILE
 from sandbox.window.game import Game
 from sandbox.window.session import Session
+from sandbox.window.shots import Shot
+from sandbox.window.stage import Stage
 from sandbox.workers import Processes
 
 HERE = Path(__file__).resolve().parent
@@ -93,6 +98,18 @@ def window() -> None:
     )
 
 
+def tiles() -> None:
+    """One small picture of each sport, its shot without words, into the scene's folder."""
+    for name, folder in sorted(installed_folders().items()):
+        scene = sandbox.load(name)
+        stage = Stage(Shot(scene, sandbox.simulate(scene)), (3 * TILE[0], 3 * TILE[1]))
+        sheet = Canvas(stage.backdrop.copy())
+        stage.draw_path(sheet, stage.shot)
+        stage.draw_balls(sheet, stage.shot, stage.story)
+        small = to_image(sheet.surface).resize(TILE, Image.Resampling.LANCZOS)
+        small.save(folder / TILE_FILE, quality=QUALITY, optimize=True, progressive=True)
+
+
 def post(app: App, kind: int, **values: object) -> None:
     """One event, and one frame."""
     pygame.event.post(pygame.event.Event(kind, values))
@@ -104,3 +121,4 @@ if __name__ == "__main__":
     free_throws()
     compare()
     window()
+    tiles()

@@ -25,6 +25,7 @@ class Match:
     goal: ClassVar[str] = ""  # what it is about, in one sentence
     preset: ClassVar[str] = ""  # of the scene, from which it is played; "" for the scene itself
     facts: ClassVar[tuple[str, ...]] = ()  # that ``after`` reads
+    shown: ClassVar[str] = "one metre"  # how much of the path the players see, as in a task
 
     players: tuple[str, str] = PLAYERS
     turn: int = 0  # 0 or 1, whose it is
@@ -56,6 +57,11 @@ class Match:
     def room(self) -> tuple[float, float, float, float] | None:
         """Where that may be placed: from x, y to x, y, in m; None for anywhere."""
         return None
+
+    @property
+    def placing(self) -> str:
+        """What the player is told of that, in a few words."""
+        return ""
 
     @property
     def player(self) -> str:

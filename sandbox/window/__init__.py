@@ -15,6 +15,7 @@ The parts call, and import, only those below them (tests/window/test_directions.
     screen     Screen          the window's surface, and where picture, panel and bar are on it
     shown      Shown           what is switched on; how much of the path, the tape and the overlay that are shown
     game       Game        what is played, without drawing: it passes time to
+    referee, contest                           what is played for: a task or a match, shot by shot; front has the tiles
     grasp, opening, aiming, watching, path     pull or drag, another scene, changes of the aim, playback, the path
     session, shots, history                    the scene file and what was changed over it, shots so far, undo
 

@@ -27,6 +27,9 @@ class Aiming:
         """``opened`` is called when another scene file has been opened."""
         self.session, self.path, self.watching, self.messages, self.opened = session, path, watching, messages, opened
         self.history = History(session.changes)
+        #: By what a contest takes over: whether it makes the shot itself, and puts up the next one.
+        self.makes_shot: Callable[[], bool] = lambda: False
+        self.puts_up_next: Callable[[], bool] = lambda: False
 
     # Changing
 
@@ -39,6 +42,9 @@ class Aiming:
 
     def set(self, values: Mapping[str, Any]) -> bool:
         """Change parameters of the shot that is aimed; returns whether they are valid."""
+        if not self.session.may_change(values):
+            self.messages.tell("that is fixed here")
+            return False
         return self.changing(lambda: self.session.change(values), frozenset(values))
 
     def nudge(self, values: Mapping[str, Any]) -> bool:
@@ -90,7 +96,7 @@ class Aiming:
     def again(self, from_rest: bool = False) -> None:
         """Stop watching a shot; with ``from_rest``, if it is over, the next begins where the balls came to rest."""
         playback, self.watching.playback = self.watching.playback, None
-        if playback is None:
+        if playback is None or self.puts_up_next():
             return
         ours = playback.shot.changes.source == self.session.source
         goes_on = from_rest and playback.over and ours and self.session.controls.next_start is not None
@@ -124,6 +130,8 @@ class Aiming:
 
     def shoot(self) -> None:
         """Let go: the shot is watched, as soon as it is computed; or it is played live."""
+        if self.makes_shot():
+            return
         if self.session.controls.held:
             scene, changes = self.session.scene, self.session.changes
             self.messages.reporting_errors(lambda: self.watching.play(scene, changes))

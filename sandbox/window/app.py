@@ -14,9 +14,14 @@ from typing import Any
 import pygame
 
 from sandbox.errors import RequestError, RunError
-from sandbox.scene.finding import find
+from sandbox.scene.finding import find, installed_folder
+from sandbox.tasks import is_task
+from sandbox.tasks import load as load_task
 from sandbox.window import commands, replay
 from sandbox.window.background import steady
+from sandbox.window.best import BestList, usual_file
+from sandbox.window.contest import AtMatch, AtTask, Contest, source_of
+from sandbox.window.front import first_task
 from sandbox.window.game import Game
 from sandbox.window.history import Changes
 from sandbox.window.memory import Memory, usual_place
@@ -109,9 +114,14 @@ class App:
         return True
 
     def _sound(self, start: float, end: float) -> None:
-        """Play the impacts of this frame."""
-        shot = self.game.shot
-        if self.sound is None or shot is None or end <= start:
+        """Play the impacts of this frame, and a success."""
+        shot, referee = self.game.shot, self.game.referee
+        cheers, referee.cheers = referee.cheers, 0
+        if self.sound is None or shot is None:
+            return
+        if cheers:
+            self.sound.success()
+        if end <= start:
             return
         balls = {ball.name for ball in shot.run.setup.balls}
         impacts = [e for e in shot.run.events if e.kind == "impact" and start <= e.t < end]
@@ -179,29 +189,62 @@ class App:
         return True
 
 
-def play(source: str, changes: Mapping[str, Any] | None = None, scene: str | None = None) -> None:
-    """Open the window on a scene or a replay, until it is closed; ``scene`` is that of the replay. Raises RequestError
-    if there is no display."""
-    recorded = source.endswith(replay.SUFFIX)
+def play(
+    source: str | None,
+    changes: Mapping[str, Any] | None = None,
+    scene: str | None = None,
+    game: str | None = None,
+    players: int = 1,
+) -> None:
+    """Open the window until it is closed: on a scene, a replay or a task, or without any on the first screen.
+
+    ``scene`` is that of the replay, ``game`` one for two in the scene; ``players`` play the task. Raises RequestError
+    if there is no display.
+    """
+    recorded = source is not None and source.endswith(replay.SUFFIX)
     if scene is not None and not recorded:
         raise RequestError(f"--scene {scene}: says which scene a replay is of, and {source} is not a replay")
+    contest = _contest(source, changes or {}, game, players)
+    below = contest.scene if contest is not None else first_task().scene if source is None else None
+    shown, changes = (source or "", changes or {}) if below is None else (source_of(below), {})
     worker, helper = Processes(1), Processes(1)
     try:
         if not recorded:
-            _load_there(worker, source, changes or {})
-        first = replay.read(Path(source), scene).changes if recorded else Changes(source, dict(changes or {}))
+            _load_there(worker, shown, changes)
+        first = replay.read(Path(shown), scene).changes if recorded else Changes(shown, dict(changes))
         session = Session(first.source, first.values)
-        game = Game(session, worker, helper=helper, memory=Memory(usual_place()))
+        played = Game(session, worker, helper=helper, memory=Memory(usual_place()), best=BestList(usual_file()))
         with opened(SIZE, f"{session.title} – Sports sandbox") as screen:
             if recorded:
-                game.opening.open_replay(Path(source), scene)
-            app = App(game, screen, Sound())
-            if game.memory.look != (1.0, False):
-                app.view.set_look(*game.memory.look)
+                played.opening.open_replay(Path(shown), scene)
+            app = App(played, screen, Sound())
+            if contest is not None:
+                played.referee.begin(contest)
+            elif source is None:
+                commands.do(app.view, "front")
+            if played.memory.look != (1.0, False):
+                app.view.set_look(*played.memory.look)
             app.run()
     finally:
         worker.close(abandon=True)
         helper.close(abandon=True)
+
+
+def _contest(source: str | None, changes: Mapping[str, Any], game: str | None, players: int) -> Contest | None:
+    """What is to be played for, if anything. Raises RequestError."""
+    contest: Contest | None = None
+    if game is not None:
+        if source is None:
+            raise RequestError(f"--game {game}: name its scene, too")
+        folder = find(source).folder
+        contest = AtMatch(folder, game)
+    elif source is not None and installed_folder(source) is None and is_task(source):
+        contest = AtTask(load_task(source), players)
+    if contest is None and players > 1:
+        raise RequestError("--two: goes with a task; a game of a scene for two is --game NAME")
+    if contest is not None and changes:
+        raise RequestError(f"--set: does not go with {contest.name}, which says itself what it begins with")
+    return contest
 
 
 def _load_there(worker: Processes, source: str, changes: Mapping[str, Any]) -> None:

@@ -21,6 +21,7 @@ from sandbox.window.map_of_shot import MapOfShot
 from sandbox.window.measure import NEAR, draw_reading, reading
 from sandbox.window.messages import reason
 from sandbox.window.score_map import map_forms
+from sandbox.window.scoreboard import headline_of
 from sandbox.window.screen import Screen
 from sandbox.window.shots import Shot
 from sandbox.window.shown import Shown
@@ -68,6 +69,11 @@ class Cards:
         if playback is not None and live:
             text, _ = stage.picture_of(shot).progress(playback.t)
         notes = self._notes(shot) if live else [*self._notes(shot), *stage.notes]
+        referee, contest = self.game.referee, self.game.referee.contest
+        if contest is not None and referee.tells:
+            text, said, colour = headline_of(referee, contest)
+            notes = notes if self.game.grasp.holds else said
+            entries, forces = [*contest.entries, *([("aimed", shot.aimed)] if playback is None else [])], ()
         self.draw_head(sheet, layout, text, notes, colour)
         numbers, overlay = pygame.Rect(0, sheet.card_row(), *sheet.size), self.shown.overlay
         if overlay is None or not overlay.place(self.screen.whole).colliderect(numbers):
@@ -127,7 +133,8 @@ class Cards:
             level = game.session.value("accuracy.level")
             text = f"frame {1e3 * self.screen.frame_cost:.1f} ms; run {1e3 * game.path.cost:.1f} ms, {level}"
             note("cost", (text, CARD["accent"]))
-        hints = [(text, CARD["accent"]) for text in game.memory.hints.values()]
+        contest = game.referee.contest is not None
+        hints = [] if contest else [(text, CARD["accent"]) for text in game.memory.hints.values()]
         if hints and game.grasp.pull is None:
             note("hints", *hints)
 

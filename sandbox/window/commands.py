@@ -18,6 +18,7 @@ from sandbox.picture.palette import palette
 from sandbox.scene import listings, listings_in
 from sandbox.window import aim, export, replay
 from sandbox.window.find import Found, Question, find, questions, said_range
+from sandbox.window.front import Front, begin
 from sandbox.window.measure import Tape
 from sandbox.window.menu import Menu
 from sandbox.window.overlay import Board, Chart, Choice, Overlay, PictureChoice, Row
@@ -86,6 +87,9 @@ def do(view: View, command: str, by: float = 1) -> None:
         _list(view, name)
         return
     found = _BY_NAME[name]
+    if name in GIVE_AWAY and view.game.referee.contest is not None and view.game.watching.playback is None:
+        view.game.messages.tell("not before the shot; Esc shows all tasks")
+        return
     if found.do is None:
         view.shown.on ^= {name}
         view.lay_out()
@@ -274,6 +278,11 @@ def _menu(view: View, by: float) -> None:
     _open(view, "menu", lambda: Menu("Choose a scene", groups, game.opening.open, now, view.thumbnails.of, SPORTS))
 
 
+def _front(view: View, by: float) -> None:
+    """The tiles of all sports, each with its tasks and games."""
+    _open(view, "front", lambda: Front(partial(begin, view.game), view.game.best))
+
+
 def _chart(view: View, name: str, draw: Callable[[Shot, tuple[int, int]], pygame.Surface]) -> None:
     """A chart of the current shot over picture and panel, drawn in the background."""
     shot, size = view.game.shot, (view.screen.canvas.get_width(), view.screen.area.height)
@@ -337,7 +346,10 @@ def _back(view: View, by: float) -> None:
     elif view.shown.tape is not None or "tape" in view.shown.on:
         view.shown.put_tape_away()
     elif not game.jobs.stop() and not game.stop():
-        game.aiming.again()
+        if game.referee.contest is not None and game.watching.playback is None:
+            _front(view, 1)
+        else:
+            game.aiming.again()
 
 
 def _sound(view: View, by: float) -> None:
@@ -471,6 +483,7 @@ TABLE: tuple[Command, ...] = (
     Command("compare", ("f6",), "compute the shot again, and compare", "Keep",
             lambda view, by: _with_shot(view, view.game.watching.compare)),
     Command("open_replay", ("f7",), "open the latest replay; or drop one here", "Keep", _open_replay),
+    Command("front", ("1",), "first screen: tasks, games for two", "Play", _front),
     Command("menu", ("l",), "all scenes and presets", "More", _menu),
     Command("next_preset", ("page down", "page up"), "next, previous preset", "More", _other_preset),
     Command("panel", ("tab",), "the panel of parameters", "More"),
@@ -499,6 +512,10 @@ TABLE: tuple[Command, ...] = (
     Command("row_reset", ("ctrl backspace",), "as in the file", "Panel", lambda view, by: view.panel.reset_row()),
 )
 # fmt: on
+#: What would tell how a shot comes out before it is made, or change what it begins with: not while a contest is aimed.
+GIVE_AWAY = frozenset(
+    ("find", "predict", "fan", "wider", "map", "charts", "graphs", "energy", "accuracy", "reset", "rack", "compare")
+)
 GROUPS: tuple[str, ...] = tuple(dict.fromkeys(command.group for command in TABLE))
 #: What the bar's buttons say that open a list of a group of commands; its others say what the help does.
 HINTS = {

@@ -13,7 +13,7 @@ import pygame
 from sandbox.picture.palette import palette
 from sandbox.picture.sheet import Entry
 from sandbox.picture.vectors import Vectors
-from sandbox.window import hand
+from sandbox.window import hand, scoreboard
 from sandbox.window.background import KeyedCache
 from sandbox.window.canvas import Canvas
 from sandbox.window.cards import Cards
@@ -105,8 +105,17 @@ class Drawing:
         self._draw_hand(sheet, shot)
         self.cards.draw_readings(sheet, self.layout, stage, shot)
         self.cards.draw_cards(sheet, self.layout, stage, shot)
+        self._draw_contest(sheet, stage, shot)
         if "ghosts" in self.shown.on and self.game.grasp.pull is None and not self.shown.follows:
             stage.label_ghosts(sheet, self.game.ghosts, shot, self.layout)
+
+    def _draw_contest(self, sheet: Canvas, stage: Stage, shot: Shot) -> None:
+        """The light of a success, and the card at the end of a contest."""
+        referee = self.game.referee
+        if referee.glow and not self.shown.follows:
+            scoreboard.draw_glow(sheet, stage.ball_at(shot, min(self.shown.time, referee.decided)), referee.glow)
+        if referee.contest is not None and referee.is_over and referee.tells and referee.again != "slow":
+            scoreboard.draw_end(sheet, referee.contest, self.game.best, self.game.place)
 
     def _draw_no_path(self, sheet: Canvas, stage: Stage) -> None:
         """The place, dark and without a path."""
@@ -174,6 +183,7 @@ class Drawing:
             hand.draw_handles(sheet, self.layout, shown, mouse, held, said)
         spins = game.session.controls.spins
         off = not spins or ("pad" in self.shown.on) == (len(spins) > 1)
+        off = off or not game.session.may_change([spin.key for spin in spins])
         if shot is None or game.watching.playback is not None or pull is not None or off:
             return
         pads = [Pad(game.session, shot.upright, sheet, share) for share in (1.0, 0.7, 0.45)]

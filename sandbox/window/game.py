@@ -10,12 +10,15 @@ from typing import Any
 
 from sandbox.window.aiming import Aiming
 from sandbox.window.background import PATIENCE, Workers
+from sandbox.window.best import BestList
+from sandbox.window.contest import AtTask, Contest
 from sandbox.window.grasp import Grasp
 from sandbox.window.jobs import Jobs
 from sandbox.window.memory import Memory
 from sandbox.window.messages import Messages, reason
 from sandbox.window.opening import Opening
 from sandbox.window.path import LATE, LONG, AimedPath
+from sandbox.window.referee import Referee
 from sandbox.window.session import Session
 from sandbox.window.shots import Shot, Shots
 from sandbox.window.watching import Watching
@@ -33,12 +36,13 @@ class Game:
         patience: float = PATIENCE,
         helper: Processes | None = None,
         memory: Memory | None = None,
+        best: BestList | None = None,
     ) -> None:
         """A frame waits for the path after a change if that takes no longer than ``patience`` s. ``helper`` computes
         what takes longer than a path, by default the worker itself."""
         self.session = session
         self.workers = Workers(worker, helper or worker, patience)
-        self.memory = memory or Memory()
+        self.memory, self.best = memory or Memory(), best or BestList()
         self.messages = Messages()
         self.jobs = Jobs(self.workers, self.messages)
         self.shots = Shots()
@@ -47,6 +51,9 @@ class Game:
         self.aiming = Aiming(session, self.path, self.watching, self.messages, self._opened)
         self.grasp = Grasp(self.aiming)
         self.opening = Opening(self.aiming, self.workers, self.messages, self._opened)
+        self.referee = Referee(self.aiming, self.workers, self.messages)
+        self.referee.ended = self._contest_ended
+        self.place = 0  # of the last score at a task in the best list; 0 for none
         self.running = True
         self.still = 0.0  # s since the shot changed
         self._last: Shot | None = None  # the shot in the frame before
@@ -54,6 +61,7 @@ class Game:
         if self.workers.helper is not worker:
             self.workers.helper.submit(warm_up, session.source)
         self.path.follow()
+        self._tell_problem()
 
     @property
     def shot(self) -> Shot | None:
@@ -77,7 +85,8 @@ class Game:
         """True if something is being computed, or a shot is playing."""
         playback = self.watching.playback
         playing = playback is not None and playback.playing
-        return playing or self.opening.loading is not None or not self.path.settled or bool(self.jobs.waiting)
+        computing = not self.path.settled or bool(self.jobs.waiting)
+        return playing or computing or self.referee.busy or self.opening.loading is not None
 
     @property
     def ghosts(self) -> list[Shot]:
@@ -96,7 +105,7 @@ class Game:
         playback = self.watching.playback
         clock = (playback.t, playback.playing, playback.rate) if playback is not None else None
         shown = self.shot, clock, self.session.changes, self.path.before_save, self.late
-        return (*shown, self.failure, self.notices, len(self.jobs.waiting), self.shots.count)
+        return (*shown, *self.referee.seen, self.failure, self.notices, len(self.jobs.waiting), self.shots.count)
 
     @property
     def notices(self) -> list[tuple[str, bool]]:
@@ -126,6 +135,7 @@ class Game:
         self.still, self._last = self.still + dt if self.shot is self._last else 0.0, self.shot
         played = (0.0, 0.0) if hold else self.watching.advance(dt)
         self.aiming.end_live()
+        self.referee.advance(dt)
         return played
 
     def settle(self) -> None:
@@ -152,8 +162,23 @@ class Game:
             self.watching.awaited = False
         return stopped
 
+    def _contest_ended(self, contest: Contest) -> None:
+        """Keep the score at a task."""
+        self.place = 0
+        if isinstance(contest, AtTask) and contest.players == 1 and contest.session.total is not None:
+            session, lower = contest.session, contest.task.score.lower_is_better
+            self.place = self.best.add(contest.name, contest.session.total, session.stars, lower)
+        self._tell_problem()
+
+    def _tell_problem(self) -> None:
+        """Say once what is wrong with the best list."""
+        if self.best.problem:
+            self.messages.tell(self.best.problem, bad=True)
+            self.best.problem = ""
+
     def _opened(self) -> None:
         """Start on another scene: only the shots of the one before are kept."""
+        self.referee.leave()
         self.watching.stop()
         self.grasp.let_go()
         self.path.forget()

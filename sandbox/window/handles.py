@@ -63,14 +63,14 @@ class Grip:
 
 
 def grips(session: Session) -> list[Grip]:
-    """The handles of the current scene."""
+    """The handles of the current scene, or in a contest those of what the player may set."""
     scene, found = session.scene, []
     for handle in (*session.controls.handles, WIND):
         first = dict(handle.prerequisites(scene.parameters)) if handle.prerequisites is not None else {}
         parameters = session.with_changes({**session.changes.values, **first}).parameters if first else scene.parameters
         for keys in _entries(handle, parameters):
             values = [value_at(parameters, key) if key else 0.0 for key in keys]
-            shown = not handle.where or value_at(parameters, handle.where)
+            shown = session.may_change(keys) and (not handle.where or value_at(parameters, handle.where))
             if not shown or not all(isinstance(value, float) for value in values):
                 continue
             place = handle.at(parameters) if handle.at is not None else (values[0], values[1])

@@ -124,6 +124,9 @@ class Pointer:
             return self._begun(lambda to: game.aiming.nudge(pad.changes(to)), at)
         elif game.watching.playback is None:
             return self._pull(at)
+        elif game.referee.contest is not None and game.referee.tells and not game.referee.is_over:
+            game.aiming.again()  # the next shot
+            return self._pull(at)
         elif game.watching.playback.over:
             return lambda to: self._perhaps_pull(at, to)
         else:

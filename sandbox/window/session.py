@@ -49,11 +49,18 @@ def _state(file: Path) -> tuple[int, int] | None:
     return found.st_mtime_ns, found.st_size
 
 
+def _within(values: Mapping[str, Any], limits: Mapping[str, tuple[float, float]]) -> dict[str, Any]:
+    """Those of some changes that are allowed, within their bounds."""
+    bounds = {key: limits[key] for key in values if key in limits}
+    return {key: min(max(float(values[key]), low), high) for key, (low, high) in bounds.items()}
+
+
 class Session:
     """One scene file with changes. Raises SandboxError for an invalid scene or change."""
 
     def __init__(self, source: str, changes: Mapping[str, Any] | None = None) -> None:
         self._once = KeyedCache()
+        self.limits: Mapping[str, tuple[float, float]] | None = None  # what may be changed, and how far; None: all
         self.open(source, changes)
         self.scene.build()  # reports values that are invalid together
 
@@ -63,7 +70,13 @@ class Session:
         scene = base.changed(changes, "--set") if changes else base
         self.base, self.scene = base, scene
         self.changes = Changes(source, dict(changes or {}))
-        self.watch = Watch(self.files)
+        self.watch, self.limits = Watch(self.files), None
+
+    def show(self, scene: Scene, source: str, limits: Mapping[str, tuple[float, float]]) -> None:
+        """Begin with a scene as it stands, of which no more than this may be changed, each within its bounds; its files
+        are no longer watched."""
+        self.base = self.scene = scene
+        self.changes, self.watch, self.limits = Changes(source, {}), Watch([]), limits
 
     @property
     def source(self) -> str:
@@ -123,6 +136,10 @@ class Session:
 
     # Changing
 
+    def may_change(self, keys: Collection[str]) -> bool:
+        """True if the player may change one of these, at least."""
+        return self.limits is None or any(key in self.limits for key in keys)
+
     def with_changes(self, values: Mapping[str, Any]) -> Scene:
         """The scene of the file with these changes."""
         return self.base.changed(values, "the window's")
@@ -131,7 +148,8 @@ class Session:
         self.scene, self.changes = self.with_changes(values), Changes(self.source, values, positions & values.keys())
 
     def change(self, values: Mapping[str, Any]) -> None:
-        """Add these changes."""
+        """Add these changes, or what of them is allowed."""
+        values = values if self.limits is None else _within(values, self.limits)
         if any("[" in key for key in values):
             values = declared.without_indices(self.scene.parameters, values, "the window's")
         self._set({**self.changes.values, **values}, self.changes.positions)

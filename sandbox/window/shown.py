@@ -11,8 +11,9 @@ from sandbox.window.measure import Tape
 from sandbox.window.overlay import Overlay
 from sandbox.window.shots import Shot
 
-#: How much of the path is shown while aiming.
+#: How much of the path is shown while aiming; and how tasks call it.
 AHEAD = ("all", "to the first contact", "the first metre", "nothing")
+OF_TASKS = dict(zip(("all", "first contact", "one metre", "nothing"), AHEAD, strict=True))
 #: The fan can be made this many times wider or narrower.
 WIDEST = 16.0
 
@@ -23,10 +24,16 @@ class Shown:
     def __init__(self, game: Game) -> None:
         self.game = game
         self.on = {"ghosts"}  # commands that are switched on
-        self.ahead = AHEAD[0]
+        self._ahead = AHEAD[0]
         self.fan_width = 1.0  # times the usual spread
         self.tape: Tape | None = None
         self.overlay: Overlay | None = None
+
+    @property
+    def ahead(self) -> str:
+        """How much of the path is shown while aiming: the player's choice, or that of the contest."""
+        contest = self.game.referee.contest
+        return self._ahead if contest is None else OF_TASKS[contest.shown]
 
     @property
     def seen(self) -> tuple[Any, ...]:
@@ -59,7 +66,7 @@ class Shown:
 
     def show_more_ahead(self) -> None:
         """Show the next amount of the path while aiming."""
-        self.ahead = AHEAD[(AHEAD.index(self.ahead) + 1) % len(AHEAD)]
+        self._ahead = AHEAD[(AHEAD.index(self._ahead) + 1) % len(AHEAD)]
 
     def put_tape_away(self) -> None:
         """Show no tape."""
@@ -78,8 +85,10 @@ class Shown:
 
     @property
     def hides_path(self) -> bool:
-        """True if the player has to predict what happens."""
-        return self.game.watching.playback is None and self.ahead != AHEAD[0]
+        """True if the player has to predict what happens; in a contest nothing tells him but the path, as far as he
+        sees it."""
+        contest = self.game.referee.contest is not None
+        return self.game.watching.playback is None and (contest or self.ahead != AHEAD[0])
 
     @property
     def time(self) -> float:

@@ -1,4 +1,5 @@
-"""Synthesised sound: a short knock at every impact, louder with speed. Without a sound device there is none."""
+"""Synthesised sound: a short knock at every impact, louder with speed, and three notes for a success. Without a sound
+device there is none."""
 
 from __future__ import annotations
 
@@ -15,6 +16,8 @@ LONGEST = 0.16  # s
 LOUD, QUIET = 20.0, 0.15
 #: Pitch in Hz of a knock against a fixed thing, and against a ball.
 DULL, BRIGHT = 210.0, 1250.0
+#: The notes of a success in Hz (C, E and G), how far apart they begin, in s, and how long they sound.
+NOTES, APART, CHIME = (523.25, 659.25, 783.99), 0.09, 0.9
 
 
 def knock(pitch: float) -> np.ndarray:
@@ -27,6 +30,18 @@ def knock(pitch: float) -> np.ndarray:
     wave += 0.35 * noise * np.exp(-t * 260)
     wave *= 1 - np.exp(-t * 4000)  # starts without a click
     samples = np.round(wave / np.abs(wave).max() * 0.7 * 32767).astype(np.int16)
+    return np.ascontiguousarray(np.column_stack([samples, samples]))
+
+
+def chime() -> np.ndarray:
+    """Three notes of a major chord, one after the other, each a bell that dies away; 16 bit, shape (samples, 2)."""
+    t = np.arange(round(RATE * CHIME)) / RATE
+    wave = np.zeros_like(t)
+    for number, pitch in enumerate(NOTES):
+        after = np.maximum(t - number * APART, 0.0)
+        note = np.sin(2 * np.pi * pitch * after) + 0.3 * np.sin(4 * np.pi * pitch * after)
+        wave += note * np.exp(-after * 6) * (1 - np.exp(-after * 800))
+    samples = np.round(wave / np.abs(wave).max() * 0.5 * 32767).astype(np.int16)
     return np.ascontiguousarray(np.column_stack([samples, samples]))
 
 
@@ -52,10 +67,12 @@ class Sound:
 
     def __init__(self) -> None:
         self.knocks: list[pygame.mixer.Sound] = []
+        self.chime: pygame.mixer.Sound | None = None
         try:
             with _no_stderr():
                 pygame.mixer.init(RATE, -16, 2, 512)
             self.knocks = [pygame.sndarray.make_sound(knock(pitch)) for pitch in (DULL, BRIGHT)]
+            self.chime = pygame.sndarray.make_sound(chime())
         except (pygame.error, NotImplementedError, ImportError):
             pass
         self.there = bool(self.knocks)  # whether there is a device
@@ -68,3 +85,8 @@ class Sound:
         knock = self.knocks[of_balls]
         knock.set_volume(min(1.0, (speed / LOUD) ** 0.7))
         knock.play()
+
+    def success(self) -> None:
+        """A shot that a contest counts as a success."""
+        if self.on and self.chime is not None:
+            self.chime.play()

@@ -45,6 +45,7 @@ class Pool(Match):
     """A game of pool; ``balls`` are on the table, None before the break."""
 
     rack: ClassVar[str] = ""
+    shown: ClassVar[str] = "first contact"
     behind_after_break: ClassVar[bool] = False  # after a foul in it
     facts: ClassVar[tuple[str, ...]] = (
         *("first_contact", "potted", "scratch", "rails", "touches", "driven", "positions"),
@@ -120,6 +121,11 @@ class Pool(Match):
     @property
     def room(self) -> tuple[float, float, float, float] | None:
         return (-0.5 * LENGTH, -0.5 * WIDTH, -0.25 * LENGTH, 0.5 * WIDTH) if self.behind else None
+
+    @property
+    def placing(self) -> str:
+        where = " behind the head string" if self.behind else ""
+        return f"ball in hand: drag the cue ball{where}" if self.in_hand else ""
 
 
 def _cushions_after(outcome: Outcome) -> int:

@@ -14,7 +14,7 @@ WINDOW = Path(sandbox.window.__file__).parent
 
 #: A module may import, late or for types too, only from rows above its own.
 ROWS = (
-    {"background", "history", "layout", "memory", "messages", "sound"},
+    {"background", "best", "contest", "history", "layout", "memory", "messages", "sound"},
     {"canvas", "jobs", "shots"},
     {"bar", "charts", "fan_card"},
     {"fan", "live", "measure", "session", "stage"},
@@ -22,9 +22,9 @@ ROWS = (
     {"hand", "menu", "table", "worker"},
     {"find", "path", "watching"},
     {"aiming"},
-    {"grasp", "opening"},
-    {"game"},
-    {"panel", "shown"},
+    {"grasp", "opening", "referee"},
+    {"game", "scoreboard"},
+    {"front", "panel", "shown"},
     {"screen"},
     {"stages"},
     {"fan_of_shot", "map_of_shot", "targets", "viewpoint"},

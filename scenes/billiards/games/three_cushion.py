@@ -28,6 +28,7 @@ class ThreeCushion(Match):
     title = "Three-cushion"
     goal = f"Meet both other balls, the second after three cushions: {POINTS} points win"
     preset = "three-rail-carom"
+    shown = "first contact"
     facts = ("point", "first_contact", "positions")
 
     players: tuple[str, str] = ("White", "Yellow")

@@ -1,0 +1,120 @@
+"""The best list: the best scores at each task, kept in a plain file from one session to the next."""
+
+from __future__ import annotations
+
+import json
+import os
+from datetime import date
+from math import isfinite
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from sandbox.files import atomic_write, reason
+
+FORMAT, VERSION = "sandbox best list", 1
+#: So many scores are kept of each task.
+MOST = 5
+
+
+def usual_file() -> Path:
+    """The file in the folder in which programs keep a user's data."""
+    home = os.environ.get("XDG_DATA_HOME") or os.environ.get("LOCALAPPDATA") or Path.home() / ".local" / "share"
+    return Path(home) / "sports-sandbox" / "best.json"
+
+
+class Best(NamedTuple):
+    """One score: of how many stars, and when (ISO)."""
+
+    score: float
+    stars: int
+    day: str
+
+
+class BestList:
+    """The best scores by task. A file that is damaged, or of another version, is set aside under another name; what is
+    wrong is in ``problem``, a line for the player, until he was told."""
+
+    def __init__(self, file: Path | None = None) -> None:
+        """Without a file it lasts as long as the window."""
+        self.file = file
+        self.problem = ""
+        self.tasks: dict[str, list[Best]] = {}
+        self._read()
+
+    def of(self, task: str) -> list[Best]:
+        """The best scores at a task, the best first."""
+        return self.tasks.get(task, [])
+
+    def stars(self, task: str) -> int:
+        """The most stars for a task."""
+        return max((best.stars for best in self.of(task)), default=0)
+
+    def add(self, task: str, score: float, stars: int, lower_is_better: bool) -> int:
+        """Add a score, and write the list; returns its place from 1, or 0 if it is not among the best."""
+        self._read()  # another window may have written meanwhile
+        new = Best(score, stars, date.today().isoformat())
+        before = [best for best in self.of(task) if (best.score <= score if lower_is_better else best.score >= score)]
+        after = self.of(task)[len(before) :]
+        self.tasks[task] = [*before, new, *after][:MOST]
+        self._write()
+        return len(before) + 1 if len(before) < MOST else 0
+
+    def _read(self) -> None:
+        """Read the file, if there is one."""
+        if self.file is None:
+            return
+        try:
+            text = self.file.read_text("utf-8")
+        except FileNotFoundError:
+            return
+        except OSError as error:
+            self._keep_out(f"{self.file}: cannot be read: {reason(error)}; scores last until the window is closed")
+            return
+        except UnicodeDecodeError:
+            self._set_aside()
+            return
+        try:
+            self.tasks = _tasks_in(json.loads(text))
+        except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
+            self._set_aside()
+
+    def _set_aside(self) -> None:
+        """Give a damaged file another name, that of no other file."""
+        assert self.file is not None
+        names = (self.file.with_name(f"{self.file.stem}.damaged-{n}{self.file.suffix}") for n in range(1, 1000))
+        aside = next((name for name in names if not name.exists()), None)
+        try:
+            if aside is None:
+                raise FileExistsError(17, "too many damaged files there")
+            self.file.rename(aside)
+        except OSError as error:
+            self._keep_out(f"{self.file}: damaged, and cannot be set aside: {reason(error)}; it is left as it is")
+        else:
+            self.problem = f"the best list was damaged: it is kept as {aside}, and a new one begins"
+
+    def _keep_out(self, problem: str) -> None:
+        """Leave the file alone from here on."""
+        self.file, self.problem = None, problem
+
+    def _write(self) -> None:
+        if self.file is None:
+            return
+        tasks = {name: [best._asdict() for best in scores] for name, scores in sorted(self.tasks.items())}
+        try:
+            self.file.parent.mkdir(parents=True, exist_ok=True)
+            with atomic_write(self.file) as file:
+                json.dump({"format": FORMAT, "version": VERSION, "tasks": tasks}, file, indent=1)
+        except OSError as error:
+            self.problem = f"{self.file}: the best list cannot be written: {reason(error)}"
+
+
+def _tasks_in(kept: Any) -> dict[str, list[Best]]:
+    """The scores in what was read. Raises ValueError, TypeError, KeyError or AttributeError if it is no best list."""
+    if kept["format"] != FORMAT or kept["version"] != VERSION:
+        raise ValueError("another format")
+    found = {}
+    for name, scores in kept["tasks"].items():
+        found[name] = [Best(float(each["score"]), int(each["stars"]), str(each["day"])) for each in scores]
+        if not all(isfinite(best.score) and 0 <= best.stars <= 3 for best in found[name]):
+            raise ValueError("a score that is none")
+    return found

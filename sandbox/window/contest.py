@@ -1,0 +1,278 @@
+"""What is played for in the window: a task, alone or by two, or a match by the rules of a game.
+
+A contest gives the scene of the next shot, what the player may set and how much of the path he sees; it has the noise
+of his aim, and is told what came of each shot. It knows nothing of the window.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from math import inf
+from pathlib import Path
+
+import numpy as np
+
+from sandbox import tasks
+from sandbox.errors import RequestError
+from sandbox.parameters import value_at, walk
+from sandbox.scene import Scene, load
+from sandbox.scene.finding import is_installed
+from sandbox.scene.games import game_names, game_of
+from sandbox.scene.scene_run import SceneRun
+from sandbox.sport.amounts import amount
+from sandbox.sport.match import PLAYERS, Match
+
+#: What the player may set, by key: bounds, in the parameter's unit.
+Limits = Mapping[str, tuple[float, float]]
+#: Labels and texts of a card.
+Entries = list[tuple[str, str]]
+
+
+def source_of(scene: Scene) -> str:
+    """How a scene is named where another one may be opened: by its name, or the folder it is in."""
+    return scene.title if is_installed(scene.folder) else str(scene.folder)
+
+
+class Contest:
+    """What is played for, shot by shot."""
+
+    name = ""  # of the task, or scene and game
+    goal = ""  # in one sentence
+    shown = "all"  # of the path: as tasks have it
+    said = ""  # what came of the last shot, in a sentence
+    good = False  # whether that was a success
+
+    @property
+    def scene(self) -> Scene:
+        """The scene of the next shot, before the player aims."""
+        raise NotImplementedError
+
+    @property
+    def limits(self) -> Limits:
+        """What the player may set."""
+        raise NotImplementedError
+
+    def aimed(self, scene: Scene) -> Scene:
+        """What becomes of the shot that the player has aimed: with the noise of his aim."""
+        raise NotImplementedError
+
+    def would_score(self, run: SceneRun) -> bool:
+        """True if a shot is a success, before it is recorded."""
+        raise NotImplementedError
+
+    def record(self, run: SceneRun) -> None:
+        """Count a shot."""
+        raise NotImplementedError
+
+    def anew(self) -> Contest:
+        """The same from its beginning, with other starts."""
+        raise NotImplementedError
+
+    @property
+    def over(self) -> bool:
+        """True if no shot is left."""
+        raise NotImplementedError
+
+    @property
+    def stand(self) -> str:
+        """Whose turn it is, or which attempt, in a few words."""
+        raise NotImplementedError
+
+    @property
+    def entries(self) -> Entries:
+        """Scores, as labels and texts."""
+        raise NotImplementedError
+
+    @property
+    def best_shots(self) -> Sequence[int]:
+        """Which of the shots were the best, from 0, the best first: three at most."""
+        return ()
+
+    @property
+    def stars(self) -> int | None:
+        """The stars at the end, from 0 to 3; None where there are none."""
+        return None
+
+    @property
+    def outcome(self) -> list[str]:
+        """At the end: how it came out, in lines."""
+        return [self.said]
+
+
+class AtTask(Contest):
+    """A task, played alone, or by two who take turns at the same starts."""
+
+    def __init__(self, task: tasks.Task, players: int = 1, seed: int | None = None) -> None:
+        self.task, self.players = task, players
+        self.seed = int(np.random.default_rng().integers(2**31)) if seed is None else seed
+        self.sessions = [tasks.Session(task, self.seed, player) for player in range(players)]
+        self.turn = 0
+        self.name, self.goal, self.shown = task.name, task.goal, task.shown
+        self.worths: list[float | None] = []  # of each shot
+        self._set: dict[str, float] = {}  # by the player, for the shot that is on its way
+
+    @property
+    def session(self) -> tasks.Session:
+        """The one whose turn it is."""
+        return self.sessions[self.turn]
+
+    @property
+    def scene(self) -> Scene:
+        return self.session.scene
+
+    @property
+    def limits(self) -> Limits:
+        return {control.key: (control.low, control.high) for control in self.task.controls}
+
+    def _values(self, scene: Scene) -> dict[str, float]:
+        return {key: value_at(scene.parameters, key) for key in self.task.defaults}
+
+    def aimed(self, scene: Scene) -> Scene:
+        self._set = self._values(scene)
+        return self.session.aimed(self._set)
+
+    def would_score(self, run: SceneRun) -> bool:
+        return self.task.is_made(self.task.score.of_shot(run.result))
+
+    def record(self, run: SceneRun) -> None:
+        session, attempt = self.session, self.session.attempt
+        shot = session.record(self._set, run)
+        self.worths.append(shot.worth)
+        self.said, self.good = shot.said, shot.made
+        if self.players > 1:
+            self.said = f"{PLAYERS[self.turn]}: {self.said}"
+        if attempt.over and not self.over:
+            self.turn = next(
+                other for step in range(1, self.players + 1)
+                if not self.sessions[other := (self.turn + step) % self.players].over
+            )  # fmt: skip
+
+    def anew(self) -> AtTask:
+        return AtTask(self.task, self.players)
+
+    @property
+    def over(self) -> bool:
+        return all(session.over for session in self.sessions)
+
+    @property
+    def stand(self) -> str:
+        session, task = self.session, self.task
+        said = f"attempt {session.attempt.number} of {task.attempts}"
+        if task.shots > 1:
+            said += f", shot {len(session.attempt.shots) + 1} of at most {task.shots}"
+        return f"{PLAYERS[self.turn]}, {said}" if self.players > 1 else said
+
+    def written(self, score: float | None) -> str:
+        """A score in words."""
+        return "-" if score is None else amount(score, self.task.score.total_unit).removesuffix(".0")
+
+    @property
+    def entries(self) -> Entries:
+        if self.players > 1:
+            return [(PLAYERS[i], self.written(session.total)) for i, session in enumerate(self.sessions)]
+        session = self.session
+        return [
+            ("attempts left", str(session.left)),
+            ("score", self.written(session.total)),
+            ("to pass", self.written(self.task.passing)),
+            ("streak", str(session.streak)),
+        ]
+
+    @property
+    def best_shots(self) -> Sequence[int]:
+        lower = self.task.score.lower_is_better and self.task.score.how != "fewest"
+        known = [(worth if lower else -worth, i) for i, worth in enumerate(self.worths) if worth is not None]
+        return [i for _, i in sorted(known)[:3]]
+
+    @property
+    def stars(self) -> int | None:
+        return self.sessions[0].stars if self.players == 1 else None
+
+    @property
+    def outcome(self) -> list[str]:
+        totals = [session.total for session in self.sessions]
+        if self.players == 1:
+            passed = (
+                "passed" if self.sessions[0].passed else f"not passed: that takes {self.written(self.task.passing)}"
+            )
+            return [f"{self.written(totals[0])}, {passed}"]
+        first, second = totals
+        score = self.task.score
+        ahead = [second is None or (first is not None and score.reaches(first, second)),
+                 first is None or (second is not None and score.reaches(second, first))]  # fmt: skip
+        said = "A draw" if all(ahead) else f"{PLAYERS[ahead.index(True)]} wins"
+        return [f"{said}: {self.written(first)} to {self.written(second)}"]
+
+
+class AtMatch(Contest):
+    """A match of two, by the rules of a game of a scene, each with the aim of a practised player."""
+
+    def __init__(self, folder: Path, game: str, match: Match | None = None, seed: int | None = None) -> None:
+        """Raises RequestError for a game that the scene does not have, and a module that is none."""
+        known = game_names(folder)
+        if game not in known:
+            raise RequestError(
+                f"{folder.name} has no game {game}; " + (f"it has {', '.join(known)}" if known else "it has none")
+            )
+        self.folder, self.game = folder, game
+        rules = game_of(folder, game)
+        self.match = rules() if match is None else match
+        self.random = np.random.default_rng(seed)
+        here = source_of(load(folder.name if is_installed(folder) else str(folder)))
+        self.base = load("/".join(filter(None, (here, rules.preset))))
+        self.name, self.goal, self.shown = f"{folder.name}/{game}", rules.goal, rules.shown
+
+    @property
+    def scene(self) -> Scene:
+        return self.base.changed(self.match.start, self.match.title)
+
+    @property
+    def limits(self) -> Limits:
+        controls, known = self.base.controls, {it.key: it for it in walk(self.scene.parameters, entries=True)}
+        keys = [controls.speed, controls.angle, *(spin.key for spin in controls.spins), *self.match.free]
+        found = {key: (_or(known[key].low, -inf), _or(known[key].high, inf)) for key in keys if key in known}
+        if self.match.room is not None:
+            x0, y0, x1, y1 = self.match.room
+            found |= dict(zip(self.match.free, ((x0, x1), (y0, y1)), strict=False))
+        return found
+
+    def aimed(self, scene: Scene) -> Scene:
+        known, noisy = {it.key: it for it in walk(scene.parameters)}, {}
+        for spread in scene.controls.spread:
+            value = value_at(scene.parameters, spread.key)
+            sd = value_at(scene.parameters, spread.sd) if spread.sd else spread.sigma(value)
+            noisy[spread.key] = known[spread.key].within(float(self.random.normal(value, sd)))
+        return scene.changed(noisy, "aim")
+
+    def would_score(self, run: SceneRun) -> bool:
+        after = self.match.after(run.result)
+        return bool(run.result.get(run.scene.controls.scores)) and not after.foul
+
+    def record(self, run: SceneRun) -> None:
+        self.good = self.would_score(run)
+        self.match = self.match.after(run.result)
+        self.said = self.match.said
+
+    def anew(self) -> AtMatch:
+        return AtMatch(self.folder, self.game, replace(game_of(self.folder, self.game)(), players=self.match.players))
+
+    @property
+    def over(self) -> bool:
+        return self.match.finished
+
+    @property
+    def stand(self) -> str:
+        return ", ".join(filter(None, (self.match.status, self.match.placing)))
+
+    @property
+    def entries(self) -> Entries:
+        return list(zip(self.match.players, self.match.scores, strict=True))
+
+    @property
+    def outcome(self) -> list[str]:
+        return [self.match.status, self.match.said]
+
+
+def _or(value: float | None, other: float) -> float:
+    return other if value is None else value

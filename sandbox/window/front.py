@@ -1,0 +1,297 @@
+"""The first screen: a tile for each sport with its picture; and what can be played in one: tasks, games, the scene."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Callable, Sequence
+from functools import cache
+from pathlib import Path
+from typing import NamedTuple
+
+import pygame
+
+from sandbox.errors import RequestError
+from sandbox.picture.palette import ASSETS, palette
+from sandbox.scene.finding import docstring, installed_folders
+from sandbox.scene.games import game_names, game_of
+from sandbox.tasks import Task, load
+from sandbox.tasks.file import read_task_file
+from sandbox.window.best import BestList
+from sandbox.window.contest import AtMatch, AtTask, Contest
+from sandbox.window.game import Game
+from sandbox.window.overlay import HOVERED, Overlay
+from sandbox.window.scoreboard import SMALL_STAR, star, stars
+
+CARD = palette("card")
+
+#: The picture of a tile, in px, and its name in a scene's folder.
+TILE, TILE_FILE = (320, 180), "tile.jpg"
+#: Width of a tile in px on 720 rows, at most.
+WIDEST = 240
+START_HERE = "Start here"
+
+
+class Entry(NamedTuple):
+    """Something that can be played: a ``task``, ``two`` at a task, a ``game`` of a scene, or the ``scene`` itself."""
+
+    kind: str
+    source: str  # the task, or the scene
+    game: str = ""
+    title: str = ""
+    about: str = ""
+
+
+class Sport(NamedTuple):
+    """A scene on the first screen."""
+
+    name: str
+    folder: Path
+    tasks: Sequence[str]  # their names, in no order
+
+    @property
+    def title(self) -> str:
+        """Its name for people."""
+        return self.name.replace("-", " ").capitalize()
+
+
+@cache
+def _order() -> tuple[str, list[str]]:
+    """The task to begin with, and the sports that come first."""
+    kept = tomllib.loads((ASSETS / "tiles.toml").read_text("utf-8"))
+    return kept["first"], kept["sports"]
+
+
+def first_task() -> Task:
+    """The task to begin with."""
+    return load(_order()[0])
+
+
+def sports() -> list[Sport]:
+    """All installed scenes, in the order of their tiles."""
+    folders, (_, order) = installed_folders(), _order()
+    names = [*(name for name in order if name in folders), *sorted(folders.keys() - set(order))]
+    return [Sport(name, folders[name], [file.stem for file in (folders[name] / "tasks").glob("*.toml")])
+            for name in names]  # fmt: skip
+
+
+def entries_of(sport: Sport) -> list[Entry]:
+    """All that can be played in a sport: its tasks in rising order, games for two, and the scene. A task or a game that
+    is damaged says so instead of what it is about."""
+    found = []
+    for name in sport.tasks:
+        try:
+            file = read_task_file(sport.folder / "tasks" / f"{name}.toml")
+            found.append((file.level, Entry("task", name, "", _title(name), file.goal)))
+        except RequestError as error:
+            found.append((99, Entry("task", name, "", _title(name), str(error))))
+    entries = [entry for _, entry in sorted(found)]
+    for name in game_names(sport.folder):
+        try:
+            rules = game_of(sport.folder, name)
+            entries.append(Entry("game", sport.name, name, f"{rules.title}, for two", rules.goal))
+        except RequestError as error:
+            entries.append(Entry("game", sport.name, name, _title(name), str(error)))
+    about = docstring(sport.folder / "scene.py")
+    return [*entries, Entry("scene", sport.name, "", "Just play", about)]
+
+
+def begin(game: Game, entry: Entry) -> None:
+    """Play what was chosen."""
+    if entry.kind == "scene":
+        game.opening.open(entry.source)
+        return
+
+    def made() -> Contest:
+        if entry.kind == "game":
+            return AtMatch(installed_folders()[entry.source], entry.game)
+        return AtTask(load(entry.source), 2 if entry.kind == "two" else 1)
+
+    game.messages.reporting_errors(lambda: game.referee.begin(made()))
+
+
+def _title(name: str) -> str:
+    return name.replace("-", " ").capitalize()
+
+
+class Front(Overlay):
+    """The tiles, or once one was chosen what can be played in that sport."""
+
+    def __init__(self, begin: Callable[[Entry], object], best: BestList) -> None:
+        super().__init__()
+        self.begin, self.best, self.all = begin, best, sports()
+        self.sport: Sport | None = None
+        self.entries: list[Entry] = []
+        self.across = 1  # tiles in a row
+        first = _order()[0]
+        self.first_sport = next((sport for sport in self.all if first in sport.tasks), None)
+        if self.best.of(first):
+            self.first_sport = None  # it was played
+        self.chosen = self.all[0]
+        self._images: dict[tuple[str, tuple[int, int]], pygame.Surface] = {}
+
+    @property
+    def rows(self) -> Sequence[Sport | Entry]:
+        return self.entries if self.sport is not None else self.all
+
+    def do(self, what: Sport | Entry | str) -> bool:
+        if isinstance(what, Sport):
+            if what is self.first_sport:
+                self.begin(Entry("task", _order()[0]))
+                return False
+            self.sport, self.entries, self.first = what, entries_of(what), 0
+            self.chosen = self.entries[0]
+        elif isinstance(what, str):
+            self._to_tiles()
+        else:
+            self.begin(what)
+            return False
+        return True
+
+    def _to_tiles(self) -> None:
+        self.chosen, self.sport, self.first = self.sport, None, 0
+
+    def key(self, key: int) -> bool | None:
+        if self.sport is not None and key in (pygame.K_ESCAPE, pygame.K_LEFT, pygame.K_BACKSPACE):
+            self._to_tiles()
+            return True
+        if self.sport is None and key in (pygame.K_UP, pygame.K_DOWN):
+            place = self.all.index(self.chosen) + (self.across if key == pygame.K_DOWN else -self.across)
+            self.chosen = self.all[min(max(place, 0), len(self.all) - 1)]
+            self.show(self.chosen)
+            return True
+        return super().key(key)
+
+    def turn(self, by: int) -> None:
+        if self.sport is None:
+            self.step(by)
+
+    def show(self, row: Sport | Entry) -> None:
+        line = self.rows.index(row) // self.across * self.across
+        self.first = min(max(self.first, line - self.seen + self.across), line)
+
+    def scroll(self, by: int) -> None:
+        hidden = max(0, len(self.rows) - self.seen)
+        self.first = min(max(self.first + by * self.across, 0), -(-hidden // self.across) * self.across)
+
+    # Drawing
+
+    def compose(self) -> None:
+        sheet, gap = self.sheet, self.sheet.gap
+        rect = sheet.surface.get_rect()
+        sheet.surface.fill(CARD["background"])
+        title = "Choose a sport" if self.sport is None else self.sport.title
+        at = rect.left + 4 * gap, rect.top + 3 * gap
+        head = sheet.write(title, "medium", at, CARD["text"], bold=True)
+        room = pygame.Rect(at[0], head.bottom + 2 * gap, rect.width - 8 * gap, 0)
+        room.height = rect.bottom - 2 * gap - room.top
+        if self.sport is None:
+            self._tiles(room)
+        else:
+            self._page(self.sport, room)
+
+    def _tiles(self, room: pygame.Rect) -> None:
+        """The tiles, as large as they all fit, but not too small."""
+        sheet, gap = self.sheet, self.sheet.gap
+        below = sheet.lettering.height("small") + gap
+        self.across, size = self._fitting(room, below)
+        tall = size[1] + below + gap
+        lines = max(1, (room.height + gap) // tall)
+        self.seen = self.across * lines
+        self.scroll(0)
+        self.scroll_bar(room, lines * tall)
+        for i, sport in enumerate(self.all[self.first : self.first + self.seen]):
+            place = pygame.Rect(
+                room.left + i % self.across * (size[0] + 2 * gap), room.top + i // self.across * tall, *size
+            )
+            self._tile(sport, place, below)
+
+    def _fitting(self, room: pygame.Rect, below: int) -> tuple[int, tuple[int, int]]:
+        """How many tiles are in a row, and the size of their pictures in px."""
+        gap = self.sheet.gap
+        for across in range(1, 12):
+            wide = min((room.width - gap + 2 * gap) // across - 2 * gap, round(WIDEST * self.sheet.unit))
+            tall = wide * TILE[1] // TILE[0]
+            lines = -(-len(self.all) // across)
+            if lines * (tall + below + gap) <= room.height + gap or wide < 120:
+                break
+        return across, (wide, tall)
+
+    def _tile(self, sport: Sport, place: pygame.Rect, below: int) -> None:
+        sheet, gap, unit = self.sheet, self.sheet.gap, self.sheet.unit
+        whole = pygame.Rect(place.left, place.top, place.width, place.height + below).inflate(gap, gap)
+        self.part(whole, sport)
+        self._picture(sport, place)
+        here = whole.collidepoint(self.mouse) or (sport == self.chosen and self.hovered is None)
+        if here:
+            pygame.draw.rect(sheet.surface, CARD["accent"], place.inflate(4, 4), 3, border_radius=round(5 * unit))
+        y = place.bottom + below // 2
+        got = sum(self.best.stars(task) for task in sport.tasks)
+        right = place.right
+        if sport.tasks:
+            text = f"{got} of {3 * len(sport.tasks)}"
+            written = sheet.write(text, "small", (right, y), CARD["quiet"], "midright")
+            star(sheet, (written.left - 1.6 * SMALL_STAR * unit, y), SMALL_STAR * unit, got > 0)
+            right = written.left - round(3 * SMALL_STAR * unit)
+        name = sheet.lettering.cut(sport.title, "small", right - place.left, True)
+        sheet.write(name, "small", (place.left, y), CARD["text"], "midleft", bold=True)
+        if sport is self.first_sport:
+            wide = sheet.lettering.width(START_HERE, "small", True) + 4 * gap
+            badge = pygame.Rect(place.left, place.top, wide, below + gap)
+            sheet.painter.panel(badge, CARD["accent"], 1.0, 5 * unit)
+            sheet.write(START_HERE, "small", badge.center, CARD["background"], "center", bold=True)
+
+    def _picture(self, sport: Sport, place: pygame.Rect) -> None:
+        """The picture of a sport, or a pale panel where it has none."""
+        image = self._image(sport, place.size)
+        if image is not None:
+            self.sheet.surface.blit(image, place)
+        else:
+            self.sheet.painter.panel(place, CARD["quiet"], 0.12, 4 * self.sheet.unit)
+
+    def _image(self, sport: Sport, size: tuple[int, int]) -> pygame.Surface | None:
+        key = sport.name, size
+        if key not in self._images:
+            try:
+                image = pygame.image.load(sport.folder / TILE_FILE)
+            except (OSError, pygame.error):
+                return None
+            self._images[key] = pygame.transform.smoothscale(image.convert(24), size)
+        return self._images[key]
+
+    def _page(self, sport: Sport, room: pygame.Rect) -> None:
+        """What can be played in a sport: the picture, and a row for each."""
+        gap, letters = self.sheet.gap, self.sheet.lettering
+        small = letters.height("small")
+        wide = min(room.width // 3, TILE[0] * 4 // 3)
+        place = pygame.Rect(room.left, room.top, wide, wide * TILE[1] // TILE[0])
+        self._picture(sport, place)
+        back = pygame.Rect(
+            room.left, place.bottom + 2 * gap, letters.width("Esc  all sports", "small") + 4 * gap, 2 * small
+        )
+        self.part(back, "back", "Esc  all sports", "quiet", left=back.left + 2 * gap)
+        self.across = 1
+        left = place.right + 4 * gap
+        listed = self.listed(pygame.Rect(left, room.top, room.right - left, room.height), 2 * small + 4 * gap)
+        for entry, row in listed:
+            row.height -= gap
+            self._row(entry, row)
+
+    def _row(self, entry: Entry, row: pygame.Rect) -> None:
+        sheet, gap, letters, unit = self.sheet, self.sheet.gap, self.sheet.lettering, self.sheet.unit
+        right, two = row.right, None
+        if entry.kind == "task":
+            label = "for two"
+            two = pygame.Rect(0, 0, letters.width(label, "small") + 4 * gap, row.height)
+            two.topright = row.topright
+            self.part(two, entry._replace(kind="two"), label, "quiet", left=two.left + 2 * gap)
+            right = two.left - gap
+        main = pygame.Rect(row.left, row.top, right - row.left, row.height)
+        self.part(main, entry, lit=0.5 * HOVERED if entry.kind == "task" else 0.0)
+        x, small = row.left + 2 * gap, letters.height("small")
+        if entry.kind == "task":
+            stars(sheet, (x + SMALL_STAR * unit, row.centery), SMALL_STAR * unit, self.best.stars(entry.source))
+        x += round(8 * SMALL_STAR * unit)
+        y = row.centery - small - gap // 4
+        sheet.write(letters.cut(entry.title, "small", right - x, True), "small", (x, y), CARD["text"], bold=True)
+        about = letters.cut(entry.about, "small", right - x - gap)
+        sheet.write(about, "small", (x, row.centery + gap // 4), CARD["quiet"])

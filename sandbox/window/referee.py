@@ -1,0 +1,208 @@
+"""The referee of a contest: puts up each shot, has it computed with the noise of the player's aim, counts it once it is
+over, shows what decided it again, and at the end the best of all."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import Future
+from typing import Any
+
+import numpy as np
+
+from sandbox.engine.model.setup import Touches
+from sandbox.errors import SandboxError
+from sandbox.window.aiming import Aiming
+from sandbox.window.background import Workers
+from sandbox.window.contest import Contest, source_of
+from sandbox.window.history import History
+from sandbox.window.messages import Messages
+from sandbox.window.shots import STEP, Shot
+from sandbox.window.worker import computed, unpacked
+
+#: What decided a shot is shown again from so long before it, in s, this much slower, until so long after it.
+BEFORE, SLOWER, AFTER = 0.5, 0.25, 0.2
+#: How long a success glows, in s, and how long the end of each of the best shots stays.
+GLOW, PAUSE = 1.6, 1.2
+#: Among so many events the one that decides is looked for.
+MOST = 100
+
+
+class Referee:
+    """Holds the contest, its shots, and the one that is on its way."""
+
+    def __init__(self, aiming: Aiming, workers: Workers, messages: Messages) -> None:
+        self.aiming, self.workers, self.messages = aiming, workers, messages
+        self.session, self.path, self.watching = aiming.session, aiming.path, aiming.watching
+        self.contest: Contest | None = None
+        self.ended: Callable[[Contest], object] = lambda contest: None  # called once at the end of each contest
+        self.shots: list[Shot] = []
+        self.work: Future[Any] | None = None  # that computes the shot
+        self.pending: Shot | None = None  # it is watched, and not counted yet
+        self.decided = 0.0  # s: when what is watched is decided
+        self.again = ""  # what is shown again: nothing; "slow", then "still", what decided a success; one of the "best"
+        self.glow = 0.0  # s that a success goes on glowing
+        self.cheers = 0  # successes that were not heard yet
+        self._cheered = False
+        self._scene: Any = None  # that of the shot on its way
+        self._before: int | None = None  # how many shots there were before it; None: there is none
+        self._rested = 0.0  # s since the end of what is shown again
+        self._next_best = 0
+        aiming.makes_shot, aiming.puts_up_next = self.shoot, self.put_up_next
+
+    @property
+    def busy(self) -> bool:
+        """True if something goes on by itself."""
+        return self.work is not None or self.pending is not None or bool(self.again) or self.glow > 0.0
+
+    @property
+    def seen(self) -> tuple[Any, ...]:
+        """All that can be seen of it."""
+        return self.contest, len(self.shots), self.pending, self.again, self.glow
+
+    @property
+    def is_over(self) -> bool:
+        """True if all shots are played and counted."""
+        return self.contest is not None and self.contest.over
+
+    @property
+    def tells(self) -> bool:
+        """True if goal and scores are shown, or how a shot came out: not while it is on its way."""
+        playback = self.watching.playback
+        return playback is None or (self.pending is None and (playback.over or bool(self.again)))
+
+    def begin(self, contest: Contest) -> None:
+        """Play for something from here on."""
+        self.leave()
+        self.contest = contest
+        self._put_up()
+
+    def leave(self) -> None:
+        """Play for nothing."""
+        if self.work is not None:
+            self.workers.path.abandon(self.work)
+        self.contest, self.work, self.pending, self.again, self.glow = None, None, None, "", 0.0
+        self._before = None
+        self.session.limits, self.shots = None, []
+
+    def _put_up(self) -> None:
+        """Show the next shot, to be aimed."""
+        assert self.contest is not None
+        self.watching.stop()
+        self.path.forget()
+        self.again, self.glow = "", 0.0
+        scene = self.contest.scene
+        self.session.show(scene, source_of(scene), self.contest.limits)
+        self.aiming.history = History(self.session.changes)
+
+    def put_up_next(self) -> bool:
+        """Go on after a shot; returns whether there is a contest. After its end it begins anew."""
+        if self.contest is None:
+            return False
+        self._count()
+        if self.contest.over:
+            self.begin(self.contest.anew())
+        else:
+            self._put_up()
+        return True
+
+    def shoot(self) -> bool:
+        """Have the shot that is aimed computed, or play it live; returns whether there is a contest."""
+        contest = self.contest
+        if contest is None:
+            return False
+        if self.work is not None or self.watching.playback is not None or contest.over:
+            return True
+        self._scene, self._before = contest.aimed(self.session.scene), self.watching.shots.count
+        if self.session.controls.held:
+            scene, changes = self._scene, self.session.changes
+            self.messages.reporting_errors(lambda: self.watching.play(scene, changes))
+        else:
+            self.work = self.workers.path.submit(computed, self._scene)
+        return True
+
+    def advance(self, dt: float) -> None:
+        """``dt`` s have passed."""
+        self.glow = max(0.0, self.glow - dt)
+        if self.work is not None and self.work.done():
+            self._take()
+        playback = self.watching.playback
+        if self.contest is None or playback is None:
+            return
+        if self._before is not None and playback.shot.number > self._before and self.watching.live is None:
+            self._accept(playback.shot)
+        if self.pending is not None and playback.t >= self.decided and not self._cheered:
+            self._cheer()
+        if self.pending is not None and playback.over:
+            self._count()
+        elif self.again == "slow" and playback.t >= min(self.decided + AFTER, playback.duration):
+            playback.playing, self.again, self.glow = False, "still", GLOW
+        if self.is_over and self.pending is None and self.again != "slow":
+            self._show_best(dt)
+
+    def _take(self) -> None:
+        """Watch the shot that was computed."""
+        work, scene, self.work = self.work, self._scene, None
+        assert work is not None
+        try:
+            run = unpacked(scene, work.result()[0])
+        except SandboxError as error:
+            self.messages.tell_error(error)
+            return
+        self.aiming.keep(Shot(scene, run, self.session.changes))
+
+    def _accept(self, shot: Shot) -> None:
+        """A shot of the contest is watched for the first time."""
+        self.shots.append(shot)
+        self._before, self.pending, self.decided, self._cheered = None, shot, decided_at(shot), False
+
+    def _cheer(self) -> None:
+        """A success glows, and is heard."""
+        assert self.pending is not None
+        self._cheered = True
+        if self.contest is not None and self.contest.would_score(self.pending.run):
+            self.glow, self.cheers = GLOW, self.cheers + 1
+
+    def _count(self) -> None:
+        """Count the shot, and show what decided it again if it is a success."""
+        shot, self.pending, playback = self.pending, None, self.watching.playback
+        if shot is None or self.contest is None:
+            return
+        self.contest.record(shot.run)
+        if self.contest.good and playback is not None and playback.shot is shot and self.watching.live is None:
+            self.again = "slow"
+            playback.seek(self.decided - BEFORE)
+            playback.rate, playback.playing = SLOWER * min(1.0, playback.rate), True
+        if self.contest.over:
+            self._rested, self._next_best = 0.0, 0
+            self.ended(self.contest)
+
+    def _show_best(self, dt: float) -> None:
+        """At the end: show the best shots again, one after the other, the best last."""
+        assert self.contest is not None
+        playback, best = self.watching.playback, self.contest.best_shots
+        if playback is None or playback.playing or self._next_best >= len(best):
+            return
+        self._rested += dt
+        if self._rested >= PAUSE:
+            self._rested = 0.0
+            self.watching.watch(self.shots[best[::-1][self._next_best]])
+            self._next_best, self.again = self._next_best + 1, "best"
+
+
+def decided_at(shot: Shot) -> float:
+    """The time in s at which a shot is decided: when the fact that it scored is final. Where that is not known before
+    the end it is with the last body that a trap takes, such as a pocket or a cup, or else with the last impact of the
+    ball that is played."""
+    run, fact = shot.run, shot.scene.facts.get(shot.scene.controls.scores)
+    final = fact.final_when if fact is not None else "end"
+    found = []
+    if final not in ("start", "end"):
+        condition = Touches(final) if isinstance(final, str) else final(shot.scene.parameters)
+        times = np.linspace(0.0, run.duration, max(2, round(run.duration / STEP)))
+        states = [tuple(state) for state in run.states(shot.ball, times)]
+        found += [t for t, a, b in zip(times[1:], states, states[1:], strict=False) if condition.passed(a, b)][:1]
+        found += [e.t for i, e in enumerate(run.events[:MOST], 1) if condition.over(run.events[:i])][:1]
+    if found:
+        return float(min(found))
+    met = [e.t for e in run.events if e.kind == "impact" and shot.ball in (e.ball, e.partner)]
+    return max([e.t for e in run.events if e.kind == "caught"] or met, default=run.duration)

@@ -1,0 +1,349 @@
+"""Playing for something: the first screen, tasks with their attempts and stars, the best list, matches of two."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from concurrent.futures import wait
+from dataclasses import replace
+from pathlib import Path
+
+import pygame
+import pytest
+
+from sandbox import tasks
+from sandbox.errors import RequestError
+from sandbox.scene.finding import installed_folder, installed_folders
+from sandbox.window import commands
+from sandbox.window.app import play
+from sandbox.window.best import MOST, Best, BestList, usual_file
+from sandbox.window.contest import AtMatch, AtTask
+from sandbox.window.front import START_HERE, TILE, TILE_FILE, Front, entries_of, first_task, sports
+from sandbox.window.referee import AFTER, decided_at
+from sandbox.window.shots import LONGEST_FRAME
+
+from .conftest import Player
+from .test_see import said
+
+GOAL = "Make three of five free throws"
+SEED = 1
+
+
+def passes(player: Player, enough: Callable[[], bool]) -> None:
+    """Time passes until it is enough, without drawing; then one frame."""
+    for _ in range(5000):
+        if player.game.referee.work is not None:
+            wait([player.game.referee.work], 60.0)
+        player.game.advance(LONGEST_FRAME)
+        if enough():
+            player.frames()
+            return
+    raise AssertionError("that never happens")
+
+
+def shoot(player: Player, **values: float) -> None:
+    """Aim, shoot, and watch to the end of what is shown by itself."""
+    game, referee = player.game, player.game.referee
+    if values:
+        assert game.aiming.change({key.replace("__", "."): value for key, value in values.items()})
+    player.settle()
+    shots = len(referee.shots)
+    player.key(pygame.K_SPACE)
+    passes(player, lambda: len(referee.shots) > shots and referee.tells and referee.again != "slow")
+
+
+#: The free throw of the preset that goes in.
+IN = {"launch__speed": 7.391, "launch__angle": 52.0}
+
+
+@pytest.fixture
+def thrower(player) -> Player:
+    """A player at the free throw's task, from the same height each time, whose hand does not tremble."""
+    player = player("basketball", (900, 560))
+    contest = AtTask(replace(tasks.load("free-throw"), start=()), seed=SEED)
+    contest.sessions = [tasks.Session(contest.task, SEED, noise=False)]
+    player.game.referee.begin(contest)
+    player.settle()
+    return player
+
+
+class TestTheFirstScreen:
+    def test_every_sport_has_a_small_tile(self):
+        for name, folder in installed_folders().items():
+            image = pygame.image.load(folder / TILE_FILE)
+            assert image.get_size() == TILE, name
+            assert (folder / TILE_FILE).stat().st_size < 20_000
+
+    def test_tiles_lead_to_all_that_can_be_played(self):
+        assert {sport.name for sport in sports()} == installed_folders().keys()
+        assert {name for sport in sports() for name in sport.tasks} == set(tasks.tasks())
+        entries = [entry for sport in sports() for entry in entries_of(sport)]
+        assert {entry.source for entry in entries if entry.kind == "task"} == set(tasks.tasks())
+        assert {"nine-ball", "ten-frames", "end"} <= {entry.game for entry in entries if entry.kind == "game"}
+
+    def test_the_first_task_is_one_click_away(self, player):
+        player = player("golf", (900, 560))
+        player.key(pygame.K_1)
+        assert START_HERE in said(player)
+        front = player.view.shown.overlay
+        player.click(next(rect.center for rect, what in front.places if what is front.first_sport))
+        player.settle()
+        assert player.view.shown.overlay is None
+        assert player.game.referee.contest.name == first_task().name
+        assert GOAL in said(player)
+
+    def test_it_is_used_by_keys_alone(self, player):
+        player = player("golf", (900, 560))
+        player.game.best.add(first_task().name, 5.0, 3, lower_is_better=False)
+        player.key(pygame.K_1)
+        front = player.view.shown.overlay
+        assert START_HERE not in said(player)  # it was played
+        for key in (pygame.K_RIGHT, pygame.K_DOWN, pygame.K_UP, pygame.K_LEFT, pygame.K_RETURN):
+            player.key(key)
+        assert front.sport is front.all[0]
+        player.key(pygame.K_ESCAPE)
+        assert (player.view.shown.overlay, front.sport) == (front, None)
+        player.key(pygame.K_RETURN)
+        player.key(pygame.K_UP)
+        player.key(pygame.K_RETURN)  # the last row: the scene itself
+        player.settle()
+        assert (player.game.session.title, player.game.referee.contest) == (front.all[0].name, None)
+
+    def test_a_damaged_task_says_so_in_its_row(self, tmp_path):
+        (tmp_path / "tasks").mkdir()
+        (tmp_path / "tasks" / "mine.toml").write_text("goal = 5\n", "utf-8")
+        (tmp_path / "scene.py").write_text('"""A scene."""\n', "utf-8")
+        sport = sports()[0]._replace(folder=tmp_path, tasks=["mine"])
+        assert "mine.toml" in entries_of(sport)[0].about
+
+
+class TestATask:
+    def test_nothing_tells_before_the_shot(self, thrower):
+        verdict = thrower.game.shot.verdict
+        assert verdict not in said(thrower)
+        assert thrower.view.shown.until(thrower.game.shot) is not None  # not the whole path
+        for name in sorted(commands.GIVE_AWAY):
+            before = thrower.game.session.changes, set(thrower.view.shown.on)
+            commands.do(thrower.view, name)
+            assert (thrower.game.session.changes, set(thrower.view.shown.on)) == before
+            assert thrower.view.shown.overlay is None
+            assert "not before the shot" in thrower.game.notices[-1][0]
+
+    def test_only_its_controls_change_and_within_bounds(self, thrower):
+        session = thrower.game.session
+        for changes in ({"hoop.distance": 3.0}, {"gravity": 1.0}):
+            assert not thrower.game.aiming.change(changes)
+        assert session.changes.values == {}
+        thrower.game.aiming.change({"launch.speed": 50.0, "gravity": 1.0})
+        assert session.changes.values == {"launch.speed": 10.0}
+        assert thrower.view.targets.shown_grips == []
+
+    def test_a_miss_is_said_in_a_sentence_and_counts(self, thrower):
+        referee = thrower.game.referee
+        shoot(thrower, launch__speed=5.0)
+        assert (referee.contest.good, referee.glow, referee.again) == (False, 0.0, "")
+        assert referee.contest.said == referee.shots[0].verdict
+        assert {referee.contest.said, "attempts left", "4"} <= said(thrower)
+        thrower.click(thrower.view.screen.area.center)  # the next one
+        thrower.settle()
+        assert {GOAL, "attempt 2 of 5"} <= {part for text in said(thrower) for part in text.split("   ·   ")}
+
+    def test_a_success_glows_is_heard_and_shown_again_slowly(self, thrower):
+        referee, watching, seen = thrower.game.referee, thrower.game.watching, []
+
+        def still() -> bool:
+            playback = watching.playback
+            seen.append((playback.t, playback.rate, referee.glow, referee.cheers) if playback else (0.0, 1.0, 0.0, 0))
+            return referee.again == "still"
+
+        thrower.game.aiming.change({key.replace("__", "."): value for key, value in IN.items()})
+        thrower.settle()
+        thrower.key(pygame.K_SPACE)
+        passes(thrower, still)
+        assert referee.contest.good
+        assert {rate for _, rate, *_ in seen} == {1.0, 0.25}
+        first = next(t for t, _, glow, cheers in seen if glow and cheers)
+        assert first == pytest.approx(referee.decided, abs=0.05)
+        floor = next(event.t for event in referee.shots[0].run.events if event.partner == "floor")
+        assert referee.decided < floor  # in the ring
+        assert watching.playback.t == pytest.approx(referee.decided + AFTER, abs=0.05)
+        assert referee.contest.session.streak == 1
+        assert referee.cheers == 0  # it was heard
+
+    def test_stars_best_list_and_best_shots_at_the_end(self, thrower, tmp_path):
+        game, referee = thrower.game, thrower.game.referee
+        game.best.file = tmp_path / "data" / "best.json"
+        for number in range(5):
+            if number:
+                thrower.key(pygame.K_RETURN)
+                thrower.settle()
+            shoot(thrower, **({**IN, "launch__speed": 5.0} if number == 4 else IN))
+        contest = referee.contest
+        assert (contest.over, contest.stars, contest.session.total) == (True, 2, 4.0)
+        assert {"4, passed", "your best: 4"} <= said(thrower)
+        kept = json.loads(game.best.file.read_text("utf-8"))["tasks"]["free-throw"]
+        assert [(each["score"], each["stars"]) for each in kept] == [(4.0, 2)]
+        shown = []
+
+        def three() -> bool:
+            number = game.watching.playback.shot.number
+            shown.extend([number] * (referee.again == "best" and number not in shown))
+            return len(shown) == 3 and game.watching.playback.over
+
+        passes(thrower, three)
+        assert shown == [3, 2, 1]  # all went in; of equal ones the first is the best
+        thrower.key(pygame.K_RETURN)
+        thrower.settle()
+        assert (referee.contest is contest, referee.contest.session.left, referee.shots) == (False, 5, [])
+        assert referee.contest.seed != contest.seed
+
+    def test_escape_leads_to_the_tiles_and_a_scene_ends_it(self, thrower):
+        thrower.key(pygame.K_ESCAPE)
+        assert isinstance(thrower.view.shown.overlay, Front)
+        thrower.key(pygame.K_ESCAPE)
+        thrower.game.opening.open("golf")
+        thrower.settle()
+        assert (thrower.game.referee.contest, thrower.game.session.limits) == (None, None)
+        assert thrower.game.aiming.change({"gravity": 5.0})
+
+    def test_a_run_that_fails_costs_no_attempt(self, thrower, monkeypatch):
+        game = thrower.game
+        monkeypatch.setattr("sandbox.window.referee.unpacked", lambda *_: (_ for _ in ()).throw(RequestError("broken")))
+        thrower.key(pygame.K_SPACE)
+        thrower.settle()
+        passes(thrower, lambda: ("broken", True) in game.notices)
+        assert ("broken", True) in game.notices
+        assert (game.referee.contest.session.left, game.watching.playback) == (5, None)
+
+    def test_two_take_turns_at_the_same_starts(self, player):
+        player = player("basketball", (900, 560))
+        contest = AtTask(tasks.load("free-throw"), 2, seed=SEED)
+        player.game.referee.begin(contest)
+        starts = []
+        for number in range(4):
+            if number:
+                player.key(pygame.K_RETURN)
+            player.settle()
+            assert contest.turn == number % 2
+            starts.append(player.game.session.value("release.height"))
+            shoot(player, launch__speed=5.0)
+        assert starts[0] == starts[1] != starts[2] == starts[3]
+        assert {"Player 1", "Player 2"} <= said(player)
+        assert contest.said.startswith("Player 2: ")
+        assert contest.outcome == ["A draw: 0 to 0"]
+
+
+class TestAMatch:
+    def test_the_ball_in_hand_is_dragged_and_the_rules_go_on(self, player):
+        player = player("golf", (1100, 640))
+        player.game.referee.begin(AtMatch(installed_folder("billiards"), "eight-ball", seed=1))
+        player.settle()
+        game, session = player.game, player.game.session
+        assert any("ball in hand" in text for text in said(player))
+        (grip,) = player.view.targets.shown_grips
+        x, y = (round(value) for value in grip.at)
+        player.press((x, y))
+        player.move((x + 400, y + 30))  # beyond the head string
+        player.release((x + 400, y + 30))
+        player.settle()
+        assert session.value("balls[0].x") == pytest.approx(-0.635)
+        assert session.value("balls[0].y") < 0.1
+        assert session.value("rack") == "eight-ball"
+        shoot(player, cue__speed=9.0, cue__angle=0.0)
+        match = game.referee.contest.match
+        assert match.said
+        assert {"Player 1", "Player 2", match.scores[0]} <= said(player)
+        player.key(pygame.K_RETURN)
+        player.settle()
+        assert session.value("rack") == ("none" if match.balls else "eight-ball")
+        assert any(match.status in text for text in said(player))
+
+    def test_a_game_that_is_not_there_is_said(self):
+        with pytest.raises(RequestError, match="golf has no game chess; it has nearest-the-pin"):
+            AtMatch(installed_folder("golf"), "chess")
+        with pytest.raises(RequestError, match="tennis has no game chess; it has none"):
+            AtMatch(installed_folder("tennis"), "chess")
+
+
+def test_a_shot_is_decided_where_its_score_is_final(shot_of, player):
+    player = player("billiards/bank", (640, 480))
+    shot = player.game.shot
+    assert decided_at(shot) == next(event.t for event in shot.run.events if event.kind == "caught")
+
+
+class TestTheBestList:
+    def test_the_best_come_first_and_few_are_kept(self, tmp_path):
+        best = BestList(tmp_path / "deep" / "best.json")
+        places = [best.add("far", score, 1, lower_is_better=False) for score in (1.0, 3.0, 2.0, 3.0, 0.5, 0.1)]
+        assert places == [1, 1, 2, 2, 5, 0]
+        assert [each.score for each in BestList(best.file).of("far")] == [3.0, 3.0, 2.0, 1.0, 0.5]
+        assert [best.add("near", score, 2, lower_is_better=True) for score in (1.0, 3.0, 0.2)] == [1, 2, 1]
+        assert (best.stars("near"), best.stars("never"), len(best.of("far"))) == (2, 0, MOST)
+
+    def test_two_windows_lose_nothing_of_each_other(self, tmp_path):
+        one, other = BestList(tmp_path / "best.json"), BestList(tmp_path / "best.json")
+        one.add("a", 1.0, 1, lower_is_better=False)
+        other.add("b", 2.0, 2, lower_is_better=False)
+        assert set(BestList(tmp_path / "best.json").tasks) == {"a", "b"}
+
+    @pytest.mark.parametrize(
+        "text",
+        [
+            "",
+            "{",
+            "[1]",
+            "\x00",
+            '{"format": "sandbox best list", "version": 2, "tasks": {}}',
+            '{"format": "sandbox best list", "version": 1, "tasks": {"a": [{"score": "x"}]}}',
+            '{"format": "sandbox best list", "version": 1, "tasks": {"a": [{"score": NaN, "stars": 1, "day": ""}]}}',
+        ],
+    )
+    def test_a_damaged_one_is_set_aside_with_a_line(self, tmp_path, text):
+        file = tmp_path / "best.json"
+        (tmp_path / "best.damaged-1.json").write_text("before", "utf-8")
+        file.write_text(text, "utf-8")
+        best = BestList(file)
+        aside = tmp_path / "best.damaged-2.json"
+        assert aside.read_text("utf-8") == text
+        assert best.problem == f"the best list was damaged: it is kept as {aside}, and a new one begins"
+        best.add("a", 1.0, 1, lower_is_better=False)
+        assert BestList(file).of("a") == [Best(1.0, 1, best.of("a")[0].day)]
+
+    def test_one_that_cannot_be_written_is_said(self, tmp_path):
+        (tmp_path / "file").write_text("", "utf-8")
+        best = BestList(tmp_path / "file" / "best.json")
+        assert best.add("a", 1.0, 1, lower_is_better=False) == 1
+        assert "best list cannot be written" in best.problem or "cannot be read" in best.problem
+
+    def test_the_window_says_what_was_wrong(self, player, tmp_path):
+        player = player("golf", (640, 480))
+        player.game.best = BestList(tmp_path / "best.json")
+        player.game.best.problem = "something"
+        player.game.referee.ended(AtTask(first_task(), 2))
+        assert ("something", True) in player.game.notices
+
+    @pytest.mark.parametrize(
+        ("known", "home"),
+        [({"XDG_DATA_HOME": "/data"}, "/data"), ({"LOCALAPPDATA": "/local"}, "/local"), ({}, None)],
+    )
+    def test_it_is_where_programs_keep_data(self, monkeypatch, known, home):
+        for name in ("XDG_DATA_HOME", "LOCALAPPDATA"):
+            monkeypatch.delenv(name, raising=False)
+        for name, place in known.items():
+            monkeypatch.setenv(name, place)
+        assert usual_file() == Path(home or Path.home() / ".local" / "share") / "sports-sandbox" / "best.json"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ({"source": "golf", "players": 2}, "--two: goes with a task"),
+        ({"source": None, "game": "nine-ball"}, "--game nine-ball: name its scene, too"),
+        ({"source": "golf", "game": "chess"}, "golf has no game chess"),
+        ({"source": "free-throw", "changes": {"gravity": 1.0}}, "--set: does not go with free-throw"),
+        ({"source": "free-thrw"}, "free-thrw"),
+    ],
+)
+def test_what_cannot_be_played_is_said_before_a_window_opens(arguments, said):
+    with pytest.raises(RequestError, match=said):
+        play(**arguments)
