@@ -30,7 +30,7 @@ map_option = click.option(
     "mapping",
     metavar='"COLUMN=KEY UNIT"',
     multiple=True,
-    help='A column of a table of launches: "Ball Speed=launch.speed mph"; repeatable.  [default: known columns]',
+    help='What a column is: "Ball Speed=launch.speed mph", "Zeit=t ms"; repeatable.  [default: known names]',
 )
 where_option = click.option(
     "--where", metavar="COLUMN=TEXT", multiple=True, help="Only rows of that table with this text; repeatable."

@@ -100,7 +100,14 @@ def print_formats(context: click.Context, option: click.Parameter, value: bool) 
 
 @click.command()
 @scene_argument
-@click.argument("tracks", metavar="TRACK.csv...", type=Path, nargs=-1, required=True)
+@click.argument(
+    "tracks",
+    metavar="TRACK.csv...",
+    type=Path,
+    nargs=-1,
+    required=True,
+    help="Measured positions, a file for each ball, or a table of shots: CSV, text or JSON.",
+)
 @click.option(
     "--vary", metavar="KEY[=LO:HI]", multiple=True, required=True, help="A number to fit, and its range; repeatable."
 )

@@ -62,6 +62,16 @@ def test_pixels_have_y_downwards_and_frames_have_no_times(tmp_path):
     assert parse_scale("1 m = 120 px") == parse_scale("120 px = 1 m") == parse_scale("120 px/m") == 1.0 / 120.0
 
 
+def test_names_of_columns_can_be_given():
+    track = {"Zeit": [0, 100, 200], "rechts (cm)": [0, 50, 100], "hoch": [210, 260, 290]}
+    columns = {"Zeit": "t ms", "rechts": "x", "hoch": "y cm"}
+    found = sandbox.fit("throws", track, {"launch.speed": (2, 20)}, columns=columns)
+    assert found.measured.times.tolist() == pytest.approx([0.0, 0.0, 0.1, 0.1, 0.2, 0.2])
+    assert found.values["launch.speed"].value == pytest.approx(6.9, abs=0.3)
+    with pytest.raises(RequestError, match="has no column 'weit', which --map names"):
+        sandbox.fit("throws", track, {"launch.speed": (2, 20)}, columns={"weit": "x", "hoch": "y"})
+
+
 def test_several_balls_come_side_by_side_or_in_files(tmp_path):
     text = "#multi:\n,mass A,,mass B,,\nt,x,y,x,y,\n0,1,2,3,4,\n0.1,5,6,,,\n"
     found = read(tmp_path, text, Film(balls={"mass A": "first", "mass B": "second"}))
@@ -125,6 +135,7 @@ def test_what_is_no_track_is_one_line(tmp_path, capsys, text):
         (["--where", "a=b"], "--where is for tables of launches"),
         (["--fps", "30"], "has no column frame"),
         (["--ball", "ball=egg"], "no ball 'egg'"),
+        (["--ball", "egg=ball"], "has no ball 'egg'; it has ball"),
         (["--map", "x=launch.speeed m/s"], "no such parameter or result in throws; did you mean launch.speed?"),
         (["--map", "z=launch.speed m/s"], "has no column 'z', which --map names"),
         (["--map", "x=launch.speed parsec"], "parsec is not a known unit"),

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 from sandbox.errors import RequestError
-from sandbox.lab.fit.formats import Entry, device, recognized, stated
+from sandbox.lab.fit.formats import Entry, check_columns, device, recognized, stated
 from sandbox.lab.fit.frame import frame_of
 from sandbox.lab.fit.launches import launches
 from sandbox.lab.fit.measured import Measured
 from sandbox.lab.fit.outline import Outline
-from sandbox.lab.fit.reading import Film, has_positions, measurements
+from sandbox.lab.fit.reading import NAMES, Film, has_positions, measurements
 from sandbox.lab.fit.track import track_of
 from sandbox.lab.table_file import Column, Table, read_table, split_unit
 from sandbox.scene import Scene, simulate
@@ -35,6 +35,9 @@ class Reading:
 
 def data_of(scene: Scene, tables: Sequence[tuple[str, Table]], how: Reading) -> Measured:
     """The data of tables, each with the name of its ball. Raises RequestError."""
+    if how.entries and all(entry.key in NAMES for entry in how.entries):
+        tables = [(name, renamed(table, how.entries)) for name, table in tables]
+        how = replace(how, entries=())
     first = tables[0][1]
     if not how.entries and all(has_positions(table) for _, table in tables):
         if how.where:
@@ -60,6 +63,19 @@ def data_of(scene: Scene, tables: Sequence[tuple[str, Table]], how: Reading) -> 
             f"{first.where}: is a table of launches; what is of films and of several tracks is not for it"
         )
     return launches(scene, first, form, how.where)
+
+
+def renamed(table: Table, entries: Sequence[Entry]) -> Table:
+    """The table of a track with the names, and units, that entries such as ``Zeit=t ms`` give. Raises RequestError."""
+    named = {entry.column.lower(): entry for entry in entries}
+    check_columns(entries, table)
+    columns = [
+        replace(one, name=named[one.name.lower()].key, unit=named[one.name.lower()].unit or one.unit)
+        if one.name.lower() in named
+        else one
+        for one in table.columns
+    ]
+    return replace(table, columns=tuple(columns))
 
 
 def read_data(scene: Scene, paths: Sequence[Path], how: Reading) -> Measured:

@@ -11,7 +11,7 @@ from typing import Any
 
 from sandbox import units
 from sandbox.errors import RequestError
-from sandbox.lab.table_file import Table
+from sandbox.lab.table_file import PIXEL, Table
 from sandbox.parameters import walk
 from sandbox.scene import Scene
 from sandbox.text import nearest, shortened
@@ -47,7 +47,7 @@ def parse_entry(text: str) -> Entry:
     if not equals or not column.strip() or not key:
         raise RequestError(f'--map {text}: write it as "COLUMN=KEY UNIT", for example "Ball Speed=launch.speed mph"')
     unit = unit.strip()
-    if unit and unit not in units.KIND_OF:
+    if unit and unit not in units.KIND_OF and unit != PIXEL:
         meant = units.suggestion(unit)
         raise RequestError(f"--map {text}: {unit} is not a known unit" + (f"; did you mean {meant}?" if meant else ""))
     return Entry(column.strip(), key, unit)
@@ -109,14 +109,20 @@ def _is_complete(form: Form, scene: Scene) -> bool:
     return any(measured) and measured.count(False) >= 2
 
 
-def stated(entries: Sequence[Entry], table: Table, scene: Scene) -> Form:
-    """The form that the user gave. Raises RequestError for a column or a key that does not exist."""
-    parameters = {one.key for one in walk(scene.parameters)}
+def check_columns(entries: Sequence[Entry], table: Table) -> None:
+    """Raise RequestError for a column that the table does not have."""
     for entry in entries:
         if entry.column.lower() not in {name.lower() for name in table.names}:
             near = nearest(entry.column, table.names)
             has = f"did you mean {near}?" if near else f"it has {shortened(', '.join(table.names), 80)}"
             raise RequestError(f"{table.where}: has no column {entry.column!r}, which --map names; {has}")
+
+
+def stated(entries: Sequence[Entry], table: Table, scene: Scene) -> Form:
+    """The form that the user gave. Raises RequestError for a column or a key that does not exist."""
+    check_columns(entries, table)
+    parameters = {one.key for one in walk(scene.parameters)}
+    for entry in entries:
         if entry.key not in parameters and entry.key not in scene.facts:
             near = nearest(entry.key, [*parameters, *scene.facts])
             hint = f"; did you mean {near}?" if near else ""

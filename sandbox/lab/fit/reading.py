@@ -46,6 +46,7 @@ class Measurements:
     balls: tuple[str, ...]  # the ball of each point; "" if none is named
     rows: np.ndarray  # the row of each point in its file, the first is 1; shape (points,)
     where: str  # the option and the file, as messages begin with them
+    names: frozenset[str] = frozenset()  # of the balls in the file
 
     def __len__(self) -> int:
         return len(self.positions)
@@ -95,6 +96,10 @@ def has_positions(table: Table) -> bool:
 def measurements(tables: Sequence[tuple[str, Table]], film: Film) -> Measurements:
     """The points of one table, or of several, each with the name of its ball. Raises RequestError."""
     parts = [part for name, table in tables for part in _of_table(table, film, name if len(tables) > 1 else "")]
+    found = {name for part in parts for name in part.names}
+    unused = next((name for name in film.balls if name and name not in found), None)
+    if unused is not None:
+        raise RequestError(f"{tables[0][1].where}: has no ball {unused!r}; it has {', '.join(sorted(found))}")
     timed = [part.t is not None for part in parts]
     if any(timed) and not all(timed):
         raise RequestError(f"{tables[timed.index(False)][1].where}: has no times, but another track has")
@@ -141,7 +146,7 @@ def _of_ball(table: Table, film: Film, x: int, y: int, name: str) -> Measurement
     given = [table.columns[named[0]].cells[row].strip() if named else name for row in rows]
     balls = [film.balls.get(one, film.balls.get("", one)) for one in given]
     times = _times(table, film, rows, balls)
-    return Measurements(times, positions, tuple(balls), np.array(rows, dtype=int) + 1, table.where)
+    return Measurements(times, positions, tuple(balls), np.array(rows, dtype=int) + 1, table.where, frozenset(given))
 
 
 def _metres(table: Table, columns: tuple[Column, Column], film: Film) -> float:
