@@ -10,6 +10,15 @@ from pydantic.json_schema import GenerateJsonSchema, JsonSchemaValue
 
 from sandbox.parameters import Group
 
+#: The table of a scene file that names measured points.
+MEASURED = {
+    "type": "object",
+    "additionalProperties": False,
+    "properties": {"track": {"type": "string", "description": "CSV file with t (s), x, y (m) and ball, for pictures"}},
+    "required": ["track"],
+    "description": "measured points, as sandbox fit --save writes them",
+}
+
 
 def json_schema(parameters: Group, scene: str) -> dict[str, Any]:
     """JSON schema of the files of ``scene``; numbers may be strings with a unit. A file may leave every key out; the
@@ -21,7 +30,7 @@ def json_schema(parameters: Group, scene: str) -> dict[str, Any]:
         "description": "the scene that this file is for, or the preset that it begins from",
     }
     _fill_in(body, body["$defs"], parameters, json.dumps(body))
-    properties = {"scene": named, **body["properties"]}
+    properties = {"scene": named, **body["properties"], "measured": MEASURED}
     # The draft that the TOML extensions of editors support.
     head = {"$schema": "http://json-schema.org/draft-07/schema#", "title": f"{scene} scene file"}
     return {**head, **body, "properties": properties}

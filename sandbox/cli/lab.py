@@ -138,6 +138,9 @@ def print_formats(context: click.Context, option: click.Parameter, value: bool) 
     help="Fit each of these models, such as ball.drag.model=constant,none, and compare.",
 )
 @click.option("--robust", is_flag=True, help="Count points with gross errors less or not at all (Tukey's biweight).")
+@click.option("--plot", metavar="F.png", type=Path, help="Points, path and residuals as a picture.")
+@click.option("--page", metavar="F.html", type=Path, help="The same with all numbers, as a page.")
+@click.option("--save", metavar="F.toml", type=Path, help="The fitted scene; its pictures show the points (F.csv).")
 @changes_options
 @json_option
 def fit(
@@ -153,6 +156,9 @@ def fit(
     where: tuple[str, ...],
     models: str | None,
     robust: bool,
+    plot: Path | None,
+    page: Path | None,
+    save: Path | None,
     changes: dict[str, Any],
     as_json: bool,
 ) -> None:
@@ -170,6 +176,7 @@ def fit(
       sandbox fit golf shots.csv --where Club=Driver --vary air.density=1:1.3
       sandbox fit golf shots.csv --map "Speed=launch.speed mph" --map "Carry=carry yd" --vary launch.angle=5:20
     """
+    from sandbox.cli.fit_outputs import check_outputs, write_outputs
     from sandbox.lab.fit import fit_track, parse_varied, read_data, report
     from sandbox.lab.fit.data import Reading
     from sandbox.lab.fit.formats import parse_entry
@@ -187,13 +194,15 @@ def fit(
     )
     entries = tuple(map(parse_entry, mapping))
     how = Reading(film, parse_free("--free", free), entries, pairs("--where", where))
+    check_outputs(plot, page, save, tracks)
     data = read_data(chosen, tracks, how)
     found = (
         fit_track(chosen, data, spans, robust)
         if models is None
         else compare(chosen, data, spans, *parse_models(chosen, "--models", models), robust)
     )
-    say(report.as_json(found) if as_json else "\n".join(report.as_text(found)))
+    written = write_outputs(found, plot, page, save)
+    say(report.as_json(found) if as_json else "\n".join([*report.as_text(found), *written]))
 
 
 @click.command()

@@ -22,6 +22,7 @@ from sandbox.scene.setup_scene import with_scene
 if TYPE_CHECKING:
     from sandbox.engine.paths.run import Run
     from sandbox.lab.aim import Aim
+    from sandbox.lab.fit import Fit
     from sandbox.lab.spread import Spread
     from sandbox.lab.sweep import Sweep
     from sandbox.scene import Scene
@@ -230,6 +231,40 @@ def spread_page(spread: Spread, path: Path | str | None) -> str | None:
     _check(path, ".html", ".htm")
     save(page_of(spread), Path(path))
     return None
+
+
+def fit_plot(fit: Fit, path: Path | str | None) -> Image.Image | None:
+    """Its points, path and residuals: written to ``path``, or handed back."""
+    from sandbox.lab.chart import check_chart
+    from sandbox.lab.fit.chart import draw
+
+    def drawn(file: Path) -> None:
+        check_chart("plot", file)
+        draw(fit, file)
+
+    if path is None:
+        return _drawn(drawn)
+    drawn(Path(path))
+    return None
+
+
+def fit_page(fit: Fit, path: Path | str | None) -> str | None:
+    """Its page: written to ``path``, or its text."""
+    from sandbox.page.fit import page_of
+
+    if path is None:
+        return page_of(fit)
+    _check(path, ".html", ".htm")
+    save(page_of(fit), Path(path))
+    return None
+
+
+def fit_html(fit: Fit) -> str:
+    """Its report as text, and its picture."""
+    from sandbox.lab.fit.report import as_text
+
+    text = escape("\n".join(as_text(fit)))
+    return f'<pre style="font-family: monospace; white-space: pre">{text}</pre>{_image(fit.plot())}'
 
 
 def spread_html(spread: Spread) -> str:

@@ -11,10 +11,10 @@ from sandbox.page.playing import MOST_EVENTS, force_data, layout_data, path_data
 from sandbox.parameters import Group, walk
 from sandbox.picture.sheet import CARD, DENSITY
 from sandbox.picture.view import View
-from sandbox.scene import Scene, load
-from sandbox.scene.finding import as_path, is_installed
+from sandbox.scene import Scene
 from sandbox.scene.scene_run import SceneRun
 from sandbox.scene.setup_scene import SetupScene
+from sandbox.scene.writing import differences, source_of
 from sandbox.sport.amounts import exact
 from sandbox.sport.readings import words_of
 from sandbox.text import command_line
@@ -75,13 +75,7 @@ def command(scene: Scene, does: str = "run", *options: str) -> str:
     """The command line that runs a scene with these parameters, or ``does`` something else with it; "" for a setup."""
     if isinstance(scene, SetupScene):
         return ""
-    source = scene.title
-    if not is_installed(scene.folder):
-        source = f"{as_path(scene.folder)}/{scene.preset}" if scene.preset else as_path(scene.folder)
-    usual = {parameter.key: parameter.value for parameter in walk(load(source).parameters)}
-    values = {parameter.key: parameter.value for parameter in walk(scene.parameters)}
-    changed = {key: value for key, value in values.items() if value is not None and usual.get(key) != value}
-    return command_line(source, changed, does, *options)
+    return command_line(source_of(scene), differences(scene), does, *options)
 
 
 def text_of(value: Any, unit: str | None) -> str:

@@ -12,7 +12,7 @@ import numpy as np
 
 from sandbox.picture.camera import Camera
 from sandbox.picture.lettering import around
-from sandbox.picture.painter import Point
+from sandbox.picture.painter import Painter, Point
 from sandbox.picture.palette import Colour, mix, palette
 from sandbox.picture.path import FINEST, ImpactMark, apart
 from sandbox.picture.sheet import Sheet
@@ -150,3 +150,10 @@ class Ghost:
         distances, turns = [far * sheet.unit for far in (8, 16, 28)], np.linspace(pi / 2, 5 * pi / 2, 9).tolist()
         spots = [spot for place in far_first.tolist() for spot in around(place, distances, turns)]
         sheet.chip(self.label, spots, self.light)
+
+
+def mark_measured(painter: Painter, places: np.ndarray, unit: float) -> None:
+    """Dots at measured places in px, shape (n, 2), that are seen on any ground and on a path."""
+    for at in places.tolist():
+        painter.disc(at, 3.4 * unit, TRACE["rim"])
+        painter.disc(at, 2.3 * unit, CARD["text"])

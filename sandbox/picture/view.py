@@ -16,13 +16,14 @@ import pygame
 from sandbox.engine.model.surface import Circle, Segment, Surface
 from sandbox.errors import RequestError
 from sandbox.picture.camera import Camera
-from sandbox.picture.marks import Ghost, mark_impacts
+from sandbox.picture.marks import Ghost, mark_impacts, mark_measured
 from sandbox.picture.moving import NOT_WORTH_NOTING, BallDrawing
 from sandbox.picture.options import P
 from sandbox.picture.painter import Painter, blank
 from sandbox.picture.sheet import Entry, Sheet
 from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.amounts import times
+from sandbox.text import counted
 
 #: Surfaces are around a path that reach no farther beyond it than it is long, or than so many radii of the ball.
 NEAR = 12.0
@@ -101,7 +102,8 @@ class View(BallDrawing[P]):
     def points(self) -> np.ndarray:
         """All places in m that must be seen: of every path, and of the other runs'; shape (n, 2)."""
         own = [path.points for path in self.paths.values()]
-        return np.concatenate([*own, *(ghost.points for ghost in self.ghosts)])
+        measured = [] if self.run.scene.measured is None else [self.run.scene.measured.positions]
+        return np.concatenate([*own, *measured, *(ghost.points for ghost in self.ghosts)])
 
     @cached_property
     def surroundings(self) -> np.ndarray:
@@ -157,6 +159,7 @@ class View(BallDrawing[P]):
         for name, spot in placed.items():
             self.draw_ball(painter, camera, name, self.story_end, *spot)
         yield "balls"
+        self.draw_measured(painter, camera)
         self.before(painter, camera, self.moment)
         self.dimensions(sheet, camera)
         self.measure(sheet, camera)
@@ -165,7 +168,10 @@ class View(BallDrawing[P]):
         self.enlarge(sheet)
         room = self._room(sheet, camera, None)
         yield "over"
-        notes = [*(ghost.note for ghost in self.ghosts), *self.aligned, *every[:1], *self.notes(camera), *every[1:]]
+        points = self.run.scene.measured
+        dots = [] if points is None else [f"dots: {counted(len(points.t), 'measured point')}"]
+        others = [*dots, *(ghost.note for ghost in self.ghosts)]
+        notes = [*others, *self.aligned, *every[:1], *self.notes(camera), *every[1:]]
         self.heading = Heading(self.run.scene.verdict(self.run), notes, room)
 
     def frame(self, t: float) -> pygame.Surface:
@@ -181,6 +187,7 @@ class View(BallDrawing[P]):
         for name, spot in placed.items():
             self.shadow(painter, camera, name, t, *spot)
         self._trails(sheet, camera, t)
+        self.draw_measured(painter, camera)
         if self.ball in placed and t < self.caught[self.ball]:
             self.vectors.draw(sheet, *placed[self.ball], t)
         for name, spot in placed.items():
@@ -226,6 +233,12 @@ class View(BallDrawing[P]):
         return right - sheet.frame.left
 
     # For the window and the page
+
+    def draw_measured(self, painter: Painter, camera: Camera) -> None:
+        """The measured points that the scene's file names, over the path."""
+        points = self.run.scene.measured
+        if points is not None:
+            mark_measured(painter, self.spots(camera, points.positions, 0.0), self.unit)
 
     def stage(self) -> pygame.Surface:
         """The place alone, as the poster's camera sees it."""

@@ -29,9 +29,12 @@ from sandbox.toml import read_toml
 if TYPE_CHECKING:
     from sandbox.engine.model.setup import Setup
     from sandbox.engine.paths.run import Run
+    from sandbox.scene.points import Points
     from sandbox.scene.scene_run import SceneRun
 
 REQUIRED = ("Parameters", "build")
+#: Keys of a scene file beside its parameters.
+NOT_PARAMETERS = ("scene", "measured")
 #: Types of facts that cards, JSON and tables can always show.
 _PLAIN = {bool, float, type(None)}
 #: Types of facts that hold others.
@@ -64,6 +67,7 @@ class Scene:
     parameters: declared.SceneParameters  # of the scene's own class
     folder: Path
     note: str = field(default="", compare=False)  # the first comment of a scene file outside the scene's folder
+    measured: Points | None = field(default=None, compare=False)  # points that its file names, which pictures show
 
     @property
     def module(self) -> ModuleType:
@@ -218,7 +222,7 @@ class Scene:
 
     def __reduce__(self) -> tuple[Any, ...]:
         # By value, so that a process that never imported this scene's module can read it.
-        return _revived, (self.name, self.preset, self.folder, self.parameters.model_dump())
+        return _revived, (self.name, self.preset, self.folder, self.parameters.model_dump(), self.measured)
 
 
 def _as_text(value: Any) -> str:
@@ -241,8 +245,10 @@ def _is_reportable(value: Any, deepest: int = 9) -> bool:
     return value is None or isinstance(value, bool | float) or hasattr(value, "tolist")  # numpy's
 
 
-def _revived(name: str, preset: str | None, folder: Path, values: dict[str, Any]) -> Scene:
-    return Scene(name, preset, parameters_class(folder).model_validate(values), folder)
+def _revived(
+    name: str, preset: str | None, folder: Path, values: dict[str, Any], measured: Points | None = None
+) -> Scene:
+    return Scene(name, preset, parameters_class(folder).model_validate(values), folder, measured=measured)
 
 
 def parameters_class(folder: Path) -> type[declared.SceneParameters]:
@@ -287,7 +293,17 @@ def load(source: str | Path, overrides: Mapping[str, Any] | None = None, *, over
     parameters = _parameters(found, overrides, overrides_from)
     file = found.files[-1][0] if found.files else found.folder
     note = "" if file.resolve().is_relative_to(found.folder) else first_comment(file)
-    return Scene(found.name, found.preset, parameters, found.folder, note)
+    return Scene(found.name, found.preset, parameters, found.folder, note, _measured(found))
+
+
+def _measured(found: SceneSource) -> Points | None:
+    """The points that the file of a scene, or one on which it is based, names. Raises RequestError."""
+    named = next(((file, layer["measured"]) for file, layer in reversed(found.files) if "measured" in layer), None)
+    if named is None:
+        return None
+    from sandbox.scene.points import points_of
+
+    return points_of(*named)
 
 
 def as_scene(scene: Scene | str | Path) -> Scene:
@@ -309,7 +325,7 @@ def _parameters(
     def first(count: int) -> dict[str, Any]:
         values: dict[str, Any] = {}
         for _, layer in files[:count]:
-            values = schema.layered(values, {key: value for key, value in layer.items() if key != "scene"})
+            values = schema.layered(values, {key: value for key, value in layer.items() if key not in NOT_PARAMETERS})
         return values
 
     where = from_here(files[-1][0] if files else found.folder)

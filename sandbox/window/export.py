@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -52,6 +53,9 @@ def scene_file(session: Session) -> Path:
         text = f'scene = ""\n\n{text}'
     document = tomlkit.parse(text)
     document["scene"] = _named(session, str(document["scene"]))
+    if "measured" in document and session.file is not None:  # its points stay where they are
+        track = session.file.parent / str(document["measured"]["track"])
+        _put(document, ["measured", "track"], Path(os.path.relpath(track, FOLDER)).as_posix())
     for key, value in session.changes.values.items():
         _put(document, key.split("."), value)
 

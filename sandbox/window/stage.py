@@ -68,6 +68,7 @@ class Stage:
         self.backdrop = self.picture.stage()
         sheet = Sheet(size, self.picture.on_dark, self.backdrop)
         self.picture.measure(sheet, self.camera)
+        self.picture.draw_measured(sheet.painter, self.camera)
         self.notes = self.picture.notes(self.camera)  # what is not drawn to scale
         along, up = self.picture.wind
         wind = [sheet.wind(along, up, sheet.frame.right, sheet.frame.top)] if along or up else []

@@ -13,10 +13,11 @@ from sandbox.errors import RequestError
 from sandbox.lab.axes import checked
 from sandbox.lab.fit.formats import Form
 from sandbox.lab.fit.mapped import mapped
-from sandbox.lab.fit.measured import Free, Points
+from sandbox.lab.fit.measured import Free
 from sandbox.lab.runs import runs
 from sandbox.lab.table_file import Table
 from sandbox.scene import Scene
+from sandbox.scene.points import Points
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,7 @@ from typing import Protocol
 import numpy as np
 
 from sandbox.scene import Scene
+from sandbox.scene.points import Points
 
 
 @dataclass(frozen=True)
@@ -20,15 +21,6 @@ class Free:
     high: float
     start: float
     unit: str
-
-
-@dataclass(frozen=True)
-class Points:
-    """Measured places in the scene's coordinates, for pictures."""
-
-    t: np.ndarray  # s, shape (points,); NaN if not measured
-    positions: np.ndarray  # m, shape (points, 2)
-    balls: tuple[str, ...]  # the name of each point's ball
 
 
 class Measured(Protocol):

@@ -9,9 +9,10 @@ import numpy as np
 
 from sandbox.lab.fit.flown import flown
 from sandbox.lab.fit.frame import Frame
-from sandbox.lab.fit.measured import Free, Points
+from sandbox.lab.fit.measured import Free
 from sandbox.lab.fit.track import check_balls, named
 from sandbox.scene import Scene
+from sandbox.scene.points import Points
 from sandbox.scene.scene_run import SceneRun
 
 #: Steps along a path between which the nearest place is looked for, and steps of Newton's method from there.

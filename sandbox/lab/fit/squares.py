@@ -6,10 +6,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import combinations
 from math import inf
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from sandbox import display
 from sandbox.errors import RequestError, RunError
 from sandbox.lab.axes import Span
 from sandbox.lab.fit.descent import Place, descend
@@ -60,7 +62,7 @@ class Model:
     failure: str = ""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Fit:
     """The result of a fit: ``values`` with 95 % intervals, ``correlations``, ``residuals``, ``outliers``.
 
@@ -74,14 +76,14 @@ class Fit:
     measured: Measured
     values: dict[str, Value]
     correlations: dict[tuple[str, str], float]  # of the errors of two values, -1 to 1
-    residuals: np.ndarray = field(repr=False)  # measured minus computed, shape (residuals,); units as in ``measured``
+    residuals: np.ndarray  # measured minus computed, shape (residuals,); units as in ``measured``
     residual_sd: dict[str, float]  # of the errors of each group, such as x and y, in its unit
     pooled: bool  # whether groups in one unit were weighted alike
     loss: str  # "least squares", "Tukey's biweight"
     outliers: tuple[int, ...]  # rows of the data, the first is 1
     pattern: float  # how much larger residuals are than the differences of neighbours say; 0.0 if they are as large
     remarks: tuple[str, ...]
-    slopes: np.ndarray = field(repr=False)  # of the computed by the values in their units, (residuals, values)
+    slopes: np.ndarray  # of the computed by the values in their units, (residuals, values)
     late: int = 0  # points after the end of the scene's own run
     end: float = inf  # s, that end
     models: Mapping[str, Model] = field(default_factory=dict)  # that were compared, by name
@@ -91,6 +93,21 @@ class Fit:
     def free(self) -> list[float]:
         """The values of what belongs to the measurement itself."""
         return [self.values[one.key].value for one in self.measured.free]
+
+    def plot(self, path: Path | str | None = None) -> Any:
+        """Points, path and residuals: written to ``path`` (a PNG), or without one handed back as a Pillow image."""
+        return display.notebook().fit_plot(self, path)
+
+    def page(self, path: Path | str | None = None) -> Any:
+        """The page with picture and tables: written to ``path`` (HTML), or without one its text."""
+        return display.notebook().fit_page(self, path)
+
+    def _repr_html_(self) -> str:
+        return display.notebook().fit_html(self)
+
+    def __repr__(self) -> str:
+        values = ", ".join(f"{key} = {one.value:.6g} {one.unit}".rstrip() for key, one in self.values.items())
+        return f"<Fit of {self.scene.title}: {values}>"
 
     @property
     def aicc(self) -> float:

@@ -10,9 +10,10 @@ import numpy as np
 from sandbox.errors import RequestError
 from sandbox.lab.fit.flown import flown
 from sandbox.lab.fit.frame import Frame
-from sandbox.lab.fit.measured import Free, Points
+from sandbox.lab.fit.measured import Free
 from sandbox.lab.fit.reading import Measurements
 from sandbox.scene import Scene
+from sandbox.scene.points import Points
 
 
 @dataclass(frozen=True)

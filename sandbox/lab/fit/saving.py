@@ -1,0 +1,39 @@
+"""A fit as a scene file that reproduces it, with the points next to it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from sandbox.errors import RequestError
+from sandbox.files import write_together
+from sandbox.lab.fit.report import residual_text, title, value_rows
+from sandbox.lab.fit.squares import Fit
+from sandbox.scene.writing import scene_text
+
+
+def points_file(path: Path) -> Path:
+    """The file with the points of a scene file."""
+    return path.with_suffix(".csv")
+
+
+def check_save(option: str, path: Path, tracks: Sequence[Path]) -> None:
+    """Raise RequestError, before any work is done, if the points would be written over the tracks."""
+    if points_file(path).resolve() in [track.resolve() for track in tracks]:
+        raise RequestError(
+            f"{option} {path}: its points would be written over {points_file(path)}; choose another name"
+        )
+
+
+def save(found: Fit, path: Path) -> list[Path]:
+    """Write the scene file, and the points in the scene's coordinates next to it: both or none. Returns their paths."""
+    points = found.measured.points(found.scene, found.free)
+    track = points_file(path).name if points is not None else ""
+    about = [f"Fitted: {title(found)}; residuals {residual_text(found)}."]
+    about += [f"{key}: {low_to_high} {unit} (95 %)".replace("  ", " ")
+              for key, _, unit, low_to_high, _ in value_rows(found)]  # fmt: skip
+    files = {path: scene_text(found.scene, path.parent, "\n".join(about), track).encode()}
+    if points is not None:
+        files[points_file(path)] = points.as_csv().encode()
+    write_together(files)
+    return list(files)
