@@ -7,7 +7,8 @@ From the outside in::
     connection  one browser: reads its messages at a limited rate, sends it the newest of each kind
     room        who is there, what is played, who shot what: it passes messages on and asks for computing
     lanes       processes that compute: one job of a kind a player, the newest wins, long ones never block short ones
-    work        what is computed there: nothing of a scene runs in the server's own process
+    calls       what they are asked for, by name: nothing of a scene is imported in the server's own process
+    work        how it is computed there
     messages    what a browser may say
     limits      every limit, with its reason
 """

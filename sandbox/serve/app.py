@@ -20,13 +20,13 @@ from starlette.routing import Route, WebSocketRoute
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from starlette.websockets import WebSocket
 
-from sandbox.page.parts import FOLDER as PAGES
-from sandbox.picture.palette import ASSETS
+from sandbox import resources
 from sandbox.serve.connection import REFUSED, Connection
 from sandbox.serve.room import Room
 from sandbox.text import csv_text
 
 HERE = Path(__file__).parent
+PAGES = resources.PACKAGE / "page"
 #: The scripts of each page, in order.
 SCRIPTS = {
     "play.js": (*(PAGES / name for name in ("page.js", "paths.js", "player.js")),
@@ -148,7 +148,9 @@ def _files() -> dict[str, tuple[bytes, str]]:
     """All files that are ever sent, by name, with their types: no path of a request reaches the disk."""
     found = {name: (b"\n".join(map(Path.read_bytes, parts)), "text/javascript") for name, parts in SCRIPTS.items()}
     style = (PAGES / "page.css").read_bytes() + (HERE / "serve.css").read_bytes()
-    found |= {name: ((ASSETS / "fonts" / font).read_bytes(), "font/ttf") for name, font in FONTS.items()}
+    found |= {
+        name: ((resources.folder("assets") / "fonts" / font).read_bytes(), "font/ttf") for name, font in FONTS.items()
+    }
     found |= {name: ((HERE / name).read_bytes(), "text/html") for name in ("play.html", "teach.html")}
     return found | {"serve.css": (style, "text/css")}
 

@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 from time import monotonic
 from typing import Any
 
+from sandbox.serve.calls import Reply
 from sandbox.serve.limits import LONG, RUN
-from sandbox.serve.work import Reply
 from sandbox.workers.pool import WorkerLost, cores
 from sandbox.workers.processes import Processes
 

@@ -121,7 +121,7 @@ def named(name: str) -> str:
 def check(changes: Mapping[str, Any], declared: Mapping[str, Mapping[str, Any]]) -> None:
     """Raise RequestError unless each key is that of a parameter that may be changed, and its value within bounds.
 
-    ``declared`` are the parameters by key, as ``work.described`` has them.
+    ``declared`` are the parameters by key, as ``calls.described`` has them.
     """
     for key, value in changes.items():
         known = declared.get(key)

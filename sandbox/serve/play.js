@@ -138,7 +138,8 @@ const heard = {
     $("scene").replaceChildren(...(groups.size === 1 ? [...groups.values()][0].children : groups.values()));
   },
   name({ name }) {
-    $("name").value = state.name = name;
+    state.name = name;
+    if (document.activeElement !== $("name")) $("name").value = name;
   },
   lead(lead) {
     const before = state.lead;

@@ -11,7 +11,7 @@ from time import monotonic
 from typing import Any, NamedTuple
 
 from sandbox.errors import RequestError
-from sandbox.serve import messages, work
+from sandbox.serve import calls, messages
 from sandbox.serve.connection import LATER, Connection
 from sandbox.serve.lanes import Lanes
 from sandbox.serve.limits import HELLO, PLAYERS, REMEMBERED, ROWS
@@ -98,7 +98,7 @@ class Room:
             raise
 
     async def _describe(self, name: str, listed: Listed) -> Mapping[str, Any]:
-        reply = await self.lanes.compute("described", name, "described", work.described, listed.source)
+        reply = await self.lanes.compute("described", name, "described", calls.described, listed.source)
         if reply is None or "error" in reply:
             raise RequestError(reply["error"] if reply else "this scene could not be loaded")
         kept = reply["kept"]
@@ -218,17 +218,17 @@ class Room:
             case _:
                 raise RequestError("message refused: hello was said already")
 
-    def _compute(self, player: Player, kind: work.Kind, message: Any, done: Any) -> None:
+    def _compute(self, player: Player, kind: calls.Kind, message: Any, done: Any) -> None:
         """Have something computed for a player, and sent; ``done`` is called with what the server keeps of it."""
         task = asyncio.create_task(self._computed(player, kind, message, done))
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
 
-    async def _computed(self, player: Player, kind: work.Kind, message: Any, done: Any) -> None:
+    async def _computed(self, player: Player, kind: calls.Kind, message: Any, done: Any) -> None:
         source, narrow = player.source, getattr(message, "narrow", False)
         args = (kind, self.scenes[source].source, dict(message.changes), message.n, narrow, self.units)
         turn = player.session, kind == "fan"
-        reply = await self.lanes.compute(turn, kind, (kind, source), work.computed, *args)
+        reply = await self.lanes.compute(turn, kind, (kind, source), calls.computed, *args)
         connection = player.connection
         if reply is None or connection is None:
             return
@@ -281,7 +281,7 @@ class Room:
                 source = lead.source or self.first
                 await self._checked(source, message.changes)
                 args = (message.do, self.scenes[source].source, message.changes, message.n, message.narrow, self.units)
-                reply = await self.lanes.compute(connection, message.do, (message.do, source), work.computed, *args)
+                reply = await self.lanes.compute(connection, message.do, (message.do, source), calls.computed, *args)
                 if reply is not None and "error" in reply:
                     connection.tell(reply["error"])
                 elif reply is not None:

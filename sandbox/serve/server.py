@@ -15,7 +15,7 @@ from uvicorn.protocols.http.h11_impl import H11Protocol
 from sandbox.errors import RequestError
 from sandbox.files import reason
 from sandbox.scene.finding import folder_of, listings, listings_of
-from sandbox.serve import work
+from sandbox.serve import calls
 from sandbox.serve.app import Tokens, app_of
 from sandbox.serve.lanes import Lanes
 from sandbox.serve.limits import CONNECTIONS, HELLO, MESSAGE, PLAYERS
@@ -91,7 +91,7 @@ async def _serve(
     try:
         sources = list(dict.fromkeys(each.source for each in list(scenes.values())[:WARMED]))
         await _checked(lanes, scenes)
-        warming = asyncio.create_task(lanes.each(work.warmed, sources))
+        warming = asyncio.create_task(lanes.each(calls.warmed, sources))
         room = Room(scenes, lanes, options.units)
         config = uvicorn.Config(
             app_of(room, tokens, hosts), log_config=None, access_log=False, lifespan="off", http=_Asking,
@@ -125,7 +125,7 @@ class _Asking(H11Protocol):
 async def _checked(lanes: Lanes, scenes: dict[str, Listed]) -> None:
     """Raise RequestError if the first scene cannot be loaded, before players come."""
     first = next(iter(scenes.values()))
-    reply = await lanes.compute("first", "", "described", work.described, first.source)
+    reply = await lanes.compute("first", "", "described", calls.described, first.source)
     if reply is not None and "error" in reply:
         raise RequestError(reply["error"])
 

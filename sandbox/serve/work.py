@@ -12,7 +12,7 @@ import zlib
 from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache, wraps
 from math import isfinite
-from typing import Any, Literal, ParamSpec, TypedDict
+from typing import Any, ParamSpec
 
 import numpy as np
 
@@ -27,6 +27,7 @@ from sandbox.picture.sheet import CARD, DENSITY
 from sandbox.picture.view import View
 from sandbox.scene import Scene, load, simulate
 from sandbox.scene.scene_run import SceneRun
+from sandbox.serve.calls import Changes, Kind, Reply
 from sandbox.serve.limits import FAN, MEMORY, RESULT
 from sandbox.sport.amounts import shown_in
 from sandbox.sport.readings import words_of
@@ -45,17 +46,7 @@ LINE_DIGITS, LINE_PIXELS = 2, 900
 #: A parameter that would make a run slow without a player seeing more of it.
 KEPT = ("accuracy.",)
 
-Changes = Mapping[str, Any]
-Kind = Literal["path", "hidden", "stage", "fan", "shot"]
 Arguments = ParamSpec("Arguments")
-
-
-class Reply(TypedDict, total=False):
-    """What was computed: a message for the browser, ready to be sent; what the server keeps of it; or an error."""
-
-    message: bytes  # JSON, deflated
-    kept: dict[str, Any]
-    error: str
 
 
 def replying(work: Callable[Arguments, Reply]) -> Callable[Arguments, Reply]:
@@ -185,12 +176,6 @@ def _pull(scene: Scene) -> dict[str, Any] | None:
 # ---------------------------------------------------------------------------------------------------------------------
 # Runs
 # ---------------------------------------------------------------------------------------------------------------------
-
-
-def computed(kind: Kind, source: str, changes: Changes, n: int, narrow: bool, units: str) -> Reply:
-    """The path, the place, the fan or the whole shot of a scene with these parameters; or a hidden path's start."""
-    works = {"path": path, "hidden": hidden, "stage": stage, "fan": fan, "shot": shot}
-    return works[kind](source, changes, n, narrow, units)
 
 
 @replying
@@ -329,3 +314,13 @@ def warmed(sources: Sequence[str]) -> Reply:
         scene = _scene(source)
         path_data(scene.picture(simulate(scene), LAYOUTS[0][0]), simulate(scene))
     return {"kept": {}}
+
+
+#: What may be asked for.
+WORKS: dict[Kind, Callable[[str, Changes, int, bool, str], Reply]] = {
+    "path": path,
+    "hidden": hidden,
+    "stage": stage,
+    "fan": fan,
+    "shot": shot,
+}

@@ -5,6 +5,8 @@ from __future__ import annotations
 import csv
 import io
 import os
+import subprocess
+import sys
 import urllib.request
 
 import pytest
@@ -117,6 +119,13 @@ def test_no_code_of_a_scene_runs_in_the_server_itself(tmp_path):
         assert server.pid not in pids
         assert os.getpid() not in pids
         assert server.stop() == 130
+
+
+def test_the_server_itself_imports_no_scenes_and_no_pictures():
+    code = "import sys, sandbox.serve.server; print(*sys.modules)"
+    modules = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stdout.split()
+    assert "sandbox.serve.app" in modules
+    assert {"sandbox.scene.scene", "sandbox.engine", "pygame", "pymunk", "numpy"} & set(modules) == set()
 
 
 @pytest.mark.parametrize(

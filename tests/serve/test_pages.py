@@ -1,0 +1,239 @@
+"""The pages of players and the teacher, in a real browser: by touch, mouse and keyboard."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+from selenium.webdriver.support.select import Select
+from selenium.webdriver.support.wait import WebDriverWait
+
+import sandbox
+from tests.page.conftest import Browser
+from tests.serve.conftest import Client, Served
+
+NAME = '<img src=x onerror="x">'  # 23 characters: cut to 20
+
+
+class Page:
+    """A page of the server in a window of its own."""
+
+    def __init__(self, browser: Browser, url: str, width: int = 1280, height: int = 900):
+        self.browser, self.driver = browser, browser.driver
+        self.driver.switch_to.new_window("tab")
+        self.window = self.driver.current_window_handle
+        browser.resize(width, height)
+        self.driver.get(url)
+
+    def at(self, width: int | None = None, height: int = 900) -> Page:
+        """Bring it to the front."""
+        self.driver.switch_to.window(self.window)
+        if width is not None:
+            self.browser.resize(width, height)
+        return self
+
+    def until(self, expression: str, *arguments: Any) -> None:
+        """Wait until an expression is true."""
+        WebDriverWait(self.driver, 20, 0.02).until(lambda _: self.browser.run(f"Boolean({expression})", *arguments))
+
+    def aimed(self) -> None:
+        """Wait until the path of the aim, and its place, are there."""
+        self.until("player && !ask.path.awaited && !ask.path.next && !ask.stage.awaited && state.run && state.stage")
+
+    def find(self, name: str) -> Any:
+        return self.driver.find_element(By.ID, name)
+
+    def type(self, name: str, text: str) -> None:
+        """Replace what is in a field."""
+        self.find(name).send_keys(Keys.CONTROL, "a", Keys.NULL, text, Keys.TAB)
+
+    def changes(self) -> dict[str, Any]:
+        changes: dict[str, Any] = self.browser.run("state.changes")
+        return changes
+
+    def verdict(self) -> str:
+        return self.browser.text("#verdict")[0]
+
+    def complaints(self) -> list[Any]:
+        """What the console has, and addresses that are not of this server."""
+        asked = self.browser.run("performance.getEntriesByType('resource').map((entry) => entry.name)")
+        own = self.browser.run("location.origin")
+        others = [name for name in asked if not name.startswith((own, "data:"))]
+        return [*self.driver.get_log("browser"), *others]
+
+
+@pytest.fixture
+def pages(browser: Browser, served: Served) -> Iterator[Any]:
+    """Opens pages; they are closed at the end."""
+    first, made = browser.driver.current_window_handle, []
+
+    def opened(url: str = "", **size: int) -> Page:
+        made.append(Page(browser, url if url.startswith("http") else served.url + url, **size))
+        return made[-1]
+
+    yield opened
+    for page in made:
+        page.at()
+        page.driver.execute_script("sessionStorage.clear(); localStorage.clear()")
+        page.driver.close()
+    browser.driver.switch_to.window(first)
+
+
+def said(source: str, changes: dict[str, Any]) -> str:
+    run = sandbox.simulate(sandbox.load(source, changes))
+    return run.scene.verdict(run)
+
+
+def test_aim_shoot_and_compare_by_mouse_and_keys(pages, browser: Browser):
+    page = pages("#basketball")
+    page.aimed()
+    canvas, before = page.find("picture"), page.verdict()
+    assert before == said("basketball", {})
+    # the path follows the pull
+    mouse = ActionChains(page.driver, duration=20).move_to_element(canvas).click_and_hold()
+    mouse.move_by_offset(-60, 50).move_by_offset(-20, 40).perform()
+    page.aimed()
+    changes = page.changes()
+    assert changes["launch.angle"] == pytest.approx(48.4, abs=0.1)
+    assert page.verdict() == said("basketball", changes) != before
+    assert browser.run("player.pull.at") is not None
+    assert not browser.run("state.shot")
+    browser.run("document.getElementById('keep').click()")
+    mouse = ActionChains(page.driver, duration=20)
+    mouse.release().perform()
+    page.until("state.shot && player.playing")
+    assert browser.run("player.data.forces.causes.length") > 0
+    assert browser.text("#energy-legend li")[0].startswith("at the end, of ")
+    assert browser.text("#card thead th")[0] == "now"
+    assert "speed" in browser.text("#card thead th")[1]
+    # keys: Escape aims again, arrows turn and strengthen, Enter lets go
+    canvas.send_keys(Keys.ESCAPE, Keys.ARROW_LEFT, Keys.ARROW_UP)
+    page.aimed()
+    after = page.changes()
+    assert after["launch.angle"] == pytest.approx(changes["launch.angle"] + 1.0)
+    assert after["launch.speed"] == pytest.approx(changes["launch.speed"] + 0.1)
+    assert page.verdict() == said("basketball", after)
+    canvas.send_keys(Keys.ENTER)
+    page.until("state.shot && player.playing")
+    body = page.driver.find_element(By.TAG_NAME, "body")
+    body.send_keys(Keys.SPACE)
+    assert not browser.run("player.playing")
+    assert page.complaints() == []
+
+
+def test_sliders_fan_and_link(pages, browser: Browser, served: Served):
+    """A link opens the same shot on another device."""
+    page = pages("#golf/driver?launch.spin=3000", width=820, height=1100)
+    page.aimed()
+    assert page.changes() == {"launch.spin": 3000}
+    slider = page.driver.find_element(By.CSS_SELECTOR, "input[type=range][aria-label='launch angle in deg']")
+    slider.send_keys(Keys.ARROW_RIGHT)
+    page.aimed()
+    changes = page.changes()
+    assert changes["launch.angle"] > sandbox.load("golf/driver").parameters.launch.angle
+    page.type("set-gravity", "1.62")
+    page.aimed()
+    changes |= {"gravity": 1.62}
+    assert page.verdict() == said("golf/driver", changes)
+    page.type("set-gravity", "1e9")  # beyond the bounds: the bound
+    assert page.changes()["gravity"] == float(page.find("set-gravity").get_attribute("max"))
+    page.driver.find_element(By.CSS_SELECTOR, "[aria-label='gravity as in the scene']").click()
+    assert "gravity" not in page.changes()
+    page.find("fan").click()
+    page.until("player.fan?.lines.length === 100 && !player.fan.late")
+    assert "of 100 score" in browser.text("#fan-score")[0]
+    link, changes_there = page.find("link").get_attribute("value"), page.changes()
+    assert changes_there["launch.spin"] == 3000
+    assert page.complaints() == []
+    other = pages(link, width=390, height=844)
+    other.aimed()
+    assert other.changes() == changes_there
+    assert browser.run("document.documentElement.scrollWidth") <= 390
+    assert browser.run("state.stage.view.size[0]") == 801
+    assert other.complaints() == []
+
+
+def test_touch_pulls_and_a_lost_connection_comes_back(pages, browser: Browser):
+    page = pages("#basketball", width=390, height=844)
+    page.aimed()
+    x, y = browser.run(
+        "(() => { const box = player.canvas.getBoundingClientRect(); return [box.left + 200, box.top + 150]; })()"
+    )
+    send = page.driver.execute_cdp_cmd
+    for kind, at in (("Start", (x, y)), ("Move", (x - 30, y + 30)), ("Move", (x - 60, y + 70)), ("End", None)):
+        points = [] if at is None else [{"x": at[0], "y": at[1]}]
+        send("Input.dispatchTouchEvent", {"type": f"touch{kind}", "touchPoints": points})
+    page.until("state.shot")
+    changes = page.changes()
+    assert changes["launch.angle"] == pytest.approx(49.4, abs=0.1)
+    browser.run("wire.socket.close()")
+    page.until("document.getElementById('state').hidden === false")
+    page.until("document.getElementById('state').hidden && !state.shot")
+    page.aimed()
+    assert page.changes() == changes
+    assert page.verdict() == said("basketball", changes)
+    assert page.complaints() == []
+
+
+def test_a_teacher_and_two_pupils(pages, browser: Browser, served: Served):
+    teacher = pages(served.teacher)
+    teacher.until("state.scene && board")
+    pupil = pages("")
+    pupil.aimed()
+    pupil.type("name", NAME)
+    other = Client(served.url, name="Ben")
+    teacher.at()
+    teacher.until("state.room.players.some(({ here, name }) => here && name === arguments[0])", NAME[:20])
+    assert NAME[:20] in "".join(browser.text("#players li"))
+    assert browser.run("document.querySelectorAll('#players img').length") == 0
+    Select(teacher.find("scene")).select_by_value("golf")
+    teacher.find("lead").click()
+    teacher.until("state.source === 'golf' && !ask.stage.awaited && !ask.path.awaited")
+    Select(teacher.find("predict")).select_by_value("carry")
+    pupil.at()
+    pupil.until("state.source === 'golf' && state.run?.hidden && !ask.stage.awaited")
+    assert pupil.verdict() == "Predict the carry, then shoot"
+    assert not pupil.find("scene").is_enabled()
+    pupil.find("predicted").send_keys("240", Keys.ENTER)
+    pupil.until("state.shot")
+    assert browser.text("#card tbody tr:first-child")[0] == "your prediction240 m"
+    other.hear("scene", source="golf")
+    other.hear("shot", n=other.ask("shoot", {"launch.angle": 30.0}, predicted=200.0))
+    teacher.at()
+    teacher.until("document.querySelectorAll('#shots tbody tr').length >= 2")
+    carry = sandbox.simulate("golf").result["carry"]
+    rows = [row for row in browser.text("#shots tbody tr") if NAME[:20] in row]
+    assert rows
+    assert f"{carry:.1f}240{240 - carry:.2f}" in rows[0].replace("−", "-")
+    assert "mean" in browser.text("#bars-title")[0]
+    teacher.find("freeze").click()
+    pupil.at()
+    pupil.until("!document.getElementById('told').hidden")
+    assert not pupil.find("shoot").is_enabled()
+    teacher.at()
+    teacher.find("freeze").click()
+    teacher.find("free").click()
+    pupil.at()
+    pupil.until("document.getElementById('told').hidden && !state.lead.source")
+    other.close()
+    assert pupil.complaints() == []
+    assert teacher.at().complaints() == []
+
+
+def test_everything_has_a_label_and_fits(pages, browser: Browser):
+    page = pages("")
+    page.aimed()
+    named = "each.labels?.length || each.getAttribute('aria-label') || each.textContent.trim()"
+    every = "[...document.querySelectorAll('button, input, select, canvas, summary')]"
+    assert browser.run(f"{every}.filter((each) => !({named})).map((each) => each.outerHTML)") == []
+    buttons = "[...document.querySelectorAll('button, select')].filter((each) => each.offsetParent)"
+    for width, view in ((1280, 1600), (820, 1600), (390, 801)):
+        browser.resize(width, 900)
+        page.until("state.stage.view.size[0] === arguments[0] && player.view === state.stage.view", view)
+        assert browser.run("document.documentElement.scrollWidth") <= width
+        assert browser.run(f"{buttons}.filter((each) => each.offsetHeight < 32).map((each) => each.outerHTML)") == []
+    assert page.complaints() == []
