@@ -106,7 +106,7 @@ class Task:
         """What is drawn for an attempt, from 1: the same for the same seed."""
         from numpy.random import default_rng
 
-        return self.drawn(default_rng([seed, attempt]))
+        return self.drawn(default_rng([attempt, seed]))
 
     def at_start(self, seed: int = 0, attempt: int = 1) -> Scene:
         """The scene with what is drawn for an attempt and all controls at their defaults."""
@@ -130,10 +130,10 @@ class Task:
         return bool(self.ends) and all(wanted.met(result) for wanted in self.ends)
 
     def is_made(self, worth: float | None) -> bool:
-        """True if a shot of this worth is a success: it counts, and is as good as passes where one is enough."""
-        if self.score.how in ("greatest", "nearest"):
+        """True if a shot of this worth is a success: as good as the mean of those that pass, or as the one."""
+        if worth is None or self.score.how in ("greatest", "nearest"):
             return self.score.reaches(worth, self.passing)
-        return bool(worth)
+        return worth > 0.0 and (self.score.how == "fewest" or worth >= self.passing / self.attempts)
 
     def passed(self, total: float | None) -> bool:
         """True if a session with this score passes."""

@@ -1,0 +1,71 @@
+"""A finished game as a page: its score, and each shot as a replay."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from html import escape
+from typing import Any
+
+from sandbox.page.parts import filled, html
+from sandbox.page.replay import page_of
+from sandbox.sport.amounts import amount
+from sandbox.tasks import Attempt, Session, Shot
+
+
+def session_page(session: Session) -> str:
+    """The page of the attempts that a player has made so far, one file without network: each shot plays in a frame."""
+    task = session.task
+    stars = "★" * session.stars + "☆" * (3 - session.stars) if session.over else ""
+    return filled(
+        "task.html",
+        title=html(task.name.replace("-", " ").capitalize()),
+        goal=html(task.goal),
+        score=html(_score(session)),
+        stars=stars,
+        attempts="\n".join(_attempt(session, attempt) for attempt in session.attempts if attempt.shots),
+        seed=str(session.seed),
+        command=html(f"sandbox run {task.name} --seed {session.seed} --attempt 1"),
+    )
+
+
+def _score(session: Session) -> str:
+    """The score in words, and whether it passes."""
+    said = worth_text(session, session.total)
+    if not session.over:
+        return f"{said} so far"
+    return f"{said}, passed" if session.passed else f"{said}, not passed"
+
+
+def worth_text(session: Session, worth: float | None) -> str:
+    """What a shot, an attempt or all of them are worth, as text."""
+    if worth is None:
+        return "no score"
+    score = session.task.score
+    if score.total_unit:
+        return amount(worth, score.total_unit)
+    words = {"points": "points", "fewest": "shots"}
+    return f"{worth:g} {words.get(score.how, score.fact.replace('_', ' '))}"
+
+
+def _attempt(session: Session, attempt: Attempt) -> str:
+    """One attempt: what was drawn, and its shots."""
+    drawn = _listed(attempt.start, {start.key: start.unit for start in session.task.start})
+    shots = "\n".join(_shot(session, shot) for shot in attempt.shots)
+    return f"<section><h2>Attempt {attempt.number}</h2>\n<p>{html(drawn)}</p>\n{shots}\n</section>"
+
+
+def _shot(session: Session, shot: Shot) -> str:
+    """One shot: what it was worth and what the player set; its replay in a frame that is filled when it is opened."""
+    aim = _listed(shot.values, {control.key: control.unit for control in session.task.controls})
+    head = f"{'✓' if shot.made else '·'} {shot.said} ({worth_text(session, shot.worth)}; {aim})"
+    page = escape(page_of(shot.run))
+    return (
+        f"<details><summary>{html(head)}</summary>\n"
+        f'<iframe title="{html(shot.said)}" loading="lazy" srcdoc="{page}"></iframe></details>'
+    )
+
+
+def _listed(values: Mapping[str, Any], units: Mapping[str, str]) -> str:
+    """Parameters with their values, numbers with four digits."""
+    said = {key: f"{value:.4g}" if isinstance(value, float) else str(value) for key, value in values.items()}
+    return ", ".join(f"{key} = {text} {units[key]}".rstrip() for key, text in said.items())
