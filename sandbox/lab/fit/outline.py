@@ -16,7 +16,7 @@ from sandbox.scene.points import Points
 from sandbox.scene.scene_run import SceneRun
 
 #: Steps along a path between which the nearest place is looked for, and steps of Newton's method from there.
-STEPS, NEWTON = 256, 4
+STEPS, NEWTON = 96, 3
 
 
 @dataclass(frozen=True)
@@ -94,6 +94,7 @@ class Outline:
 def distances(run: SceneRun, ball: str, places: np.ndarray) -> np.ndarray:
     """Distances of places, shape (points, 2), from the path of a ball, in m: positive to its left."""
     impacts = [event.t for event in run.events if event.t < run.duration]
+    step = run.duration / STEPS
     nodes = np.unique(np.concatenate([np.linspace(0.0, run.duration, STEPS + 1), impacts]))
     path = run.states(ball, nodes)[:, :2]
     along = np.diff(path, axis=0)
@@ -103,11 +104,14 @@ def distances(run: SceneRun, ball: str, places: np.ndarray) -> np.ndarray:
     best = ((apart - share[..., None] * along) ** 2).sum(axis=2).argmin(axis=1)
     low, high = nodes[best], nodes[best + 1]
     t = low + np.take_along_axis(share, best[:, None], axis=1)[:, 0] * (high - low)
+    ends = np.concatenate([[0.0], impacts, [run.duration]])  # of smooth arcs
+    after = np.clip(np.searchsorted(ends, t, side="right"), 1, len(ends) - 1)
+    low, high = ends[after - 1], ends[after]
     for _ in range(NEWTON):  # the nearest place is where the velocity is square to the way to the point
         state = run.states(ball, t)
         velocity, way = state[:, 2:4], places - state[:, :2]
         speed2 = np.maximum((velocity**2).sum(axis=1), 1e-300)
-        t = np.clip(t + np.clip((way * velocity).sum(axis=1) / speed2, low - t, high - t), low, high)
+        t = np.clip(t + np.clip((way * velocity).sum(axis=1) / speed2, -step, step), low, high)
     state = run.states(ball, t)
     velocity, way = state[:, 2:4], places - state[:, :2]
     left = velocity[:, 0] * way[:, 1] - velocity[:, 1] * way[:, 0]
