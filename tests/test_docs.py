@@ -13,7 +13,7 @@ import shlex
 import subprocess
 import sys
 import textwrap
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from enum import Enum
 from pathlib import Path
 from typing import Any
@@ -151,7 +151,7 @@ def test_the_walk_through_works_as_it_stands(golden, tmp_path: Path):
         assert subprocess.run(command, cwd=tmp_path, capture_output=True).returncode == 0
 
 
-def test_scenes_of_guide_and_templates_pass_strict_types(tmp_path: Path):
+def test_scenes_of_guide_and_templates_pass_strict_types(tmp_path: Path, strict_types: Callable[..., str]):
     written: set[Path] = set()
     for language, text in blocks(WALK):
         first, _, rest = text.partition("\n")
@@ -163,9 +163,8 @@ def test_scenes_of_guide_and_templates_pass_strict_types(tmp_path: Path):
             written.add(file)
     new_scene(tmp_path / "side", FROM_SIDE)
     new_scene(tmp_path / "above", FROM_ABOVE)
-    command = [sys.executable, "-m", "mypy", "--strict", "-p", "beachvolley", "-p", "side", "-p", "above"]
-    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
-    assert done.stdout.startswith("Success: no issues found in"), done.stdout + done.stderr
+    said = strict_types("-p", "beachvolley", "-p", "side", "-p", "above")
+    assert said.startswith("Success: no issues found in"), said
 
 
 # README -------------------------------------------------------------------------------------------------------------
