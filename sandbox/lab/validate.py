@@ -101,7 +101,7 @@ def _by_form(rows: Sequence[Mapping[str, str]], form: Mapping[str, Any]) -> Iter
                 continue
             reason = form.get("reasons", {}).get(f"{name} {result}", "")
             value, source, kind = (text.format(**row) for text in (how["value"], form["source"], form["kind"]))
-            allowed = how["tolerance"], how["unit"]
+            allowed = float(str(how["tolerance"]).format(**row)), how["unit"]
             last = kind, how["tests"].format(**row), how["tolerance_from"]
             yield Case(form["scene"], settings, name, result, value, *allowed, source, reason, *last)
 

@@ -1,8 +1,9 @@
 """Golf from the side: from the tee, through the air, over the turf, to rest or into the cup.
 
 Models: gravity; drag and Magnus lift with coefficients by Reynolds number and spin ratio; wind, uniform or growing with
-height; spin decay; the strike of the club head, a collision with springs along and across the face; bounces on turf
-that gives way (Penner 2002), sliding, rolling, slopes, water, and a cup with real walls, which a fast ball skips over.
+height; spin decay; the strike of the club head, a collision with springs along and across the face, damped along it;
+bounces on turf that gives way (Penner 2002), sliding, rolling, slopes, water, and a cup with real walls, which a fast
+ball skips over.
 
 Leaves out, with the effect on the carry of the default drive: the fading of lift below the drag crisis (2.6 m if half
 of it went), air that thins with height (0.2 m), buoyancy (0.1 m), the turning Earth (less than 0.05 m). And, not
@@ -69,6 +70,7 @@ class Club(Group):
     restitution: float = quantity(..., "", 0, 1, "of head and ball")
     friction: float = quantity(..., "", 0, 10, "of face and ball; if too low, the ball slides up the face")
     stiffness: float = quantity(..., "", 0.1, 100, "of the ball along the face over that normal to it")
+    damping: float = quantity(..., "", 0, 2, "of the ball along the face, over that at which it swings no more")
     depth: float = quantity(..., "m", 0, 0.2, "of the head's centre of mass behind the face")
     inertia: float = quantity(..., "kg m^2", 1e-5, 1, "of the head about the axis from heel to toe")
     height: float = quantity(..., "m", -0.03, 0.03, "of the impact point above the centre of mass")
@@ -144,7 +146,7 @@ def struck(club: Club, ball: Ball) -> Ball:
         raise RequestError(
             f"club.attack = {club.attack:g} deg: with club.loft = {club.loft:g} deg the face moves away from the ball"
         )
-    head = Head(club.mass, club.restitution, club.friction, club.stiffness, club.depth, club.inertia)
+    head = Head(club.mass, club.restitution, club.friction, club.stiffness, club.damping, club.depth, club.inertia)
     angles = radians(club.loft), radians(club.attack)
     vx, vy, spin = strike(head, club.speed, *angles, club.height, ball.mass, ball.radius)
     return replace(ball, velocity=(vx, vy), spin=spin)

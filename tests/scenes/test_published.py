@@ -65,7 +65,8 @@ def test_the_readme_counts_measured_rows_as_validate_does(rows):
 def test_a_wrong_number_would_be_seen():
     """Half as much drag again, and the tour table no longer holds."""
     rows = validate("golf", {"ball.drag.model": "constant", "ball.drag.coefficient": 0.4})
-    assert sum(row.holds for row in rows) < 0.5 * len(rows)
+    flown = [row for row in rows if "drag" in row.tests]
+    assert sum(row.holds for row in flown) < 0.5 * len(flown)
 
 
 def test_a_result_that_a_changed_scene_lacks_does_not_hold():
