@@ -133,8 +133,10 @@ class Cards:
             level = game.session.value("accuracy.level")
             text = f"frame {1e3 * self.screen.frame_cost:.1f} ms; run {1e3 * game.path.cost:.1f} ms, {level}"
             note("cost", (text, CARD["accent"]))
-        contest = game.referee.contest is not None
-        hints = [] if contest else [(text, CARD["accent"]) for text in game.memory.hints.values()]
+        contest = game.referee.contest
+        if contest is not None and contest.table:
+            layout.put("table", [sheet.text(contest.table)], corner, "topright")
+        hints = [] if contest is not None else [(text, CARD["accent"]) for text in game.memory.hints.values()]
         if hints and game.grasp.pull is None:
             note("hints", *hints)
 

@@ -22,6 +22,7 @@ from sandbox.window.front import Front, begin
 from sandbox.window.measure import Tape
 from sandbox.window.menu import Menu
 from sandbox.window.overlay import Board, Chart, Choice, Overlay, PictureChoice, Row
+from sandbox.window.prediction import Prediction
 from sandbox.window.shots import Played, Shot, write_csv
 from sandbox.window.table import Table
 from sandbox.window.view import View
@@ -484,6 +485,8 @@ TABLE: tuple[Command, ...] = (
             lambda view, by: _with_shot(view, view.game.watching.compare)),
     Command("open_replay", ("f7",), "open the latest replay; or drop one here", "Keep", _open_replay),
     Command("front", ("1",), "first screen: tasks, games for two", "Play", _front),
+    Command("mark", ("3",), "predict first: mark where it lands, then see", "Play",
+            lambda view, by: view.game.referee.begin(Prediction(view.game.session.scene))),
     Command("menu", ("l",), "all scenes and presets", "More", _menu),
     Command("next_preset", ("page down", "page up"), "next, previous preset", "More", _other_preset),
     Command("panel", ("tab",), "the panel of parameters", "More"),

@@ -42,6 +42,9 @@ class Contest:
     shown = "all"  # of the path: as tasks have it
     said = ""  # what came of the last shot, in a sentence
     good = False  # whether that was a success
+    takes_marks = False  # whether the player marks where the ball will land, before he shoots
+    mark: tuple[float, float] | None = None  # m
+    landed: tuple[float, float] | None = None  # m, of the shot that is over
 
     @property
     def scene(self) -> Scene:
@@ -49,9 +52,17 @@ class Contest:
         raise NotImplementedError
 
     @property
-    def limits(self) -> Limits:
-        """What the player may set."""
+    def limits(self) -> Limits | None:
+        """What the player may set; None for everything."""
         raise NotImplementedError
+
+    @property
+    def missing(self) -> str:
+        """What the player has to do before he shoots, in words."""
+        return ""
+
+    def put(self, place: tuple[float, float]) -> None:
+        """Mark a place, in m."""
 
     def aimed(self, scene: Scene) -> Scene:
         """What becomes of the shot that the player has aimed: with the noise of his aim."""
@@ -60,6 +71,10 @@ class Contest:
     def would_score(self, run: SceneRun) -> bool:
         """True if a shot is a success, before it is recorded."""
         raise NotImplementedError
+
+    def decided_at(self, run: SceneRun) -> float | None:
+        """The time in s at which a shot is decided; None for when the scene's score is final."""
+        return None
 
     def record(self, run: SceneRun) -> None:
         """Count a shot."""
@@ -75,14 +90,24 @@ class Contest:
         raise NotImplementedError
 
     @property
+    def headline(self) -> str:
+        """What is to be done now."""
+        return self.goal
+
+    @property
     def stand(self) -> str:
-        """Whose turn it is, or which attempt, in a few words."""
+        """Which attempt it is, or what else is to be known now, in a few words."""
         raise NotImplementedError
 
     @property
     def entries(self) -> Entries:
         """Scores, as labels and texts."""
         raise NotImplementedError
+
+    @property
+    def table(self) -> Entries:
+        """More of what was collected."""
+        return []
 
     @property
     def best_shots(self) -> Sequence[int]:
@@ -161,7 +186,11 @@ class AtTask(Contest):
         said = f"attempt {session.attempt.number} of {task.attempts}"
         if task.shots > 1:
             said += f", shot {len(session.attempt.shots) + 1} of at most {task.shots}"
-        return f"{PLAYERS[self.turn]}, {said}" if self.players > 1 else said
+        return said
+
+    @property
+    def headline(self) -> str:
+        return self.goal if self.players == 1 else f"{PLAYERS[self.turn]}: {self.goal[0].lower()}{self.goal[1:]}"
 
     def written(self, score: float | None) -> str:
         """A score in words."""
@@ -263,7 +292,11 @@ class AtMatch(Contest):
 
     @property
     def stand(self) -> str:
-        return ", ".join(filter(None, (self.match.status, self.match.placing)))
+        return self.match.placing or self.goal
+
+    @property
+    def headline(self) -> str:
+        return self.match.status
 
     @property
     def entries(self) -> Entries:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
 import pygame
 
 from sandbox.picture.palette import palette
@@ -111,11 +112,15 @@ class Drawing:
 
     def _draw_contest(self, sheet: Canvas, stage: Stage, shot: Shot) -> None:
         """The light of a success, and the card at the end of a contest."""
-        referee = self.game.referee
+        referee, contest = self.game.referee, self.game.referee.contest
+        if contest is not None and contest.mark is not None and not self.shown.follows:
+            landed = contest.landed if referee.tells else None
+            spots = [contest.mark, *([landed] if landed is not None else [])]
+            scoreboard.draw_mark(sheet, stage.pixels(np.array(spots)).tolist(), shot.upright)
         if referee.glow and not self.shown.follows:
             scoreboard.draw_glow(sheet, stage.ball_at(shot, min(self.shown.time, referee.decided)), referee.glow)
-        if referee.contest is not None and referee.is_over and referee.tells and referee.again != "slow":
-            scoreboard.draw_end(sheet, referee.contest, self.game.best, self.game.place)
+        if contest is not None and referee.is_over and referee.tells and referee.again != "slow":
+            scoreboard.draw_end(sheet, contest, self.game.best, self.game.place)
 
     def _draw_no_path(self, sheet: Canvas, stage: Stage) -> None:
         """The place, dark and without a path."""

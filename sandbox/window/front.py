@@ -12,6 +12,7 @@ import pygame
 
 from sandbox.errors import RequestError
 from sandbox.picture.palette import ASSETS, palette
+from sandbox.scene import load as load_scene
 from sandbox.scene.finding import docstring, installed_folders
 from sandbox.scene.games import game_names, game_of
 from sandbox.tasks import Task, load
@@ -20,6 +21,7 @@ from sandbox.window.best import BestList
 from sandbox.window.contest import AtMatch, AtTask, Contest
 from sandbox.window.game import Game
 from sandbox.window.overlay import HOVERED, Overlay
+from sandbox.window.prediction import Prediction
 from sandbox.window.scoreboard import SMALL_STAR, star, stars
 
 CARD = palette("card")
@@ -32,7 +34,8 @@ START_HERE = "Start here"
 
 
 class Entry(NamedTuple):
-    """Something that can be played: a ``task``, ``two`` at a task, a ``game`` of a scene, or the ``scene`` itself."""
+    """Something that can be played: a ``task``, ``two`` at a task, a ``game`` of a scene, to ``predict`` in a scene, or
+    the ``scene`` itself."""
 
     kind: str
     source: str  # the task, or the scene
@@ -91,6 +94,7 @@ def entries_of(sport: Sport) -> list[Entry]:
             entries.append(Entry("game", sport.name, name, f"{rules.title}, for two", rules.goal))
         except RequestError as error:
             entries.append(Entry("game", sport.name, name, _title(name), str(error)))
+    entries.append(Entry("predict", sport.name, "", "Predict first", "Mark where it will land, then see"))
     about = docstring(sport.folder / "scene.py")
     return [*entries, Entry("scene", sport.name, "", "Just play", about)]
 
@@ -104,6 +108,8 @@ def begin(game: Game, entry: Entry) -> None:
     def made() -> Contest:
         if entry.kind == "game":
             return AtMatch(installed_folders()[entry.source], entry.game)
+        if entry.kind == "predict":
+            return Prediction(load_scene(entry.source))
         return AtTask(load(entry.source), 2 if entry.kind == "two" else 1)
 
     game.messages.reporting_errors(lambda: game.referee.begin(made()))

@@ -94,6 +94,11 @@ class Game:
         shots, playback, before = self.shots, self.watching.playback, self.path.before_save
         if self.session.controls.held:
             return []  # each crosses the whole place
+        if self.referee.contest is not None:
+            if playback is None and self.referee.contest.takes_marks:
+                return []  # they would tell
+            place = self.session.place if playback is None else playback.shot.place
+            return [shot for shot in self.referee.shots if shot is not self.shot and shot.place == place]
         if playback is not None:
             return shots.earlier(playback.shot.start, but=playback.shot)
         earlier = shots.earlier((self.session.base.folder, *self.session.changes.start))

@@ -190,5 +190,13 @@ class Pointer:
 
     def _released(self) -> None:
         self.drag = None
+        self._mark()
         self.view.game.grasp.release()
         self.view.viewpoint.release()
+
+    def _mark(self) -> None:
+        """A click, and no pull, marks a place where a contest asks for one."""
+        game, camera = self.view.game, self.view.viewpoint.camera
+        contest, pull = game.referee.contest, game.grasp.pull
+        if contest is not None and contest.takes_marks and pull is not None and not pull.shoots and camera is not None:
+            contest.put(camera.world(*pull.start))

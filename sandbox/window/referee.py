@@ -57,7 +57,8 @@ class Referee:
     @property
     def seen(self) -> tuple[Any, ...]:
         """All that can be seen of it."""
-        return self.contest, len(self.shots), self.pending, self.again, self.glow
+        marked = (self.contest.mark, self.contest.landed) if self.contest is not None else None
+        return self.contest, len(self.shots), self.pending, self.again, self.glow, marked
 
     @property
     def is_over(self) -> bool:
@@ -112,6 +113,9 @@ class Referee:
             return False
         if self.work is not None or self.watching.playback is not None or contest.over:
             return True
+        if contest.missing:
+            self.messages.tell(contest.missing)
+            return True
         self._scene, self._before = contest.aimed(self.session.scene), self.watching.shots.count
         if self.session.controls.held:
             scene, changes = self._scene, self.session.changes
@@ -153,7 +157,9 @@ class Referee:
     def _accept(self, shot: Shot) -> None:
         """A shot of the contest is watched for the first time."""
         self.shots.append(shot)
-        self._before, self.pending, self.decided, self._cheered = None, shot, decided_at(shot), False
+        known = self.contest.decided_at(shot.run) if self.contest is not None else None
+        self.decided = decided_at(shot) if known is None else known
+        self._before, self.pending, self._cheered = None, shot, False
 
     def _cheer(self) -> None:
         """A success glows, and is heard."""

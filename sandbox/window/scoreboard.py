@@ -3,6 +3,7 @@ the end the stars, the best scores and what can be done next."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import cos, pi, sin
 
 import pygame
@@ -27,8 +28,8 @@ CHOICES = (("Enter", "play again"), ("1", "other tasks and games"), ("N, P", "se
 def headline_of(referee: Referee, contest: Contest) -> tuple[str, list[str], Colour]:
     """The headline while a contest is aimed, or once its shot was counted; a line of notes; and the colour."""
     if referee.watching.playback is None:
-        notes = [contest.stand, "pull back anywhere and let go"]
-        return contest.goal, notes, CARD["text"]
+        notes = [contest.stand] if contest.takes_marks else [contest.stand, "pull back anywhere and let go"]
+        return contest.headline, notes, CARD["text"]
     if contest.over:
         return contest.said, ["the best shots, the best last"] if referee.again == "best" else [], CARD["text"]
     return contest.said, ["Enter or click: the next shot", "R: see it again"], CARD["good" if contest.good else "text"]
@@ -62,6 +63,24 @@ def draw_glow(sheet: Canvas, at: tuple[float, float], left: float) -> None:
         turn = 2.0 * pi * (ray + 0.5) / RAYS
         ends = [(at[0] + length * far * cos(turn), at[1] - length * far * sin(turn)) for length in (0.55, 0.85)]
         sheet.painter.line(ends, 4 * sheet.unit, CARD["accent"], 0.9 * fade)
+
+
+def draw_mark(sheet: Canvas, spots: Sequence[tuple[float, float]], upright: bool) -> None:
+    """The player's mark, a flag from the side and a cross from above, and a line from it to where the ball landed; the
+    places in px."""
+    unit, (x, y) = sheet.unit, spots[0]
+    for other in spots[1:]:
+        sheet.painter.line([(x, y), other], 3 * unit, CARD["accent"], 0.9)
+        sheet.painter.ring(other, 9 * unit, 3 * unit, CARD["accent"])
+    for colour, wider in ((CARD["background"], 3.0), (CARD["accent"], 0.0)):
+        if upright:
+            sheet.painter.line([(x, y), (x, y - 44 * unit)], (3 + wider) * unit, colour)
+            flag = [(x, y - 44 * unit), (x + 22 * unit, y - 36 * unit), (x, y - 28 * unit)]
+            sheet.painter.polygon(flag, CARD["accent"])
+            continue
+        for across in (-1, 1):
+            ends = [(x - 9 * unit, y - across * 9 * unit), (x + 9 * unit, y + across * 9 * unit)]
+            sheet.painter.line(ends, (4 + wider) * unit, colour)
 
 
 def draw_end(sheet: Canvas, contest: Contest, best: BestList, place: int) -> pygame.Rect:

@@ -72,9 +72,9 @@ class Session:
         self.changes = Changes(source, dict(changes or {}))
         self.watch, self.limits = Watch(self.files), None
 
-    def show(self, scene: Scene, source: str, limits: Mapping[str, tuple[float, float]]) -> None:
-        """Begin with a scene as it stands, of which no more than this may be changed, each within its bounds; its files
-        are no longer watched."""
+    def show(self, scene: Scene, source: str, limits: Mapping[str, tuple[float, float]] | None) -> None:
+        """Begin with a scene as it stands, of which no more than this may be changed, each within its bounds (None: all
+        may); its files are no longer watched."""
         self.base = self.scene = scene
         self.changes, self.watch, self.limits = Changes(source, {}), Watch([]), limits
 

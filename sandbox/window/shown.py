@@ -104,7 +104,8 @@ class Shown:
         if driven and self.game.session.controls.held:  # what the player's keys move decides from there on
             return next((e.t for e in shot.run.events if e.kind == "impact" and e.partner in driven), None)
         if self.ahead == "to the first contact":
-            return next((e.t for e in shot.run.events if e.kind == "impact" and e.ball == shot.ball and e.t > 0), None)
+            met = (e.t for e in shot.run.events if e.kind == "impact" and shot.ball in (e.ball, e.partner) and e.t > 0)
+            return next(met, None)
         if self.ahead == "the first metre":
             track = shot.track(shot.ball)
             way = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(track[:, 1:], axis=0).T))])

@@ -8,13 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from math import hypot
+from math import atan2, degrees, dist, hypot
 from typing import Any, ClassVar, TypeVar
 
 from sandbox.sport.match import Match, Outcome, named
 
 #: The table (9 ft, between the noses) and the balls, in m; the balls that must reach a cushion in a break.
 LENGTH, WIDTH, RADIUS, DRIVEN = 2.54, 1.27, 0.028575, 4
+#: Of a stroke after the break, before the player aims, in m/s.
+SPEED = 2.5
 CUE = "cue"
 Place = tuple[float, float]
 Same = TypeVar("Same", bound="Pool")
@@ -112,7 +114,10 @@ class Pool(Match):
         if self.balls is None:
             return {"rack": self.rack, "balls": [{"name": CUE, "x": -0.25 * LENGTH, "y": 0.1}], "cue.ball": CUE}
         spots = [{"name": name, "x": x, "y": y} for name, (x, y) in self.balls.items()]
-        return {"rack": "none", "balls": spots, "cue.ball": CUE}
+        x0, y0 = self.balls[CUE]
+        near = min((self.balls[name] for name in self.targets if name in self.balls), key=lambda at: dist(at, (x0, y0)))
+        way = degrees(atan2(near[1] - y0, near[0] - x0))  # at first at the nearest ball that may be met
+        return {"rack": "none", "balls": spots, "cue.ball": CUE, "cue.angle": way, "cue.speed": SPEED}
 
     @property
     def free(self) -> tuple[str, ...]:

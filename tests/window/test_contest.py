@@ -19,6 +19,7 @@ from sandbox.window.app import play
 from sandbox.window.best import MOST, Best, BestList, usual_file
 from sandbox.window.contest import AtMatch, AtTask
 from sandbox.window.front import START_HERE, TILE, TILE_FILE, Front, entries_of, first_task, sports
+from sandbox.window.prediction import Prediction
 from sandbox.window.referee import AFTER, decided_at
 from sandbox.window.shots import LONGEST_FRAME
 
@@ -263,6 +264,47 @@ class TestAMatch:
             AtMatch(installed_folder("golf"), "chess")
         with pytest.raises(RequestError, match="tennis has no game chess; it has none"):
             AtMatch(installed_folder("tennis"), "chess")
+
+
+class TestPredictFirst:
+    def test_errors_of_marks_are_collected(self, player):
+        player = player("golf", (900, 560))
+        player.key(pygame.K_3)
+        player.settle()
+        game, contest = player.game, player.game.referee.contest
+        assert {"Click where it will land"} <= said(player)
+        assert player.view.shown.until(game.shot) == 0.0  # nothing of the path
+        player.key(pygame.K_SPACE)
+        assert (game.watching.playback, game.notices[-1][0]) == (None, "first click where it will land")
+        carry, off = game.shot.run.result["carry"], []
+        for far in (carry - 40.0, carry + 5.0):
+            camera = player.view.viewpoint.camera
+            player.click(tuple(round(px) for px in camera.pixel(far, 0.0)))
+            player.settle()
+            off.append(abs(contest.mark[0] - carry))
+            shoot(player)
+            player.frames()
+            if len(off) == 1:
+                assert contest.said.endswith(" m beyond your mark")
+                assert not contest.good
+                player.key(pygame.K_RETURN)
+                player.settle()
+                assert game.ghosts == []
+        assert (contest.good, contest.said.endswith(" m short of your mark")) == (True, True)
+        assert contest.errors == pytest.approx(off, abs=0.5)
+        assert {"prediction 1", "prediction 2", "mean"} <= said(player)
+
+    def test_from_above_it_is_where_the_ball_stops(self, player):
+        player = player("curling", (900, 560))
+        player.game.referee.begin(Prediction(player.game.session.scene))
+        contest = player.game.referee.contest
+        player.settle()
+        run = player.game.shot.run
+        x, y, *_ = run.state("stone", run.duration)
+        contest.put((x + 3.0, y - 4.0))
+        contest.record(run)
+        assert contest.errors == [pytest.approx(5.0)]
+        assert contest.said == "It lands 5.00 m from your mark"
 
 
 def test_a_shot_is_decided_where_its_score_is_final(shot_of, player):

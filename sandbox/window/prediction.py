@@ -1,0 +1,112 @@
+"""Predict first: the player marks where the ball will land, then sees; the errors are collected."""
+
+from __future__ import annotations
+
+from math import dist
+
+from sandbox.scene import Scene
+from sandbox.scene.scene_run import SceneRun
+from sandbox.sport.amounts import metres
+from sandbox.window.contest import Contest, Entries
+from sandbox.window.shots import Shot
+
+Place = tuple[float, float]  # m
+#: A prediction is good if it is off by no more than this share of the way.
+GOOD = 0.05
+#: So many of the last errors are shown.
+SHOWN = 8
+
+
+class Prediction(Contest):
+    """Marks and landings of shots in one scene, which the player may change as he likes."""
+
+    shown = "nothing"
+    takes_marks = True
+
+    def __init__(self, scene: Scene) -> None:
+        self.name, self._scene = f"{scene.title}: predict first", scene
+        self.errors: list[float] = []  # m
+        self.fresh = False  # whether the mark is for the shot to come
+
+    @property
+    def scene(self) -> Scene:
+        return self._scene
+
+    @property
+    def limits(self) -> None:
+        return None
+
+    def put(self, place: Place) -> None:
+        self.mark, self.landed, self.fresh = (float(place[0]), float(place[1])), None, True
+
+    @property
+    def missing(self) -> str:
+        return "" if self.fresh else "first click where it will land"
+
+    @property
+    def headline(self) -> str:
+        return "Click where it will land" if not self.fresh else "Pull back and let go, or press Space"
+
+    @property
+    def stand(self) -> str:
+        return "from the side: where it first touches something; from above: where it stops"
+
+    def aimed(self, scene: Scene) -> Scene:
+        self._scene = scene
+        return scene
+
+    def _off(self, run: SceneRun) -> tuple[float, float]:
+        """How far beyond its mark a shot lands, and how far it goes, in m; from above how far away from the mark."""
+        shot, mark = Shot(run.scene, run), self.mark or (0.0, 0.0)
+        (x0, y0), (_, x, y) = run.state(shot.ball, 0.0)[:2], landing(shot)
+        return (x - mark[0], abs(x - x0)) if shot.upright else (dist((x, y), mark), dist((x, y), (x0, y0)))
+
+    def decided_at(self, run: SceneRun) -> float:
+        return landing(Shot(run.scene, run))[0]
+
+    def would_score(self, run: SceneRun) -> bool:
+        off, way = self._off(run)
+        return abs(off) <= GOOD * way
+
+    def record(self, run: SceneRun) -> None:
+        shot, (off, _) = Shot(run.scene, run), self._off(run)
+        self.good, self.landed, self.fresh = self.would_score(run), landing(shot)[1:], False
+        if shot.upright and self.mark is not None:
+            self.mark = self.mark[0], self.landed[1]  # on the ground, as far as it was
+        self.errors.append(abs(off))
+        way = "from your mark" if not shot.upright else "beyond your mark" if off > 0.0 else "short of your mark"
+        self.said = f"It lands {metres(abs(off))} {way}"
+
+    def anew(self) -> Prediction:
+        return Prediction(self._scene)
+
+    @property
+    def over(self) -> bool:
+        return False
+
+    @property
+    def entries(self) -> Entries:
+        if not self.errors:
+            return [("predictions", "0")]
+        mean = sum(self.errors) / len(self.errors)
+        return [("predictions", str(len(self.errors))), ("off by", metres(self.errors[-1])),
+                ("mean", metres(mean)), ("best", metres(min(self.errors)))]  # fmt: skip
+
+    @property
+    def table(self) -> Entries:
+        first = max(0, len(self.errors) - SHOWN)
+        return [(f"prediction {number}", metres(error)) for number, error in enumerate(self.errors, 1)][first:]
+
+
+def landing(shot: Shot) -> tuple[float, float, float]:
+    """When (s) and where (m) a shot lands: from the side where the ball first touches something, from above where it
+    stops or is caught."""
+    run, ball = shot.run, shot.ball
+    if shot.upright:
+        touches = (e.t for e in run.events if e.kind == "impact" and ball in (e.ball, e.partner) and e.t > 0.0)
+        t = next(touches, run.duration)
+    else:
+        caught = run.caught_at(ball)
+        t = run.duration if caught is None else caught
+    x, y = run.state(ball, t)[:2]
+    return float(t), float(x), float(y)
