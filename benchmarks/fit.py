@@ -74,7 +74,7 @@ CASES = (
         fixed={"ball.drag.model": "constant", "wall.present": False},
     ),
     Case(
-        "minigolf",
+        "minigolf/bank-shot",
         "boards",
         {"launch.speed": (2.0, 3.6), "launch.angle": (15, 50), "lane.restitution": (0.6, 0.9)},
         (1.5, 3.0),

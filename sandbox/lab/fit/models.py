@@ -10,7 +10,7 @@ from typing import Any
 from sandbox.errors import RequestError, RunError
 from sandbox.lab.axes import Span, checked
 from sandbox.lab.fit.measured import Measured
-from sandbox.lab.fit.squares import Fit, Model, solve
+from sandbox.lab.fit.squares import Fit, Model, check_near, solve
 from sandbox.parameters import groups_of, path_of, value_at, words_of
 from sandbox.scene import Scene
 from sandbox.text import nearest
@@ -72,7 +72,7 @@ def compare(
             own = [span for span in spans if value_at(changed.parameters, span.key) is not None]
             if not own:
                 raise RequestError(f"{word} has none of the parameters to fit")
-            found[str(word)] = Model(0.0, solve(changed, measured, own, robust))
+            found[str(word)] = Model(0.0, solve(changed, measured, own, robust, near=False))
         except (RequestError, RunError) as error:
             failure = failure or error
             found[str(word)] = Model(inf, None, str(error))
@@ -86,4 +86,5 @@ def compare(
     ordered = dict(sorted(models.items(), key=lambda item: item[1].behind))
     best = next(iter(ordered.values())).fit
     assert best is not None
+    check_near(best.scene, measured, best.residuals)
     return replace(best, models=ordered, models_of=key)

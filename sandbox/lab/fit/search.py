@@ -25,7 +25,7 @@ LOST, LOST_SCALE = 8.0, 0.02
 #: A larger window that fits so many times worse, or with one new point so many standard deviations off, has lost the
 #: path. Candidates are then drawn from those that fit the smaller one, with so many times its standard errors, but at
 #: most this share of a range; the best are followed. Where that did not help so many times, it is not tried any more.
-WORSE, FAR, INFLATED, WIDEST, DRAWN, POLISHED, VAIN = 1.25, 4.5, 2.0, 0.3, 32, 4, 2
+WORSE, WORSE_ROBUST, FAR, INFLATED, WIDEST, DRAWN, POLISHED, VAIN = 1.25, 1.6, 4.5, 2.0, 0.3, 32, 4, 2
 
 #: Starts that lead to the same path in the first window, to this share of its standard deviation, are one.
 SAME = 0.1
@@ -34,11 +34,12 @@ SAME = 0.1
 COARSE = 1e-3
 
 #: Ratio of von Neumann (1941): the mean square of differences of neighbouring residuals over the mean square of the
-#: residuals. It is 2 for errors that are independent; below this the path has another shape than the track.
-ALIKE = 1.2
+#: residuals. It is 2 for errors that are independent; below this the path has another shape than the track, perhaps or
+#: surely.
+ALIKE, OTHER_SHAPE = 1.2, 0.4
 
-#: Residuals of a group below which their order says nothing.
-ENOUGH = 8
+#: Residuals of a group below which their order says nothing; and how many times the median they may be.
+ENOUGH, LARGE = 8, 5.0
 
 
 def search(problem: Problem, robust: bool) -> Place | None:
@@ -49,27 +50,32 @@ def search(problem: Problem, robust: bool) -> Place | None:
         following = _Following(problem, scale, robust, growth)
         for share in starts:
             found = following.from_start(share)
-            if found is not None and following.off(found.residuals, problem.last) < least:
-                best, least = found, following.off(found.residuals, problem.last)
+            if found is not None and following.merit(found) < least:
+                best, least = found, following.merit(found)
             if best is not None and _is_good(problem, best.residuals, following.agreed):
                 return best
-        if window(problem, WINDOW) >= problem.last:
-            break  # there is nothing to grow
+        if window(problem, WINDOW) >= problem.last or following.hopeless:
+            break  # there is nothing to grow, or no window would do
     return best
 
 
 def _is_good(problem: Problem, residuals: np.ndarray, agreed: int) -> bool:
     """True if the residuals have no pattern; or where they are too few to have one, if two starts came to them."""
-    ratio = neumann(problem, residuals)
+    ratio = neumann(problem.measured.groups, residuals)
     return ratio > ALIKE or (ratio == 0.0 and agreed > 0)
 
 
-def neumann(problem: Problem, residuals: np.ndarray) -> float:
-    """The least ratio of von Neumann of all groups with enough residuals; 0 if there are none."""
-    groups = problem.measured.groups
-    parts = [residuals[groups == group] for group in np.unique(groups)]
-    enough = [part for part in parts if len(part) >= ENOUGH and part.any()]
-    return min((float((np.diff(part) ** 2).mean() / (part**2).mean()) for part in enough), default=0.0)
+def neumann(groups: np.ndarray, residuals: np.ndarray) -> float:
+    """The least ratio of von Neumann of all groups with enough residuals; 0 if there are none. Outliers count as large
+    residuals."""
+    ratios = []
+    for group in np.unique(groups):
+        part = residuals[groups == group]
+        if len(part) >= ENOUGH and part.any():
+            most = LARGE * float(np.median(np.abs(part))) or float(np.abs(part).max())
+            part = np.clip(part, -most, most)
+            ratios.append(float((np.diff(part) ** 2).mean() / (part**2).mean()))
+    return min(ratios, default=0.0)
 
 
 def robust_sds(residuals: np.ndarray, groups: np.ndarray, inside: np.ndarray) -> np.ndarray:
@@ -112,7 +118,9 @@ class _Following:
 
     def __init__(self, problem: Problem, scale: np.ndarray, robust: bool, growth: float) -> None:
         self.problem, self.scale, self.robust, self.growth = problem, scale, robust, growth
+        self.worse = WORSE_ROBUST if robust else WORSE
         self._vain = 0
+        self.hopeless = False  # whether the path has another shape than the track already where it is followed
         self.agreed = 0  # starts that came to the same path as others in the first window
         self._firsts: list[np.ndarray] = []  # residuals in the first window, of starts so far
 
@@ -126,7 +134,8 @@ class _Following:
         while until < problem.last and place is not None:
             part += self.growth
             before, good = until, self._good_until(place, until)
-            until = max(window(problem, part), good)
+            following = float(problem.times[problem.times > before].min())
+            until = max(window(problem, part), good, following)
             place = self._grown(place, before, until)
         return place
 
@@ -146,6 +155,11 @@ class _Following:
         found = self._descend(place.share, until, worth)
         if found is not None and (self._vain >= VAIN or not self._is_lost(place, before, found, until)):
             return found
+        inside = self.problem.times <= before
+        ratio = neumann(self.problem.measured.groups[inside], place.residuals[inside])
+        if found is not None and 0.0 < ratio < OTHER_SHAPE:
+            self.hopeless = True
+            return found
         tried = [found] if found is not None else []
         for share in self._likely(place, before, until):
             another = self._descend(share, until, worth)
@@ -160,11 +174,11 @@ class _Following:
     def _is_lost(self, place: Place, before: float, larger: Place, until: float) -> bool:
         """True if the larger window fits worse than the one before."""
         usual, times = self.off(place.residuals, before), self.problem.times
-        if self.off(larger.residuals, until) > WORSE * usual:
+        if self.off(larger.residuals, until) > self.worse * usual:
             return True
         new = np.abs(larger.residuals / self.scale)[(times > before) & (times <= until)]
         if self.robust:  # some points may be far off
-            return float(np.median(new)) > WORSE * usual
+            return float(np.median(new)) > self.worse * usual
         return float(new.max()) > FAR * usual
 
     def _likely(self, place: Place, before: float, until: float) -> list[np.ndarray]:
@@ -181,10 +195,15 @@ class _Following:
         return [shares[best] for best in np.argsort(costs, kind="stable")[:POLISHED] if np.isfinite(costs[best])]
 
     def off(self, residuals: np.ndarray, until: float) -> float:
-        """How far the path is from the points of a window: the root mean square, or the mean size where outliers are
+        """How far the path is from the points of a window: the root mean square, or the median where outliers are
         expected, on the scale of all."""
         left = np.abs(residuals / self.scale)[self.problem.times <= until]
-        return float(left.mean() if self.robust else np.sqrt((left**2).mean()))
+        return float(np.median(left) if self.robust else np.sqrt((left**2).mean()))
+
+    def merit(self, place: Place) -> float:
+        """The measure by which one of several candidates for all points is chosen; the lower, the better."""
+        left = np.abs(place.residuals / self.scale)
+        return float((np.sqrt(left) if self.robust else left**2).mean())
 
     def _descend(self, share: np.ndarray, until: float, worth: float) -> Place | None:
         """The minimum in one window; with a robust loss in two rounds, as its scale falls with the residuals."""
@@ -200,7 +219,7 @@ class _Following:
         return place
 
     def _good_until(self, place: Place, until: float) -> float:
-        """The time in s up to which the path stays near the points."""
+        """The time in s of the last point up to which the path stays near all."""
         problem, inside = self.problem, self.problem.times <= until
         whole = problem.residuals(place.share[None])[0]
         if np.isnan(whole).any():
@@ -208,4 +227,4 @@ class _Following:
         sds = robust_sds(place.residuals, problem.measured.groups, inside)
         far = np.abs(whole) > LOST * np.maximum(sds, LOST_SCALE * self.scale)
         lost = problem.times[far & ~inside]
-        return problem.last if not len(lost) else float(lost.min())
+        return problem.last if not len(lost) else float(problem.times[problem.times < lost.min()].max(initial=until))

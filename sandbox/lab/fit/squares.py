@@ -126,9 +126,9 @@ class Fit:
         return likelihood + 2.0 * free * count / max(count - free - 1, 1)
 
 
-def solve(scene: Scene, measured: Measured, spans: Sequence[Span], robust: bool = False) -> Fit:
-    """The best fit. Raises RequestError for too few rows, and for data that no run comes near; RunError if no run could
-    be completed."""
+def solve(scene: Scene, measured: Measured, spans: Sequence[Span], robust: bool = False, near: bool = True) -> Fit:
+    """The best fit. Raises RequestError for too few rows and, if it must be ``near``, for data that no run comes near;
+    RunError if no run could be completed."""
     measured.check(scene)
     problem = Problem(scene, measured, spans)
     if measured.count <= len(problem):
@@ -139,6 +139,8 @@ def solve(scene: Scene, measured: Measured, spans: Sequence[Span], robust: bool 
         raise RunError(f"no run of {scene.title} in these ranges could be completed")
     place, sds, loss = _refined(problem, place, robust)
     place = Place(place.share, place.residuals, _slopes(problem, place, sds), place.cost)
+    if near:
+        check_near(problem.scene, measured, place.residuals)
     return _finished(problem, place, sds, loss)
 
 
@@ -188,7 +190,6 @@ def _finished(problem: Problem, place: Place, sds: np.ndarray, loss: Loss) -> Fi
     kept = np.abs(place.residuals) <= OUTLIER * np.maximum(
         robust_sds(place.residuals, measured.groups, np.ones(len(sds), bool)), 1e-12
     )
-    _check(problem, place.residuals)
     keys, values = problem.keys, problem.values(place.share).tolist()
     best = problem.scene.changed(dict(zip(problem.scene_keys, values, strict=False)))
     correlated = errors.covariance / np.maximum(np.outer(errors.sds, errors.sds), 1e-300)
@@ -211,7 +212,7 @@ def _finished(problem: Problem, place: Place, sds: np.ndarray, loss: Loss) -> Fi
 
 def _pattern(problem: Problem, residuals: np.ndarray) -> float:
     """How many times larger residuals are than those of neighbours differ; 0.0 if they are not, or are too few."""
-    ratio = neumann(problem, residuals)
+    ratio = neumann(problem.measured.groups, residuals)
     return 0.0 if ratio == 0.0 or ratio >= ALIKE else float(np.sqrt(2.0 / ratio))
 
 
@@ -236,15 +237,15 @@ def _values(problem: Problem, share: np.ndarray, errors: Errors) -> dict[str, Va
     return found
 
 
-def _check(problem: Problem, residuals: np.ndarray) -> None:
+def check_near(scene: Scene, measured: Measured, residuals: np.ndarray) -> None:
     """Raise RequestError if no run comes near the data."""
-    points = problem.measured.points(problem.scene, [one.start for one in problem.measured.free])
+    points = measured.points(scene, [one.start for one in measured.free])
     if points is None or len(points.positions) < ENOUGH:
         return
     off = float(np.sqrt((residuals**2).mean()))
     extent = float(np.sqrt(((points.positions - points.positions.mean(axis=0)) ** 2).mean()))
-    if off > NOTHING * extent and neumann(problem, residuals) < ALIKE:
+    if off > NOTHING * extent and neumann(measured.groups, residuals) < ALIKE:
         raise RequestError(
-            f"no run of {problem.scene.title} in these ranges comes near this track: the best is off by {off:.3g} m on "
+            f"no run of {scene.title} in these ranges comes near this track: the best is off by {off:.3g} m on "
             "average. Is it of this scene, in m and s from its origin, and are the ranges wide enough?"
         )
