@@ -35,6 +35,7 @@ schemas: .venv/ready
 
 pictures: .venv/ready-dev
 	$(BIN)/python docs/pictures/make.py
+	$(BIN)/python docs/pictures/make_browser.py
 
 # Every scene and preset as poster and page: two minutes.
 gallery: .venv/ready

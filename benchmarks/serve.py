@@ -169,7 +169,8 @@ def main() -> None:
     try:
         assert server.stdout is not None
         url = json.loads(server.stdout.readline())["url"]
-        time.sleep(5.0)  # its processes import what they need
+        for scene in sources:  # its processes import what they need
+            asyncio.run(aiming(url, 8, asked.rate, 3.0, scene))
         click.echo(f"{asked.players} players, {asked.rate:g} changes a second each, {os.cpu_count()} cores, "
               f"load {os.getloadavg()[0]:.1f} before\n")  # fmt: skip
         click.echo("| | changes | within 100 ms | half | 95 of 100 | 99 of 100 | a path | its processor time |")

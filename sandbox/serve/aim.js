@@ -86,7 +86,6 @@ class Aim extends Player {
     canvas.addEventListener("pointerdown", (event) => {
       if (event.button || !this.hands?.may()) return;
       canvas.setPointerCapture(event.pointerId);
-      canvas.focus({ preventScroll: true });
       const start = this.inside(event);
       this.pull = { start, at: start, last: start, fine: [0, 0], id: event.pointerId };
       [this.pointed, this.hint.hidden] = [null, true];

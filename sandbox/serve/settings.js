@@ -3,6 +3,9 @@
 /** A key for people: "launch.speed" is "launch speed", "air.wind[0]" is "air wind x". */
 const labelOf = (key) => key.replace(/\[(\d+)\](?=$)/, (_, i) => ` ${"xyz"[i] ?? i}`).replace(/[._]/g, " ");
 
+/** A unit for people: "m/s^2" is "m/s²". */
+const unitOf = (unit) => unit.replace("^2", "²").replace("^3", "³");
+
 /** A number as it is typed: six figures. */
 const typed = (value) => String(Number(Number(value).toPrecision(6)));
 
@@ -49,7 +52,7 @@ class Settings {
 
   number({ key, unit, low, high, span, value }) {
     const field = Object.assign(document.createElement("input"), { type: "number", id: `set-${key}`, min: low, max: high, step: "any" });
-    const name = Object.assign(document.createElement("span"), { className: "unit", textContent: unit });
+    const name = Object.assign(document.createElement("span"), { className: "unit", textContent: unitOf(unit) });
     const take = (text) => {
       const number = Number(text);
       if (text === "" || !Number.isFinite(number)) return this.rows.get(key).show(this.value(key));
