@@ -363,7 +363,7 @@ def pitch_fit_drag(reynolds: Any, spin_ratio: Any) -> Any:
     the abstract). Fitted here to 1,254 pitches of 3 September 2020 in eight parks (Statcast), every second one of each
     pitcher, with air of 70 F at sea level for all, as their weather is not known; 30 to 45 m/s, S from 0.05 to 0.35.
     Single pitches scatter by 0.020 about it; speed and gyro spin add nothing. The mean drag of other days differs by
-    up to 8 %: 0.024 more in 4,220 other pitches, 0.027 less in those of one pitcher in July 2019, by air and by lots of
+    up to 9 %: 0.023 more in 4,220 other pitches, 0.029 less in those of one pitcher in July 2019, by air and by lots of
     balls.
 
     tests/reference/fit_pitches.py repeats the fit.

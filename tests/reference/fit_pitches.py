@@ -24,7 +24,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 import sandbox
-from sandbox.physics.coefficients import nathan_lift
+from sandbox.physics.coefficients import nathan_lift, pitch_fit_drag
 
 FOOT, MPH, INCH, GRAVITY = 0.3048, 0.44704, 0.0254, 32.174  # m, m/s, m, ft/s^2
 PLATE, TRACKED_FROM, RUBBER = 17.0 / 12.0, 50.0, 60.5  # ft, from the rear point of the plate
@@ -213,6 +213,8 @@ def row(name: str, pitches: Sequence[Pitch], active: float, tilt: float) -> str:
 def main(path: str) -> None:
     fit, held = halves(read(path))
     print("drag: Cd = {:.4f} + {:.3f} Cl^2, single pitches within {:.3f} of it".format(*polar(fit)))
+    more = [each.drag - pitch_fit_drag(0.0, inverse(hypot(each.lift, each.aside))) for each in [*fit, *held]]
+    print(f"drag of all over pitch_fit_drag: {np.mean(more):+.3f}")
     rows = []
     for kind, name in TYPES.items():
         theirs, others = ([each for each in part if each.kind == kind] for part in (fit, held))
