@@ -14,6 +14,7 @@ from sandbox.cli.program import app, call
 from sandbox.errors import RequestError
 from sandbox.lab.fit.data import Reading, read_data
 from sandbox.lab.fit.formats import forms, recognized
+from sandbox.lab.fit.outline import distances
 from sandbox.lab.fit.reading import Film, measurements, parse_scale
 from sandbox.lab.table_file import read_table
 
@@ -181,6 +182,24 @@ def test_clock_axes_and_tilt_of_a_film_are_found_with_the_ball():
         half = 0.5 * (found[key].high - found[key].low)
         assert abs(found[key].value - value) < 1.6 * half
         assert half < 0.5
+
+
+def test_a_late_launch_is_compared_at_all_points():
+    """What the search sees is what is computed for the result alone: no point is later than a run lasts."""
+    t, places = flown(0.002)
+    track = {"t": t + 0.9, "x": places[:, 0], "y": places[:, 1]}
+    found = sandbox.fit("collisions/bouncing-ball", track, {"floor.restitution": (0.5, 1.0)}, free=["time"])
+    again = found.measured.residuals(found.scene, [], np.array([found.free]), np.inf)
+    assert found.residuals == pytest.approx(again[0], abs=1e-5)
+
+
+def test_distances_from_a_path_have_signs():
+    """Points beside a path that bounces, 1 cm to its left and right, by the normal of the velocity."""
+    run = sandbox.simulate(sandbox.load("collisions/bouncing-ball", {"launch.speed": 1.5}))
+    states = run.states("first", np.array([0.05, 0.3, 0.5, 0.8, 1.1]))
+    normal = np.column_stack([-states[:, 3], states[:, 2]]) / np.hypot(states[:, 2], states[:, 3])[:, None]
+    for distance in (0.01, -0.01):
+        assert distances(run, "first", states[:, :2] + distance * normal) == pytest.approx(distance, abs=1e-6)
 
 
 def test_places_without_times_are_enough_for_a_throw():
