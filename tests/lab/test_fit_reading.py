@@ -12,8 +12,8 @@ from click.testing import CliRunner
 import sandbox
 from sandbox.cli.program import app, call
 from sandbox.errors import RequestError
-from sandbox.lab.fit.data import Reading, read_data
-from sandbox.lab.fit.formats import forms, recognized
+from sandbox.lab.fit.data import Reading, data_of, read_data, table_of
+from sandbox.lab.fit.formats import forms, parse_entry, recognized
 from sandbox.lab.fit.outline import distances
 from sandbox.lab.fit.reading import Film, measurements, parse_scale
 from sandbox.lab.table_file import read_table
@@ -66,9 +66,10 @@ def test_pixels_have_y_downwards_and_frames_have_no_times(tmp_path):
 def test_names_of_columns_can_be_given():
     track = {"Zeit": [0, 100, 200], "rechts (cm)": [0, 50, 100], "hoch": [210, 260, 290]}
     columns = {"Zeit": "t ms", "rechts": "x", "hoch": "y cm"}
-    found = sandbox.fit("throws", track, {"launch.speed": (2, 20)}, columns=columns)
-    assert found.measured.times.tolist() == pytest.approx([0.0, 0.0, 0.1, 0.1, 0.2, 0.2])
-    assert found.values["launch.speed"].value == pytest.approx(6.9, abs=0.3)
+    entries = tuple(parse_entry(f"{column}={target}") for column, target in columns.items())
+    found = data_of(sandbox.load("throws"), [("", table_of(track))], Reading(entries=entries))
+    assert found.times == pytest.approx([0.0, 0.0, 0.1, 0.1, 0.2, 0.2])
+    assert found.positions == pytest.approx(np.array([[0.0, 2.1], [0.5, 2.6], [1.0, 2.9]]))
     with pytest.raises(RequestError, match="has no column 'weit', which --map names"):
         sandbox.fit("throws", track, {"launch.speed": (2, 20)}, columns={"weit": "x", "hoch": "y"})
 
@@ -264,6 +265,15 @@ def test_the_columns_of_a_device_are_known(tmp_path, carries, device):
     )
 
 
+def test_a_device_has_units_where_the_file_has_none(tmp_path, carries):
+    file, text = tmp_path / "shots.csv", devices(carries)["trackman"]
+    file.write_text(text.replace(",[mph],[deg],[rpm],[deg],[yds],[ft]\n", ""), "utf-8")
+    found = read_data(sandbox.load("golf"), [file], Reading())
+    assert found.given["launch.speed"] == pytest.approx(SHOTS["launch.speed"])
+    assert found.measured["carry"] == pytest.approx(carries[0])
+    assert found.measured["apex"] == pytest.approx(carries[1])
+
+
 def test_statcast_and_columns_by_hand(tmp_path):
     speeds, angles = [42.0, 45.0, 47.0], [24.0, 28.0, 31.0]
     points = {"launch.speed": speeds, "launch.angle": angles}
@@ -336,6 +346,9 @@ def test_launches_are_validated_by_their_columns(tmp_path, capsys, carries):
     assert call([*command, "--within", "carry=1%", "--within", "apex=2 ft"]) == 0
     rows = json.loads(capsys.readouterr().out)
     assert [row["holds"] for row in rows] == [True] * 8
+    first, second = rows[:2]
+    assert first["tolerance"] == pytest.approx(0.01 * float(first["value"]))
+    assert (second["tolerance"], second["unit"]) == (pytest.approx(0.6096), "m")
     assert call([*command, "--within", "carry=1%"]) == 2
     assert "say how far off apex may be" in capsys.readouterr().err
 
