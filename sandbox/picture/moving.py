@@ -180,7 +180,7 @@ class BallDrawing(SceneOptions[P]):
         placed, least = {}, self._least(in_frame)
         for name in self.present(t):
             radius = max(self.radii[name] * camera.scale, least)
-            x, y = self.spots(camera, np.array([self.run.state(name, t)[:2]]), radius, name)[0]
+            x, y = self.spots(camera, np.array([self.position_of(name, t)]), radius, name)[0]
             placed[name] = (float(x), float(y)), radius
         return placed
 
@@ -221,7 +221,7 @@ class BallDrawing(SceneOptions[P]):
         every = round_number_above(max(self.strobe_end, 0.01) / BALLS)
         moments = [i * every for i in range(max(1, ceil(self.story_end / every - 1e-9)))]
         radius, look = max(self.radius * camera.scale, mark_radius(self.rows)), self.looks[self.ball]
-        states = np.array([self.run.state(self.ball, t)[:2] for t in [*moments, self.story_end]])
+        states = np.array([self.position_of(self.ball, t) for t in [*moments, self.story_end]])
         *places, end = self.spots(camera, states, radius)
         over = self.last(camera)
         bead, last, crowded = min(BEAD * radius, max(2.0, LARGEST_BEAD * self.unit)), None, False

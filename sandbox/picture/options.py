@@ -173,6 +173,15 @@ class SceneOptions(Generic[P]):
         """The balls that hang on a string, each with the point in m where that is tied."""
         return ()
 
+    @property
+    def opening(self) -> pygame.Rect:
+        """The part of the picture in which the place is seen, in px: a path ends at its edge."""
+        return pygame.Rect((0, 0), self.size)
+
+    def position_of(self, name: str, t: float) -> tuple[float, float]:
+        """Where a ball is drawn at time t in s, in m: where it is, or where it ends up after it was caught."""
+        return self.run.state(name, t)[:2]
+
     def look_of(self, name: str) -> Look:
         """The look of a ball."""
         return self.LOOK

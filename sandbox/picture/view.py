@@ -152,7 +152,9 @@ class View(BallDrawing[P]):
         self._strings(painter, camera, self.story_end)
         for name, spot in placed.items():
             self.shadow(painter, camera, name, self.story_end, *spot)
+        sheet.surface.set_clip(self.opening)
         self._traces(sheet, camera)
+        sheet.surface.set_clip(None)
         yield "paths"
         every = self.strobe(sheet, camera)
         yield "along"

@@ -204,12 +204,14 @@ class Drawing:
             sheet.surface.blit(self.viewpoint.near(shot).frame(t), (0, 0))
             return ()
         sheet.surface.blit(stage.backdrop, (0, 0))
+        sheet.surface.set_clip(stage.picture.opening)
         if "ghosts" in shown.on:
             stage.draw_ghosts(sheet, self.game.ghosts)
         fan = self.fan.image(shot, stage.camera) if "fan" in shown.on and not shown.hides_path else None
         if fan is not None:
             sheet.surface.blit(*fan)
         stage.draw_path(sheet, shot, shown.until(shot))
+        sheet.surface.set_clip(None)
         stage.draw_balls(sheet, shot, t, shown.until(shot))
         if "arrows" not in shown.on:
             return ()

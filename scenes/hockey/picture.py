@@ -11,6 +11,7 @@ from itertools import chain, product
 from math import dist
 
 import numpy as np
+import pygame
 
 from sandbox.picture.palette import Colour, scene_colours
 from sandbox.picture.places import Shape, goal
@@ -84,14 +85,19 @@ class Picture(AboveView[Parameters]):
         area = super().area
         return area if self.table else area._replace(bottom=area.bottom - 12 * self.unit)
 
+    @property
+    def opening(self) -> pygame.Rect:
+        frame, area = self.sheet.frame, self.area
+        top, bottom = round(area.top - 8 * self.unit), round(area.bottom + 8 * self.unit)
+        return pygame.Rect(frame.left, top, frame.width, bottom - top)
+
     def backdrop(self, painter: Painter, camera: Camera) -> None:
         """The ice as through a window, so that text stands on dark ground."""
         super().backdrop(painter, camera)
-        frame, area, (width, height) = self.sheet.frame, self.area, self.size
-        top, bottom = round(area.top - 8 * self.unit), round(area.bottom + 8 * self.unit)
+        (width, height), ice = self.size, self.opening
         for left, high, right, low in (
-            *((0, 0, width, top), (0, bottom, width, height)),
-            *((0, top, frame.left, bottom), (frame.right, top, width, bottom)),
+            *((0, 0, width, ice.top), (0, ice.bottom, width, height)),
+            *((0, ice.top, ice.left, ice.bottom), (ice.right, ice.top, width, ice.bottom)),
         ):
             painter.surface.fill(COLOURS["hall"], (left, high, right - left, low - high))
 

@@ -171,10 +171,16 @@ def _word(run: Run, parameters: Parameters) -> str:
     return "post" if "post" in touches(run, parameters) else "wide" if farthest > line - 0.1 else "short"
 
 
+def _off_boards(run: Run, parameters: Parameters) -> int:
+    """How often the puck goes off the boards, until the shot is decided."""
+    end = decided(run, parameters)[0]
+    return sum(what == "boards" and event.t <= end for what, event in collisions_of(run, "puck"))
+
+
 FACTS = (
     Fact("speed", "at the end", "m/s", lambda run, it: before(run, decided(run, it)[0], "puck").speed, also="mph"),
     Fact("time", "time", "s", lambda run, it: decided(run, it)[0]),
-    Fact("boards", "off the boards", "", lambda run, it: touches(run, it).count("boards")),
+    Fact("boards", "off the boards", "", _off_boards),
     Fact("release", "release", "m/s", lambda run, it: it.launch.speed, "start", also="mph"),
     Fact("goal", "", "", lambda run, it: "puck" in removed_by(run)),
     Fact("saved", "", "", lambda run, it: _word(run, it) == "saved"),

@@ -14,6 +14,8 @@ from .scene import BOARD, Parameters
 COLOURS = scene_colours(__file__)
 #: Width in m of the boards around the lane, and radius of the post of a windmill.
 FRAME, POST = 0.09, 0.04
+#: So much of the lane is seen behind tee and hole, and behind where the ball turns round, in m.
+AROUND = 1.0
 #: Shades of a ramp.
 BANDS = 24
 
@@ -34,9 +36,17 @@ class Picture(AboveView[Parameters]):
 
     @cached_property
     def seen(self) -> np.ndarray:
-        """The whole lane with its boards."""
-        half = np.array([0.5 * self.parameters.lane.length + FRAME, 0.5 * self.parameters.lane.width + FRAME])
-        return np.array([-half, half])
+        """The lane with its boards, from behind the tee to behind the hole, and to where the ball goes."""
+        it = self.parameters
+        half = np.array([0.5 * it.lane.length + FRAME, 0.5 * it.lane.width + FRAME])
+        along = [it.ball.x, it.hole.x, *self.points[:, 0]]
+        (left, low), (right, high) = -half, half
+        return np.array([(max(left, min(along) - AROUND), low), (min(right, max(along) + AROUND), high)])
+
+    def position_of(self, name: str, t: float) -> tuple[float, float]:
+        """A ball that the hole has caught lies in its middle."""
+        hole = self.parameters.hole
+        return (hole.x, hole.y) if t >= self.caught[name] else super().position_of(name, t)
 
     @cached_property
     def plan(self) -> plan.Plan:
