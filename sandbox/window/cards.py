@@ -73,7 +73,8 @@ class Cards:
         if contest is not None and referee.tells:
             text, said, colour = headline_of(referee, contest)
             notes = notes if self.game.grasp.holds else said
-            entries, forces = [*contest.entries, *([("aimed", shot.aimed)] if playback is None else [])], ()
+            pulled = playback is None and self.game.session.may_change(aim_keys(shot))
+            entries, forces = [*contest.entries, *([("aimed", shot.aimed)] if pulled else [])], ()
         self.draw_head(sheet, layout, text, notes, colour)
         numbers, overlay = pygame.Rect(0, sheet.card_row(), *sheet.size), self.shown.overlay
         if overlay is None or not overlay.place(self.screen.whole).colliderect(numbers):
@@ -156,6 +157,11 @@ class Cards:
             others = [("x", metres(x)), ("y", metres(y)), *picture.moving(read.ball, read.t)]
             entries = picture.live(read.t) if read.ball == shot.ball else others
             draw_reading(sheet, layout, shot, read, entries)
+
+
+def aim_keys(shot: Shot) -> tuple[str, str]:
+    """The keys of what a pull sets."""
+    return shot.scene.controls.speed, shot.scene.controls.angle
 
 
 def _why_none(job: LatestJob[Any], what: str) -> str:

@@ -6,6 +6,7 @@ of his aim, and is told what came of each shot. It knows nothing of the window.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from math import inf
@@ -55,6 +56,14 @@ class Contest:
     def limits(self) -> Limits | None:
         """What the player may set; None for everything."""
         raise NotImplementedError
+
+    @property
+    def aimed_by_panel(self) -> bool:
+        """True if the player sets something that no pull, wheel or handle does."""
+        controls = self.scene.controls
+        easy = {controls.speed, controls.angle, *(spin.key for spin in controls.spins)}
+        dragged = {key for handle in controls.handles for key in (handle.x, handle.y)}
+        return any(key not in easy and re.sub(r"\[\d+\]", "[*]", key) not in dragged for key in self.limits or ())
 
     @property
     def missing(self) -> str:

@@ -112,13 +112,16 @@ class Panel(Overlay):
     @property
     def groups(self) -> dict[str, list[Parameter]]:
         """Parameters by heading, those with a slider in the scene's controls first."""
-        scene = self.game.session.scene
-        groups: dict[str, list[Parameter]] = self._once("groups", (scene,), self._groups)
+        session = self.game.session
+        groups: dict[str, list[Parameter]] = self._once("groups", (session.scene, session.limits), self._groups)
         return groups
 
     def _groups(self) -> dict[str, list[Parameter]]:
         session = self.game.session
         by_key = {key: p for key, p in session.parameters.items() if _can_be_shown(p)}
+        if session.limits is not None:  # of a contest
+            within = session.limits.items()
+            return {FAVOURITES: [by_key[key]._replace(low=a, high=b) for key, (a, b) in within if key in by_key]}
         sliders = session.controls.sliders
         groups = {FAVOURITES: [p for slider in sliders for key, p in by_key.items() if slider in (key, key[:-3])]}
         for key, parameter in by_key.items():

@@ -28,7 +28,8 @@ CHOICES = (("Enter", "play again"), ("1", "other tasks and games"), ("N, P", "se
 def headline_of(referee: Referee, contest: Contest) -> tuple[str, list[str], Colour]:
     """The headline while a contest is aimed, or once its shot was counted; a line of notes; and the colour."""
     if referee.watching.playback is None:
-        notes = [contest.stand] if contest.takes_marks else [contest.stand, "pull back anywhere and let go"]
+        how = "set the sliders and press Space" if contest.aimed_by_panel else "pull back anywhere and let go"
+        notes = [contest.stand] if contest.takes_marks else [contest.stand, how]
         return contest.headline, notes, CARD["text"]
     if contest.over:
         return contest.said, ["the best shots, the best last"] if referee.again == "best" else [], CARD["text"]

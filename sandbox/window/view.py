@@ -59,6 +59,7 @@ class View:
             game, self.screen, self.shown, self.stages, self.viewpoint, self.fan, self.targets, self.cards
         )
         self.changed = True  # something that is not ``seen``
+        self._contest: Any = None  # of the last frame
         self._drawn: Any = None  # what was seen in the picture drawn last
 
     def lay_out(self) -> None:
@@ -116,9 +117,19 @@ class View:
         for hint, done in {"shoot": game.shots.count, "drag": game.grasp.grip, "menu": in_menu}.items():
             if done:
                 game.memory.follow(hint)
+        self._open_panel()
         self.changed |= self.stages.follow(dt)
         self.changed |= self.fan.follow()
         self.changed |= self.map.follow()
+
+    def _open_panel(self) -> None:
+        """Open the panel for a contest in which something is set there."""
+        contest = self.game.referee.contest
+        if contest is not self._contest:
+            self._contest = contest
+            if contest is not None and contest.aimed_by_panel and not self.shown.has_panel:
+                self.shown.on.add("panel")
+                self.lay_out()
 
     # Drawing
 

@@ -112,7 +112,7 @@ class Pool(Match):
     @property
     def start(self) -> Mapping[str, Any]:
         if self.balls is None:
-            return {"rack": self.rack, "balls": [{"name": CUE, "x": -0.25 * LENGTH, "y": 0.1}], "cue.ball": CUE}
+            return {"rack": self.rack, "balls": [{"name": CUE, "x": -0.25 * LENGTH, "y": 0.2}], "cue.ball": CUE}
         spots = [{"name": name, "x": x, "y": y} for name, (x, y) in self.balls.items()]
         x0, y0 = self.balls[CUE]
         near = min((self.balls[name] for name in self.targets if name in self.balls), key=lambda at: dist(at, (x0, y0)))

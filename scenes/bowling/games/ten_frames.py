@@ -52,7 +52,7 @@ class TenFrames(Match):
         balls = (pins,) if fresh else (*own[-1], pins)
         own = (*(own if fresh else own[:-1]), balls)
         last, full = len(own) == FRAMES, self.standing == ALL
-        what = "strike" if full and not leaves else "spare" if not leaves else f"{pins} down"
+        what = "strike" if full and not leaves else "spare" if not leaves else f"{pins or 'no pin'} down"
         both = (own, self.frames[1]) if self.turn == 0 else (self.frames[0], own)
         said, done = f"{self.player}: {what}", closed(balls, last)
         if done and last and self.turn == 1:
