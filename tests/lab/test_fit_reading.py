@@ -16,6 +16,7 @@ from sandbox.lab.fit.data import Reading, data_of, read_data, table_of
 from sandbox.lab.fit.formats import forms, parse_entry, recognized
 from sandbox.lab.fit.outline import distances
 from sandbox.lab.fit.reading import Film, measurements, parse_scale
+from sandbox.lab.fit.report import as_text
 from sandbox.lab.table_file import read_table
 
 PLAIN = Film()
@@ -214,6 +215,7 @@ def test_places_without_times_are_enough_for_a_throw():
     assert found.values["launch.angle"].value == pytest.approx(41.0, abs=0.3)
     assert found.residual_sd["distance"] == pytest.approx(0.02, rel=0.4)
     assert any("nearest place of the path" in remark for remark in found.remarks)
+    assert found.end == pytest.approx(run.duration, rel=0.05)  # up to where its path is drawn
 
 
 SHOTS = {"launch.speed": [60.0, 65.0, 70.0, 72.0], "launch.angle": [12.0, 14.0, 11.0, 13.0],
@@ -299,6 +301,15 @@ def test_statcast_and_columns_by_hand(tmp_path):
     assert "Up has no unit: taken as deg" in by_hand.remarks
     with pytest.raises(RequestError, match="units are mixed: Exit is in km/h, but --map says mph"):
         sandbox.fit("baseball", {"Exit (km/h)": [1], "Far": [3], "Up": [2]}, {"launch.spin": (1, 2)}, columns=columns)
+
+
+def test_results_that_a_run_meets_exactly_are_no_error():
+    speeds = {"launch.speed": [10.0, 12.0, 14.0]}
+    apexes = sandbox.simulate_many("throws", speeds, facts=("apex",))["apex"]
+    columns = {"launch.speed": "launch.speed m/s", "apex": "apex m"}
+    found = sandbox.fit("throws", {**speeds, "apex": apexes}, {"gravity": (8, 12)}, columns=columns)
+    assert found.values["gravity"].value == pytest.approx(9.81, abs=1e-9)
+    assert as_text(found)
 
 
 def test_known_columns_are_listed_without_a_scene():

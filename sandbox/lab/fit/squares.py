@@ -34,6 +34,10 @@ ROUNDS = 3
 #: share of a range; and how often they are made smaller.
 FIRST_STEP, WIDEST_STEP, SHRINKING = 300.0, 0.02, 6
 
+#: A standard deviation that is smaller than this, in its unit, is rounding; and so are residuals that are a smaller
+#: share than this of what the ranges change.
+ROUNDING, ROUNDING_SHARE = 1e-12, 1e-8
+
 #: A share of its range within which a value is at its end.
 AT_END = 1e-6
 
@@ -171,7 +175,7 @@ def _refined(problem: Problem, place: Place, robust: bool) -> tuple[Place, np.nd
         return place, sds, TUKEYS
     for _ in range(ROUNDS):
         by_group = pooled(group_sds(place.residuals, place.slopes, used, groups), counts, units)
-        by_group = np.maximum(by_group, max(1e-9 * float(by_group.max()), 1e-300))
+        by_group = np.maximum(by_group, max(1e-9 * float(by_group.max()), ROUNDING))
         sds = by_group[groups]
         if np.ptp(sds / used) <= 0.02 * float((sds / used).min()):
             break
@@ -203,26 +207,30 @@ def _finished(problem: Problem, place: Place, sds: np.ndarray, loss: Loss) -> Fi
         bool(np.ptp(sds) == 0.0),
         loss.name,
         tuple(np.unique(measured.rows[~kept]).tolist()),
-        _pattern(problem, np.where(kept, place.residuals, 0.0)),
+        _pattern(problem, np.where(kept, place.residuals, 0.0), place.slopes),
         measured.remarks(best, values[len(problem.scene_keys) :]),
         -place.slopes / problem.width,
         *_late(problem, best, values[len(problem.scene_keys) :]),
     )
 
 
-def _pattern(problem: Problem, residuals: np.ndarray) -> float:
-    """How many times larger residuals are than those of neighbours differ; 0.0 if they are not, or are too few."""
+def _pattern(problem: Problem, residuals: np.ndarray, slopes: np.ndarray) -> float:
+    """How many times larger residuals are than those of neighbours differ; 0.0 if they are not, are too few, or are
+    rounding."""
+    if np.sqrt((residuals**2).mean()) < ROUNDING_SHARE * np.abs(slopes).max():
+        return 0.0
     ratio = neumann(problem.measured.groups, residuals)
     return 0.0 if ratio == 0.0 or ratio >= ALIKE else float(np.sqrt(2.0 / ratio))
 
 
 def _late(problem: Problem, best: Scene, free: Sequence[float]) -> tuple[int, float]:
-    """The points after the end of the scene's own run, where balls still move; and that end in s."""
+    """The points after the end of the scene's own run, where balls still move; and that end in s, for places without
+    times too."""
     points = problem.measured.points(best, free)
-    if points is None or np.isnan(points.t).all():
+    if points is None:
         return 0, inf
     run = next(runs(best, (), [()], asked=()))
-    if isinstance(run, Exception) or run.ended == "rest":
+    if isinstance(run, Exception) or (run.ended == "rest" and not np.isnan(points.t).all()):
         return 0, inf
     return int((points.t > run.duration * (1.0 + 1e-9)).sum()), run.duration
 
@@ -247,5 +255,6 @@ def check_near(scene: Scene, measured: Measured, residuals: np.ndarray) -> None:
     if off > NOTHING * extent and neumann(measured.groups, residuals) < ALIKE:
         raise RequestError(
             f"no run of {scene.title} in these ranges comes near this track: the best is off by {off:.3g} m on "
-            "average. Is it of this scene, in m and s from its origin, and are the ranges wide enough?"
+            "average. Is it of this scene, in m and s from its origin (or --free time,origin), and are the ranges wide "
+            "enough?"
         )
