@@ -27,12 +27,13 @@ def serve(scenes: tuple[str, ...], port: int | None, share: bool, jobs: int | No
     """Play in any browser: on this computer or, with --share, on every phone and tablet in the room.
 
     All computing is done here. The first address is for players; the second is the teacher's: who is there, one scene
-    for all, everybody's shots. SCENE is a scene with its presets, one preset or a scene file; all scenes by default.
+    for all, everybody's shots. SCENE is a scene with its presets, one preset, a task or a scene file; all scenes and tasks by default.
 
     \b
     Examples:
       sandbox serve
       sandbox serve golf basketball --share
+      sandbox serve free-throw
     """
     from importlib.util import find_spec
 

@@ -180,6 +180,11 @@ def _looks(view: View[Any]) -> list[balls.Look]:
     return list({id(view.looks[name]): view.looks[name] for name in view.balls}.values())
 
 
+def path_until(arcs: Path, until: float) -> dict[str, Any]:
+    """Return the path of a ball until a time in s; at 0 s, where it begins."""
+    return _path(Path([arc.until(until) for arc in arcs if arc.t0 <= until]))
+
+
 def _path(arcs: Path) -> dict[str, Any]:
     """The arcs of a ball, each until the next begins where it does not say otherwise.
 

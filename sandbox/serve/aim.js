@@ -163,6 +163,17 @@ class Aim extends Player {
   }
 }
 
+/** The list of all scenes, by sport, and of the tasks. */
+function fillScenes(list, scenes) {
+  const groups = new Map();
+  for (const [name, about, isTask] of scenes) {
+    const group = isTask ? "tasks" : name.startsWith(".") ? name : name.split("/")[0];
+    if (!groups.has(group)) groups.set(group, Object.assign(document.createElement("optgroup"), { label: group }));
+    groups.get(group).append(Object.assign(new Option(name, name), { title: about }));
+  }
+  list.replaceChildren(...(groups.size === 1 ? [...groups.values()][0].children : groups.values()));
+}
+
 /** A histogram: bars of shots that score, and of the rest on them. */
 function drawBars(canvas, good, rest, [low, high]) {
   const density = Math.max(1, devicePixelRatio || 1), [wide, tall] = [canvas.clientWidth, canvas.clientHeight], foot = 16;

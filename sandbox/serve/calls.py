@@ -4,10 +4,29 @@ scenes, is never imported in its own process."""
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, Literal, TypedDict
+from typing import Any, Literal, NamedTuple, TypedDict
 
 Changes = Mapping[str, Any]
 Kind = Literal["path", "hidden", "stage", "fan", "shot"]
+
+
+class Game(NamedTuple):
+    """Where a player is in a task: the seed of its starts, which player he is, and what he set for each shot so far."""
+
+    seed: int
+    player: int
+    shots: tuple[Mapping[str, float], ...] = ()
+
+
+class Ask(NamedTuple):
+    """What a player asks for: a scene with changes or, with a ``game``, a task with its controls set."""
+
+    source: str
+    changes: Changes
+    n: int  # by which the browser recognises the answer
+    narrow: bool = False  # for a phone
+    units: str = "si"
+    game: Game | None = None
 
 
 class Reply(TypedDict, total=False):
@@ -18,18 +37,18 @@ class Reply(TypedDict, total=False):
     error: str
 
 
-def described(source: str) -> Reply:
-    """A scene for the browser: its parameters with their bounds, what a pull does, the results it can predict."""
+def described(source: str, is_task: bool) -> Reply:
+    """A scene or task for the browser: its parameters with their bounds, what a pull does, the results to predict."""
     from sandbox.serve import work
 
-    return work.described(source)
+    return work.described(source, is_task)
 
 
-def computed(kind: Kind, source: str, changes: Changes, n: int, narrow: bool, units: str) -> Reply:
-    """The path, the place, the fan or the whole shot of a scene with these parameters; or a hidden path's start."""
+def computed(kind: Kind, ask: Ask) -> Reply:
+    """The path, the place, the fan or the whole shot that is asked for; or the start of a hidden path."""
     from sandbox.serve import work
 
-    return work.WORKS[kind](source, changes, n, narrow, units)
+    return work.WORKS[kind](ask)
 
 
 def warmed(sources: Sequence[str]) -> Reply:

@@ -104,7 +104,7 @@ const hands = {
     if (parameter) set({ ...state.scene.pull.sets, [spin.key]: within(parameter, rounded(value(spin.key) + by * spin.step, 6)) });
   },
   shoot() {
-    if (!player || state.lead.frozen) return;
+    if (!player || $("shoot").disabled) return;
     const message = { changes: state.changes };
     if (state.lead.predict) {
       if (!$("prediction").reportValidity()) return;
@@ -129,13 +129,7 @@ const heard = {
   welcome({ session, name, scenes }) {
     sessionStorage.setItem("session", session);
     $("name").value = state.name = name;
-    const groups = new Map();
-    for (const [scene, about] of Object.entries(scenes)) {
-      const sport = scene.startsWith(".") ? scene : scene.split("/")[0];
-      if (!groups.has(sport)) groups.set(sport, Object.assign(document.createElement("optgroup"), { label: sport }));
-      groups.get(sport).append(Object.assign(new Option(scene, scene), { title: about }));
-    }
-    $("scene").replaceChildren(...(groups.size === 1 ? [...groups.values()][0].children : groups.values()));
+    fillScenes($("scene"), scenes);
   },
   name({ name }) {
     state.name = name;
@@ -148,12 +142,12 @@ const heard = {
     $("prediction").hidden = !lead.predict;
     if (state.scene) predicting();
     told("frozen", lead.frozen ? "The teacher has stopped the game for a moment." : "");
-    $("shoot").disabled = lead.frozen || !state.run;
+    mayShoot();
     if (player && state.scene && (before.predict || "") !== lead.predict && !state.shot) changed(true);
     else if (before.frozen && !lead.frozen && state.scene) changed(true);
   },
   scene(scene) {
-    const other = state.source !== scene.source;
+    const other = state.source !== scene.source || scene.task;
     Object.assign(state, { source: scene.source, changes: { ...scene.changes }, scene, shot: false });
     scene.by = new Map(scene.parameters.map((each) => [each.key, each]));
     if (other || !state.stage) Object.assign(state, { stage: null, run: null, compared: [] });
@@ -179,7 +173,6 @@ const heard = {
     if (!ask.path.answered(n) || state.shot) return;
     state.run = run;
     tell("");
-    $("shoot").disabled = Boolean(state.lead.frozen);
     show(run);
   },
   shot({ n, run }) {
@@ -218,13 +211,28 @@ function show(run, composed = false) {
   else player.aim(data);
   const line = player.main.line, spread = (axis) => Math.max(...line.map((p) => p[axis])) - Math.min(...line.map((p) => p[axis]));
   if (composed) player.reach = Math.max(spread(0) / player.view.size[0], spread(1) / player.view.size[1]);
-  $("verdict").textContent = run.hidden ? `Predict the ${fact()?.label ?? "result"}, then shoot` : run.verdict;
+  const goal = state.lead.predict ? `Predict the ${fact()?.label ?? "result"}, then shoot` : scene.about;
+  $("verdict").textContent = run.hidden ? goal : run.verdict;
+  standing(run.task);
+  mayShoot();
   $("notes").textContent = stage.view.notes.join("   ·   ");
   player.heading($("picture").clientWidth);
   card(run, ghosts);
   const small = stage.view.size[0] < 1000;
   if (!composed && (run.place !== stage.place || small !== narrow() || !(run.hidden || player.inSight))) later("stage", STILL, askStage);
   $("keep").disabled = Boolean(run.hidden);
+}
+
+/** Where the player is in a task. */
+function standing(task) {
+  $("standing").hidden = $("restart").hidden = !task;
+  if (!task) return;
+  const stars = "★".repeat(task.stars) + "☆".repeat(3 - task.stars);
+  $("standing").textContent = task.over ? `${task.total}: ${task.passed ? "passed" : "not passed"} ${stars}` : `attempt ${task.attempt} of ${task.attempts} · ${task.total}`;
+}
+
+function mayShoot() {
+  $("shoot").disabled = Boolean(state.lead.frozen) || !state.run || Boolean(state.run.task?.over);
 }
 
 /** The results, with those of the shots that are compared. */
@@ -361,6 +369,7 @@ function begin() {
   $("shoot").addEventListener("click", () => hands.shoot());
   $("prediction").addEventListener("submit", (event) => (event.preventDefault(), hands.shoot()));
   $("again").addEventListener("click", () => again(true));
+  $("restart").addEventListener("click", () => wire.send({ do: "play", source: state.source, changes: {} }));
   $("reset").addEventListener("click", () => ((state.changes = {}), changed(true)));
   $("keep").addEventListener("click", keep);
   $("drop").addEventListener("click", () => ((state.compared = []), compare(), state.run && show(state.run)));

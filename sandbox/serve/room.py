@@ -18,10 +18,11 @@ from sandbox.serve.limits import HELLO, PLAYERS, REMEMBERED, ROWS
 
 
 class Listed(NamedTuple):
-    """A scene that may be played here: its source as ``load`` takes it, and a line about it."""
+    """A scene or task that may be played here: its source as ``load`` takes it, and a line about it."""
 
     source: str
     about: str
+    is_task: bool = False
 
 
 class Row(NamedTuple):
@@ -52,6 +53,8 @@ class Player:
     seen: float = 0.0  # s, on the clock of monotonic
     shots: int = 0
     last: dict[str, Any] | None = None  # what the others see of the last shot
+    tries: list[Mapping[str, Any]] = field(default_factory=list)  # in a task: what was set for each shot
+    shooting: bool = False  # a shot is being computed
 
 
 @dataclass(eq=False)
@@ -78,6 +81,7 @@ class Room:
         self.lead = Lead()
         self.rows: deque[Row] = deque(maxlen=ROWS)
         self.counted = 0
+        self.seed = secrets.randbelow(2**31)  # of tasks: the same starts for all
         self._numbered = 0
         self._described: dict[str, asyncio.Task[Mapping[str, Any]]] = {}
         self._tasks: set[asyncio.Task[None]] = set()
@@ -98,7 +102,7 @@ class Room:
             raise
 
     async def _describe(self, name: str, listed: Listed) -> Mapping[str, Any]:
-        reply = await self.lanes.compute("described", name, "described", calls.described, listed.source)
+        reply = await self.lanes.compute("described", name, "described", calls.described, listed.source, listed.is_task)
         if reply is None or "error" in reply:
             raise RequestError(reply["error"] if reply else "this scene could not be loaded")
         kept = reply["kept"]
@@ -109,6 +113,10 @@ class Room:
         scene = await self.described(name)
         messages.check(changes, scene["by_key"])
         return scene
+
+    def _listed(self) -> list[tuple[str, str, bool]]:
+        """Name, a line, and whether it is a task, of all that may be played."""
+        return [(name, each.about, each.is_task) for name, each in self.scenes.items()]
 
     # A player
 
@@ -154,10 +162,10 @@ class Room:
         if self.lead.source and self.lead.source != asked[0]:
             asked = self.lead.source, self.lead.changes
         connection.send("welcome", {"session": player.session, "number": player.number, "name": player.name,
-                                    "scenes": {name: each.about for name, each in self.scenes.items()}})  # fmt: skip
+                                    "scenes": self._listed()})  # fmt: skip
         connection.send("lead", self.lead.as_message())
         try:
-            await self._open(player, *asked)
+            await self._open(player, asked[0], asked[1], again=asked[0] == player.source)
         except RequestError as error:  # such as a link of another version
             connection.tell(str(error))
             await self._open(player, self.lead.source or self.first, self.lead.changes)
@@ -184,9 +192,12 @@ class Room:
             if now - player.seen > REMEMBERED or len(self.players) >= 4 * PLAYERS:
                 del self.players[player.session]
 
-    async def _open(self, player: Player, name: str, changes: Mapping[str, Any]) -> None:
-        """Let a player play a scene. Raises RequestError."""
+    async def _open(self, player: Player, name: str, changes: Mapping[str, Any], again: bool = False) -> None:
+        """Let a player play a scene, or a task from its first attempt, unless he plays it ``again``. Raises
+        RequestError."""
         scene = await self._checked(name, changes)
+        if not again:
+            player.tries = []
         player.source, player.changes = name, dict(changes)
         shown = {key: value for key, value in scene.items() if key != "by_key"}
         if player.connection is not None:
@@ -210,6 +221,9 @@ class Room:
                     raise RequestError("the teacher has stopped the game for a moment")
                 player.changes = dict(message.changes)
                 if isinstance(message, messages.Shoot):
+                    if player.shooting:
+                        raise RequestError("the shot before is still being computed")
+                    player.shooting = True
                     self._compute(player, "shot", message, self._shot_done(player, message))
                 elif not self.lead.predict or message.do == "stage":
                     self._compute(player, message.do, message, None)
@@ -225,11 +239,22 @@ class Room:
         task.add_done_callback(self._tasks.discard)
 
     async def _computed(self, player: Player, kind: calls.Kind, message: Any, done: Any) -> None:
-        source, narrow = player.source, getattr(message, "narrow", False)
-        args = (kind, self.scenes[source].source, dict(message.changes), message.n, narrow, self.units)
+        source, changes, tries = player.source, dict(message.changes), player.tries
+        if kind == "stage" and self.lead.predict:  # where the picture ends would tell where the shot does
+            pull = (await self.described(source))["pull"] or {}
+            changes = {
+                key: value for key, value in changes.items() if key not in (pull.get("speed"), pull.get("angle"))
+            }
+        game = calls.Game(self.seed, player.number, tuple(tries)) if self.scenes[source].is_task else None
+        narrow = getattr(message, "narrow", False)
+        ask = calls.Ask(self.scenes[source].source, changes, message.n, narrow, self.units, game)
         turn = player.session, kind == "fan"
-        reply = await self.lanes.compute(turn, kind, (kind, source), calls.computed, *args)
+        reply = await self.lanes.compute(turn, kind, (kind, source), calls.computed, kind, ask)
         connection = player.connection
+        if kind == "shot":
+            player.shooting = False
+            if reply is not None and "error" not in reply:
+                tries.append(changes)  # a new game has a new list
         if reply is None or connection is None:
             return
         if "error" in reply:
@@ -247,7 +272,8 @@ class Room:
         def done(source: str, kept: Mapping[str, Any]) -> None:
             self.counted += 1
             player.shots += 1
-            player.last = {"line": kept["line"], "scored": kept["scored"], "verdict": kept["verdict"], "source": source}
+            seen = {key: kept.get(key) for key in ("line", "scored", "verdict", "task")}
+            player.last = {**seen, "source": source}
             predicted = message.predicted if fact else None
             self.rows.append(Row(self.counted, player.number, player.name, source, dict(message.changes),
                                  kept["verdict"], kept["scored"], kept["facts"], fact, predicted))  # fmt: skip
@@ -275,13 +301,16 @@ class Room:
         lead = self.lead
         match message:
             case messages.Hello():
-                connection.send("welcome", {"scenes": {name: each.about for name, each in self.scenes.items()}})
+                connection.send("welcome", {"scenes": self._listed()})
                 await self._show(connection)
             case messages.Aim():
                 source = lead.source or self.first
                 await self._checked(source, message.changes)
-                args = (message.do, self.scenes[source].source, message.changes, message.n, message.narrow, self.units)
-                reply = await self.lanes.compute(connection, message.do, (message.do, source), calls.computed, *args)
+                listed = self.scenes[source]
+                game = calls.Game(self.seed, 0) if listed.is_task else None
+                ask = calls.Ask(listed.source, message.changes, message.n, message.narrow, self.units, game)
+                alike = message.do, source
+                reply = await self.lanes.compute(connection, message.do, alike, calls.computed, message.do, ask)
                 if reply is not None and "error" in reply:
                     connection.tell(reply["error"])
                 elif reply is not None:
@@ -291,6 +320,7 @@ class Room:
                 if message.source:
                     await self._checked(message.source, message.changes)
                 self.lead = Lead(message.source, dict(message.changes), lead.frozen, "")
+                self.seed = secrets.randbelow(2**31)
                 for player in list(self.players.values()):
                     if message.source:
                         player.last = None

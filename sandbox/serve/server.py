@@ -14,7 +14,7 @@ from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from sandbox.errors import RequestError
 from sandbox.files import reason
-from sandbox.scene.finding import folder_of, listings, listings_of
+from sandbox.scene.finding import first_comment, folder_of, listings, listings_of
 from sandbox.serve import calls
 from sandbox.serve.app import Tokens, app_of
 from sandbox.serve.lanes import Lanes
@@ -42,12 +42,18 @@ class Address(NamedTuple):
 
 
 def scenes_of(names: Sequence[str]) -> dict[str, Listed]:
-    """The scenes that may be played, each with its presets, by the names that are shown; all installed ones by
-    default. Raises RequestError. No scene is imported for this."""
+    """The scenes that may be played, each with its presets, and tasks, by the names that are shown; all installed ones
+    by default. Raises RequestError. No scene is imported for this."""
+    from sandbox.tasks import find_task, is_task, tasks
+
     if not names:
-        return {each.name: Listed(each.name, each.about) for each in listings()}
-    found: dict[str, Listed] = {}
+        found = {each.name: Listed(each.name, each.about) for each in listings()}
+        return found | {name: Listed(name, first_comment(find_task(name)), True) for name in tasks()}
+    found = {}
     for name in names:
+        if is_task(name):
+            found[name] = Listed(name, first_comment(find_task(name)), True)
+            continue
         listed = listings_of(name)
         exact = [each for each in listed if each.name == name]
         if "/" in name and exact and folder_of(name) is not None:
@@ -89,7 +95,7 @@ async def _serve(
     hosts = {f"{name}:{port}" for name in (LOOPBACK, "localhost", host, *([socket.gethostname()] if share else []))}
     lanes = Lanes(options.jobs)
     try:
-        sources = list(dict.fromkeys(each.source for each in list(scenes.values())[:WARMED]))
+        sources = list(dict.fromkeys(each.source for each in list(scenes.values())[:WARMED] if not each.is_task))
         await _checked(lanes, scenes)
         warming = asyncio.create_task(lanes.each(calls.warmed, sources))
         room = Room(scenes, lanes, options.units)
@@ -125,7 +131,7 @@ class _Asking(H11Protocol):
 async def _checked(lanes: Lanes, scenes: dict[str, Listed]) -> None:
     """Raise RequestError if the first scene cannot be loaded, before players come."""
     first = next(iter(scenes.values()))
-    reply = await lanes.compute("first", "", "described", calls.described, first.source)
+    reply = await lanes.compute("first", "", "described", calls.described, first.source, first.is_task)
     if reply is not None and "error" in reply:
         raise RequestError(reply["error"])
 

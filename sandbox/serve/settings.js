@@ -31,6 +31,7 @@ class Settings {
       field.append(legend, ...rows);
       return field;
     }));
+    this.rest.parentElement.hidden = !groups.size;
   }
 
   row(parameter) {

@@ -1,12 +1,13 @@
 // The page of the teacher: who is there, what is played, everybody's shots.
 
 const COLOURS = ["#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00"]; // Okabe and Ito
+const LIGHT = ["#56B4E9", "#E69F00", "#2BB673", "#CC79A7", "#F0E442", "#FF8A5B"]; // on a dark place
 const BARS = 16;
 
 const state = { source: "", changes: {}, scene: null, stage: null, run: null, room: { players: [], rows: [] } };
 let board = null, wire, ask, settings;
 
-const colourOf = (number) => COLOURS[(number - 1) % COLOURS.length];
+const colourOf = (number) => (state.stage?.dark ? LIGHT : COLOURS)[(number - 1) % COLOURS.length];
 
 /** Everybody's last shots, on the place of the scene; nothing is played. */
 class Board extends Player {
@@ -49,7 +50,7 @@ class Board extends Player {
 
 const heard = {
   welcome({ scenes }) {
-    $("scene").replaceChildren(...Object.entries(scenes).map(([name, about]) => Object.assign(new Option(name, name), { title: about })));
+    fillScenes($("scene"), scenes);
   },
   scene(scene) {
     Object.assign(state, { source: scene.source, changes: { ...scene.changes }, scene });
@@ -69,6 +70,7 @@ const heard = {
     state.stage = await staged(stage);
     document.querySelector(".picture").classList.toggle("dark", stage.dark);
     show();
+    shown();
   },
   path({ n, run }) {
     if (!ask.path.answered(n)) return;
@@ -99,6 +101,7 @@ const cell = (kind, text, name = "") => Object.assign(document.createElement(kin
 
 /** Players, table and histogram. */
 function shown() {
+  if (!state.room.lead) return;
   const { lead, players, rows } = state.room, here = players.filter((each) => each.here);
   $("freeze").setAttribute("aria-pressed", lead.frozen);
   $("freeze").textContent = lead.frozen ? "Go on" : "Freeze";
@@ -108,7 +111,7 @@ function shown() {
   $("players").replaceChildren(...players.map((each) => {
     const item = cell("li", "", each.here ? "" : "away"), dot = document.createElement("i");
     dot.style.background = colourOf(each.number);
-    item.append(dot, each.name, cell("span", ` ${each.shots ? `${each.shots} ${each.shots === 1 ? "shot" : "shots"}` : ""}${each.here ? "" : " away"}`));
+    item.append(dot, each.name, cell("span", ` ${each.shots ? `${each.shots} ${each.shots === 1 ? "shot" : "shots"}` : ""}${each.last?.task ? `, ${each.last.task.total}${each.last.task.over ? ` ${"★".repeat(each.last.task.stars)}` : ""}` : ""}${each.here ? "" : " away"}`));
     return item;
   }));
   table(rows);

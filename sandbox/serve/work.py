@@ -18,7 +18,7 @@ import numpy as np
 
 from sandbox.errors import RunError, SandboxError
 from sandbox.page.parts import css
-from sandbox.page.playing import MOST_EVENTS, force_data, path_data, place_data, stage_data
+from sandbox.page.playing import MOST_EVENTS, force_data, path_data, path_until, place_data, stage_data
 from sandbox.page.replay import LAYOUTS
 from sandbox.parameters import Parameter, walk
 from sandbox.picture.energy_chart import bands_of, held_at_the_end
@@ -27,10 +27,12 @@ from sandbox.picture.sheet import CARD, DENSITY
 from sandbox.picture.view import View
 from sandbox.scene import Scene, load, simulate
 from sandbox.scene.scene_run import SceneRun
-from sandbox.serve.calls import Changes, Kind, Reply
+from sandbox.serve import sessions
+from sandbox.serve.calls import Ask, Kind, Reply
 from sandbox.serve.limits import FAN, MEMORY, RESULT
 from sandbox.sport.amounts import shown_in
 from sandbox.sport.readings import words_of
+from sandbox.tasks import Session
 from sandbox.tracebacks import one_line_error
 from sandbox.window.aim import PUSH, Speeds, pull_speeds
 from sandbox.window.fan import fan_of
@@ -109,24 +111,29 @@ def rounded(value: Any, digits: int = DIGITS) -> Any:
 
 
 @replying
-def described(source: str) -> Reply:
-    """A scene for the browser: its parameters with their bounds, what a pull does, the results it can predict."""
-    scene = _scene(source)
+def described(source: str, is_task: bool) -> Reply:
+    """A scene or task for the browser: its parameters with their bounds, what a pull does, the results to predict."""
+    task = sessions.task_of(source) if is_task else None
+    scene = task.scene.changed(task.defaults) if task is not None else _scene(source)
     controls, known = scene.controls, {p.key: p for p in walk(scene.parameters, entries=True)}
-    shown = [_setting(p, controls.sliders) for p in known.values() if _may_change(p)]
-    shown += [_setting(known[key], ()) for key in controls.set_on_pull if key in known and key not in
-              {each["key"] for each in shown}]  # fmt: skip
+    if task is None:
+        chosen = {key: p for key, p in known.items() if _may_change(p) or key in controls.set_on_pull}
+    else:
+        chosen = {it.key: known[it.key]._replace(low=it.low, high=it.high) for it in task.controls}
+    first = (*controls.sliders, *(chosen if task is not None else ()))
+    shown = [_setting(p, first) for p in chosen.values()]
     order = {key: place for place, key in enumerate(controls.sliders)}
     shown.sort(key=lambda each: order.get(each["key"].partition("[")[0], len(order)))
     facts = [fact for fact in scene.facts.values() if fact.label and fact.unit and not fact.names]
     return {
         "kept": {
-            "title": scene.title,
-            "about": scene.about,
+            "title": source if task is not None else scene.title,
+            "about": task.goal if task is not None else scene.about,
             "parameters": shown,
-            "pull": _pull(scene),
+            "pull": _pull(scene, chosen, task is not None),
             "facts": [{"key": fact.key, "label": fact.label, "unit": fact.unit} for fact in facts],
             "held": ", ".join(held.name for held in controls.held),
+            "task": sessions.said_of(task) if task is not None else None,
         }
     }
 
@@ -156,17 +163,17 @@ def _setting(parameter: Parameter, sliders: Sequence[str]) -> dict[str, Any]:
     }
 
 
-def _pull(scene: Scene) -> dict[str, Any] | None:
+def _pull(scene: Scene, chosen: Mapping[str, Parameter], is_task: bool) -> dict[str, Any] | None:
     """What a pull sets: the speed at each share of a full pull, and what a key changes; None without speed or angle."""
     controls = scene.controls
-    speed, angle = ({p.key: p for p in walk(scene.parameters)}.get(key) for key in (controls.speed, controls.angle))
+    speed, angle = chosen.get(controls.speed), chosen.get(controls.angle)
     if speed is None or angle is None:
         return None
     speeds: Speeds = pull_speeds(controls, scene.parameters, speed, speed.value)
     return {
         "speed": controls.speed,
         "angle": controls.angle,
-        "sets": dict(controls.set_on_pull),
+        "sets": {} if is_task else dict(controls.set_on_pull),
         "speeds": [float(f"{speeds.at(share):.4g}") for share in np.linspace(0.0, 1.0, PULLS).tolist()],
         "push": float(f"{PUSH * speeds.highest:.1g}"),
         "spins": [{"key": spin.key, "step": spin.step} for spin in controls.spins],
@@ -179,41 +186,42 @@ def _pull(scene: Scene) -> dict[str, Any] | None:
 
 
 @replying
-def path(source: str, changes: Changes, n: int, narrow: bool, units: str) -> Reply:
-    """The run while a player aims: its paths, verdict and numbers."""
-    with shown_in(units):
-        scene, run, view = _flown(source, changes, narrow)
-        return {"message": packed("path", n=n, run=_run_data(scene, run, view))}
+def path(ask: Ask) -> Reply:
+    """The run while a player aims: its paths, verdict and numbers; as much of it as a task shows."""
+    with shown_in(ask.units):
+        scene, run, view, session = _flown(ask)
+        until = sessions.shown_until(session, run, view.ball)
+        if until is not None:
+            return {"message": packed("path", n=ask.n, run=_start(scene, run, view, until) | _standing(session))}
+        return {"message": packed("path", n=ask.n, run=_run_data(scene, run, view) | _standing(session))}
 
 
 @replying
-def hidden(source: str, changes: Changes, n: int, narrow: bool, units: str) -> Reply:
+def hidden(ask: Ask) -> Reply:
     """The run as far as a player knows it who is to predict it: where the balls begin."""
-    with shown_in(units):
-        scene, run, view = _flown(source, changes, narrow)
-        data = path_data(view, run)
-        for ball in data["balls"]:
-            x, y, *_, spin = run.state(ball["name"], 0.0)
-            ball |= {
-                "path": {"arcs": [[[0.0, 0.0], [x], [y], [spin], 0]], "until": 0.0},
-                "turned": None,
-                "rolls": False,
-            }
-            ball["caught"] = None
-        data |= {"events": [], "duration": 0.0, "told": 0.0, "verdict": "", "rows": [], "scored": False}
-        return {"message": packed("path", n=n, run=data | {"place": _place(scene), "hidden": True})}
+    with shown_in(ask.units):
+        scene, run, view, session = _flown(ask)
+        return {"message": packed("path", n=ask.n, run=_start(scene, run, view, 0.0) | _standing(session))}
 
 
 @replying
-def shot(source: str, changes: Changes, n: int, narrow: bool, units: str) -> Reply:
+def shot(ask: Ask) -> Reply:
     """The run that a player let go: with forces, events and energy, and what the others see of it."""
-    with shown_in(units):
-        scene, run, view = _flown(source, changes, narrow)
+    with shown_in(ask.units):
+        session = sessions.session_of(ask)
+        if session is None:
+            scene, run, view, _ = _flown(ask)
+        else:
+            scene = session.aimed(dict(ask.changes))
+            run = simulate(scene)
+            view = scene.picture(run, LAYOUTS[ask.narrow][0])
+            sessions.recorded(ask, session, run)
         several = len(run.setup.balls) > 1
         more = {
             **force_data(view, run),
             "told_events": [list(words_of(run, event, several)) for event in run.events[:MOST_EVENTS]],
             "energy": _energy(run),
+            **_standing(session),
         }
         numbers = {key: run.result[key] for key, fact in scene.facts.items() if fact.label and fact.unit}
         kept = {
@@ -221,47 +229,71 @@ def shot(source: str, changes: Changes, n: int, narrow: bool, units: str) -> Rep
             "scored": Shot(scene, run).scored,
             "facts": {key: value for key, value in numbers.items() if isinstance(value, int | float)},
             "line": _line(view, run.trajectory(view.ball)[:, 1:3], LINE_PIXELS),
+            **_standing(session),
         }
-        return {"message": packed("shot", n=n, run=_run_data(scene, run, view) | more), "kept": rounded(kept)}
+        return {"message": packed("shot", n=ask.n, run=_run_data(scene, run, view) | more), "kept": rounded(kept)}
 
 
 @replying
-def stage(source: str, changes: Changes, n: int, narrow: bool, units: str) -> Reply:
-    """The place without the run, as it is seen from where the whole run is in sight."""
-    with shown_in(units):
-        size, density = LAYOUTS[narrow]
+def stage(ask: Ask) -> Reply:
+    """The place without the run, as it is seen from where the whole run is in sight; where the run is hidden, that of
+    the scene's own shot."""
+    with shown_in(ask.units):
+        size, density = LAYOUTS[ask.narrow]
         token = DENSITY.set(density)
         try:
-            scene, _, view = _flown(source, changes, narrow, size)
+            session = sessions.session_of(ask)
+            if session is not None and session.task.shown != "all":
+                ask = ask._replace(changes={})
+            scene, _, view, _ = _flown(ask, size)
             data = place_data(view) | {"view": stage_data(view), "place": _place(scene), "dark": view.on_dark}
             data["others"] = [[css(colour), css(CARD["text"])] for colour in view.OTHER_TRACES]
             data["good"] = css(CARD["good"])
         finally:
             DENSITY.reset(token)
-        return {"message": packed("stage", n=n, stage=data)}
+        return {"message": packed("stage", n=ask.n, stage=data)}
 
 
 @replying
-def fan(source: str, changes: Changes, n: int, narrow: bool, units: str) -> Reply:
+def fan(ask: Ask) -> Reply:
     """Similar shots as a player would play them, and how many of them score."""
-    with shown_in(units):
-        scene = _scene(source).changed(changes, "")
+    with shown_in(ask.units):
+        session = sessions.session_of(ask)
+        if session is not None and session.task.shown != "all":
+            return {"message": packed("fan", n=ask.n, said="no similar shots: this task does not show the whole path")}
+        scene, _, view, _ = _flown(ask)
         found = fan_of(scene, FAN)
         if found is None:
-            return {"message": packed("fan", n=n, said="no fan: this shot does not start from the player's controls")}
-        view = scene.picture(simulate(scene), LAYOUTS[0][0])
+            said = "no fan: this shot does not start from the player's controls"
+            return {"message": packed("fan", n=ask.n, said=said)}
         lines = [[bool(shot.scored), _line(view, shot.path, LINE_PIXELS)] for shot in found.shots]
         bars = found.bars._asdict() if found.bars is not None else None
-        return {"message": packed("fan", n=n, said=found.said, by=found.by, lines=lines, bars=bars)}
+        return {"message": packed("fan", n=ask.n, said=found.said, by=found.by, lines=lines, bars=bars)}
 
 
-def _flown(
-    source: str, changes: Changes, narrow: bool, size: tuple[int, int] | None = None
-) -> tuple[Scene, SceneRun, View[Any]]:
-    """The scene with its changes, its run and the run's picture."""
-    scene = _scene(source).changed(changes, "")
+def _flown(ask: Ask, size: tuple[int, int] | None = None) -> tuple[Scene, SceneRun, View[Any], Session | None]:
+    """The scene with its changes, its run, the run's picture, and where the player is in a task."""
+    session = sessions.session_of(ask)
+    if session is None:
+        scene = _scene(ask.source).changed(ask.changes, "")
+    else:
+        scene = session.scene.changed(session.task.aimed(dict(ask.changes)), "")
     run = simulate(scene)
-    return scene, run, scene.picture(run, size or LAYOUTS[narrow][0])
+    return scene, run, scene.picture(run, size or LAYOUTS[ask.narrow][0]), session
+
+
+def _standing(session: Session | None) -> dict[str, Any]:
+    """Where a player is in a task, as a part of a message."""
+    return {} if session is None else {"task": sessions.standing(session)}
+
+
+def _start(scene: Scene, run: SceneRun, view: View[Any], until: float) -> dict[str, Any]:
+    """A run until a time in s, without what it comes to."""
+    data = path_data(view, run)
+    for ball in data["balls"]:
+        ball |= {"path": path_until(run.arcs[ball["name"]], until), "turned": None, "rolls": False, "caught": None}
+    data |= {"events": [], "duration": until, "told": until, "verdict": "", "rows": [], "scored": False}
+    return data | {"place": _place(scene), "hidden": True}
 
 
 def _run_data(scene: Scene, run: SceneRun, view: View[Any]) -> dict[str, Any]:
@@ -317,10 +349,4 @@ def warmed(sources: Sequence[str]) -> Reply:
 
 
 #: What may be asked for.
-WORKS: dict[Kind, Callable[[str, Changes, int, bool, str], Reply]] = {
-    "path": path,
-    "hidden": hidden,
-    "stage": stage,
-    "fan": fan,
-    "shot": shot,
-}
+WORKS: dict[Kind, Callable[[Ask], Reply]] = {"path": path, "hidden": hidden, "stage": stage, "fan": fan, "shot": shot}

@@ -54,7 +54,7 @@ def serving(*args: str, cwd: Any = None) -> Iterator[Served]:
 
 @pytest.fixture(scope="session")
 def served() -> Iterator[Served]:
-    with serving("basketball", "golf", "billiards", "--jobs", "1") as server:
+    with serving("basketball", "golf", "billiards", "free-throw", "--jobs", "1") as server:
         yield server
 
 

@@ -4,15 +4,20 @@ from __future__ import annotations
 
 import csv
 import io
+import json
 import os
 import subprocess
 import sys
 import urllib.request
+import zlib
+from math import hypot
 
 import pytest
 
 import sandbox
+from sandbox import tasks
 from sandbox.page.replay import LAYOUTS
+from sandbox.serve import calls, work
 from tests.own_scene import DROP, copy_of
 from tests.serve.conftest import Client, serving
 
@@ -101,6 +106,57 @@ def test_the_teacher_leads_freezes_and_sees_the_shots(player):
     teacher.say(do="clear")
     ann.hear("lead", source="", frozen=False)
     assert ann.hear("path", n=ann.ask("path"))["n"] == n + 1
+
+
+def test_a_task_is_played_to_its_end(player):
+    """Attempt by attempt, with starts, noise and score as a session in Python has them; after a lost connection too."""
+    client = player(source="free-throw")
+    session = client.hear("welcome")["session"]
+    scene = client.hear("scene")
+    task = tasks.load("free-throw")
+    assert [each["key"] for each in scene["parameters"]] == [control.key for control in task.controls]
+    assert (scene["about"], scene["task"]["attempts"]) == (task.goal, task.attempts)
+    low = {each["key"]: each["low"] for each in scene["parameters"]}
+    client.ask("path", {"launch.speed": low["launch.speed"] - 1.0})
+    assert "must be a number from" in client.hear("error")["text"]
+    aims = [{"launch.speed": 7.0 + 0.1 * n, "launch.angle": 52.0} for n in range(task.attempts)]
+    told = [client.hear("shot", n=client.ask("shoot", aim))["run"] for aim in aims[:2]]
+    client.socket.socket.close()  # the network is gone
+    client = player(session=session, source="free-throw")
+    client.hear("scene")
+    assert client.hear("path", n=client.ask("path"))["run"]["task"]["attempt"] == 3
+    told += [client.hear("shot", n=client.ask("shoot", aim))["run"] for aim in aims[2:]]
+    client.ask("shoot")
+    assert f"all {task.attempts} attempts are played" in client.hear("error")["text"]
+    verdicts = [run["verdict"] for run in told]
+    assert [run["task"]["over"] for run in told] == [False] * (task.attempts - 1) + [True]
+    assert len(set(verdicts)) > 1
+    assert told[-1]["task"]["total"].endswith(" made")
+    client.say(do="play", source="free-throw")
+    client.hear("scene")
+    assert client.hear("path", n=client.ask("path"))["run"]["task"] | {"total": ""} == {
+        "attempt": 1, "attempts": task.attempts, "total": "", "over": False, "passed": False, "stars": 0,
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize(("shown", "task"), [("one metre", "at-the-knees"), ("first contact", "curve-for-a-strike")])
+def test_a_path_that_a_task_hides_is_not_sent(shown: str, task: str):
+    known = tasks.load(task)
+    assert known.shown == shown
+    ask = calls.Ask(task, {}, 1, game=calls.Game(7, 1))
+    run = json.loads(zlib.decompress(work.path(ask)["message"]))["run"]
+    expected = sandbox.simulate(known.at_start(7, 1))
+    (ball,) = run["balls"]
+    end = ball["path"]["until"]
+    assert (run["verdict"], run["rows"], run["events"]) == ("", [], [])
+    x, y, *_ = expected.state("ball", end)
+    if shown == "one metre":
+        assert hypot(x - expected.state("ball", 0.0)[0], y - expected.state("ball", 0.0)[1]) == pytest.approx(
+            1.0, abs=0.02
+        )
+    else:
+        assert end == pytest.approx(next(event.t for event in expected.events if event.kind == "impact"), abs=1e-6)
+    assert ball["path"]["arcs"][-1][1][-1] == pytest.approx(x, abs=1e-4)
 
 
 def test_no_code_of_a_scene_runs_in_the_server_itself(tmp_path):

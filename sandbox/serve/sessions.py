@@ -1,0 +1,95 @@
+"""Where a player is in a task, in a process that computes: found again from what he set for each shot."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from sandbox.files import json_text
+from sandbox.page.task import worth_text
+from sandbox.picture.path import points
+from sandbox.scene.scene_run import SceneRun
+from sandbox.serve.calls import Ask, Game
+from sandbox.tasks import Session, Task, load
+
+#: So many sessions are kept; another is played again up to where it is.
+KEPT = 64
+#: A task that shows one metre shows so much of the path, in m.
+METRE = 1.0
+
+_sessions: dict[tuple[str, str], Session] = {}  # by task and game
+
+
+@lru_cache(maxsize=64)
+def task_of(source: str) -> Task:
+    """The task of that name, or in that file. Raises RequestError."""
+    return load(source)
+
+
+def session_of(ask: Ask) -> Session | None:
+    """The player's session, at the shot that comes next; None for a scene."""
+    if ask.game is None:
+        return None
+    shots, played = ask.game.shots, len(ask.game.shots)
+    while played >= 0 and _key(ask, played) not in _sessions:
+        played -= 1
+    if played >= 0:
+        session = _sessions.pop(_key(ask, played))
+    else:
+        played, session = 0, Session(task_of(ask.source), ask.game.seed, ask.game.player)
+    for values in shots[played:]:
+        session.shoot(dict(values))
+    _keep(_key(ask, len(shots)), session)
+    return session
+
+
+def recorded(ask: Ask, session: Session, run: SceneRun) -> None:
+    """Count a shot: ``run`` is that of what the player asks for."""
+    assert ask.game is not None
+    _sessions.pop(_key(ask, len(ask.game.shots)), None)
+    session.record(dict(ask.changes), run)
+    game = Game(ask.game.seed, ask.game.player, (*ask.game.shots, ask.changes))
+    _keep(_key(ask._replace(game=game), len(game.shots)), session)
+
+
+def _key(ask: Ask, shots: int) -> tuple[str, str]:
+    assert ask.game is not None
+    return ask.source, json_text([ask.game.seed, ask.game.player, list(ask.game.shots[:shots])])
+
+
+def _keep(key: tuple[str, str], session: Session) -> None:
+    _sessions[key] = session
+    while len(_sessions) > KEPT:
+        del _sessions[next(iter(_sessions))]
+
+
+def said_of(task: Task) -> dict[str, Any]:
+    """What a task is, for people."""
+    return {"goal": task.goal, "attempts": task.attempts, "score": task.score.said, "shown": task.shown}
+
+
+def standing(session: Session) -> dict[str, Any]:
+    """Where a player is: the attempt, the score so far, and at the end whether he passed and his stars."""
+    return {
+        "attempt": session.attempt.number,
+        "attempts": session.task.attempts,
+        "total": worth_text(session, session.total),
+        "over": session.over,
+        "passed": session.passed,
+        "stars": session.stars,
+    }
+
+
+def shown_until(session: Session | None, run: SceneRun, ball: str) -> float | None:
+    """The time in s until which a task shows the path while the player aims; None for all of it."""
+    shown = session.task.shown if session is not None else "all"
+    if shown == "first contact":
+        met = (event.t for event in run.events if event.kind == "impact" and ball in (event.ball, event.partner))
+        return next((t for t in met if t > 0.0), None)
+    if shown == "one metre":
+        track = points([(run, ball)])[0]
+        way = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(track[:, 1:], axis=0).T))])
+        return float(np.interp(METRE, way, track[:, 0]))
+    return 0.0 if shown == "nothing" else None
