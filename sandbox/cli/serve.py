@@ -27,7 +27,8 @@ def serve(scenes: tuple[str, ...], port: int | None, share: bool, jobs: int | No
     """Play in any browser: on this computer or, with --share, on every phone and tablet in the room.
 
     All computing is done here. The first address is for players; the second is the teacher's: who is there, one scene
-    for all, everybody's shots. SCENE is a scene with its presets, one preset, a task or a scene file; all scenes and tasks by default.
+    for all, everybody's shots. SCENE is a scene with its presets, one preset, a task or a scene file; by default all
+    scenes and tasks.
 
     \b
     Examples:
