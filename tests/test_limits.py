@@ -8,12 +8,15 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from sandbox.files import write_together
+from sandbox.lab.plan import Record
+from sandbox.lab.sweep import InTurn, RowsInOrder
 from tests.own_scene import BUILD, COMMAND, DROP, Outcome, assert_refused, change
 
 Call = Callable[..., Outcome]
@@ -148,6 +151,29 @@ def test_a_second_ctrl_c_ends_a_call_of_c_without_an_end(drop: Path, tmp_path: P
         process.wait(0.2)
     process.send_signal(signal.SIGINT)
     assert process.wait(5.0) == -signal.SIGINT
+
+
+@pytest.mark.parametrize("where", ["finished", "close"])
+def test_a_second_ctrl_c_still_says_what_a_sweep_has_kept(
+    call: Call, drop: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, where: str
+):
+    """The first comes after one point; the second while its rows are written, or while the workers end."""
+
+    def interrupted(*_: Any, **__: Any) -> Any:
+        raise KeyboardInterrupt
+
+    def rows_of_one(self: RowsInOrder) -> Iterator[list[Record]]:
+        self._queue_calls()
+        yield self._next()[:1]
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(RowsInOrder, "__iter__", rows_of_one)
+    monkeypatch.setattr(*((RowsInOrder, "finished") if where == "finished" else (InTurn, "close")), interrupted)
+    sweep = ("sweep", drop, "--over", "launch.height=1:2:3", "--out", tmp_path / "x.csv", "--jobs", 1)
+    outcome = call(*sweep)
+    assert (outcome.code, outcome.out) == (130, "")
+    assert outcome.err.startswith("stopped: 1 of 3 points are kept in ")
+    assert len(outcome.err.splitlines()) == 1
 
 
 def test_files_written_together_are_all_there_or_none(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):

@@ -73,6 +73,9 @@ def call(args: Sequence[str] | None) -> int:
     except BaseException as error:  # a scene's own picture may raise a SystemExit
         from sandbox.tracebacks import of_user_code
 
+        if is_interrupt(error) and (before := _stopped_before(error)) is not None:
+            click.echo(printable(str(before)), err=True)
+            return before.exit_code
         text = None if is_interrupt(error) else of_user_code(error)
         if text is not None:
             return _fail(text, 1)
@@ -82,6 +85,14 @@ def call(args: Sequence[str] | None) -> int:
         if text is None:
             raise
         return _fail(text, 1)
+
+
+def _stopped_before(error: BaseException) -> Stopped | None:
+    """What a first Ctrl-C has stopped, if a second one interrupts the work that was left then."""
+    found: BaseException | None = error
+    while found is not None and not isinstance(found, Stopped):
+        found = found.__context__
+    return found
 
 
 def _of_the_machine(error: BaseException) -> str | None:

@@ -6,7 +6,7 @@ import pickle
 import platform
 from collections import deque
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -186,8 +186,9 @@ def sweep_to_file(plan: Plan, path: Path, pool: Workers, progress: Progress = no
                 failures += len(errors)
                 first_error = first_error or "".join(errors[:1])
         except KeyboardInterrupt:
-            for rows in handout.finished(file.done):
-                file.append(rows)
+            with suppress(KeyboardInterrupt):  # a second one: what is written is kept, and said
+                for rows in handout.finished(file.done):
+                    file.append(rows)
             kept = f"{file.done:,} of {plan.size:,} points are kept in {path}"
             raise Stopped(f"stopped: {kept}; run the same command to resume") from None
         file.finish()
