@@ -220,6 +220,15 @@ def test_code_of_the_page_on_scatter_runs(capsys: pytest.CaptureFixture[str]):
     assert names["found"].causes["carry"]["launch.speed"].first > 0.5
 
 
+def test_code_of_the_page_on_fits_runs(capsys: pytest.CaptureFixture[str]):
+    names: dict[str, Any] = {}
+    for language, code in blocks((ROOT / "docs" / "fit.md").read_text("utf-8")):
+        if language == "python":
+            exec(code, names)
+    assert len(capsys.readouterr().out.splitlines()) == 3
+    assert names["restitution"].low < 0.71 < names["restitution"].high
+
+
 def executed(page: str, capsys: pytest.CaptureFixture[str]) -> list[str]:
     """Every file of a page is written, every command and every program run, in order, in this folder; commands print
     what the page says. What the programs print."""

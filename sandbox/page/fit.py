@@ -20,7 +20,6 @@ def page_of(found: Fit) -> str:
               for name, each in found.models.items()]  # fmt: skip
     tables = [
         captioned("Values", VALUES, value_rows(found)),
-        captioned("To be said of them", ("",), [(sentence,) for sentence in others]),
         captioned("Correlations of the errors", ("", "correlation", ""), pairs),
         captioned(f"Models: {found.models_of}", ("", "AICc above the best"), models),
     ]
@@ -29,6 +28,7 @@ def page_of(found: Fit) -> str:
         title=html(title(found)),
         about=html(first),
         chart=svg(lambda path: draw(found, path), "points, path and residuals"),
+        said="\n".join(f"<li>{html(sentence)}</li>" for sentence in others),
         tables="\n".join(filter(None, tables)),
         command=html(command(found.scene)),
     )

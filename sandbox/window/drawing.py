@@ -212,6 +212,7 @@ class Drawing:
             sheet.surface.blit(*fan)
         stage.draw_path(sheet, shot, shown.until(shot))
         sheet.surface.set_clip(None)
+        stage.draw_measured(sheet)
         stage.draw_balls(sheet, shot, t, shown.until(shot))
         if "arrows" not in shown.on:
             return ()

@@ -68,7 +68,6 @@ class Stage:
         self.backdrop = self.picture.stage()
         sheet = Sheet(size, self.picture.on_dark, self.backdrop)
         self.picture.measure(sheet, self.camera)
-        self.picture.draw_measured(sheet.painter, self.camera)
         self.notes = self.picture.notes(self.camera)  # what is not drawn to scale
         along, up = self.picture.wind
         wind = [sheet.wind(along, up, sheet.frame.right, sheet.frame.top)] if along or up else []
@@ -106,6 +105,16 @@ class Stage:
         """The places in px where the picture draws points of a path (m), both of shape (n, 2): in a view from the side
         higher than its camera has them, where balls are drawn larger than they are."""
         return self.picture.spots(self.camera, points, 0.0)
+
+    def draw_measured(self, sheet: Canvas) -> None:
+        """The measured points that the scene's file names."""
+        if self.shot.scene.measured is not None:
+            sheet.surface.blit(self._once("measured", (), self._measured), (0, 0))
+
+    def _measured(self) -> pygame.Surface:
+        layer = blank(self.size, transparent=True)
+        self.picture.draw_measured(Painter(layer), self.camera)
+        return layer
 
     def draw_ghosts(self, sheet: Canvas, ghosts: Sequence[Shot]) -> None:
         """The paths of earlier shots."""

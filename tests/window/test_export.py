@@ -18,7 +18,9 @@ from sandbox.engine.motion.moving_ball import InCluster, InHeap
 from sandbox.errors import RequestError
 from sandbox.scene.setup_scene import with_scene
 from sandbox.window import export, replay, sound
+from sandbox.window.canvas import Canvas
 from sandbox.window.session import Session
+from sandbox.window.stage import Stage
 
 
 @pytest.fixture(autouse=True)
@@ -154,6 +156,21 @@ def test_a_scene_file_keeps_its_comments(elsewhere):
     again = sandbox.load(path)
     assert again.parameters == session.scene.parameters
     assert tomllib.loads(text)["launch"]["speed"] == 2.25
+
+
+def test_measured_points_are_on_the_stage_and_stay_with_a_new_scene_file(elsewhere, shot_of):
+    (elsewhere / "throw.csv").write_text("t,x,y,ball\n0.1,0.5,2.5,ball\n0.2,1.0,2.9,ball\n")
+    (elsewhere / "throw.toml").write_text('scene = "basketball"\n[measured]\ntrack = "throw.csv"\n')
+    stages = [Stage(shot_of(Session(source)), (640, 360)) for source in (str(elsewhere / "throw.toml"), "basketball")]
+    for stage, (least, most) in zip(stages, ((3, 200), (0, 0)), strict=True):
+        canvas = Canvas(pygame.Surface((640, 360)))
+        stage.draw_measured(canvas)
+        assert least <= pygame.surfarray.array3d(canvas.surface).any(axis=2).sum() <= most
+    session = Session(str(elsewhere / "throw.toml"))
+    session.change({"launch.speed": 7.0})
+    again = sandbox.load(export.scene_file(session))  # in another folder
+    assert again.measured is not None
+    assert again.measured.positions.tolist() == [[0.5, 2.5], [1.0, 2.9]]
 
 
 def test_the_command_line_gives_the_same_shot():
