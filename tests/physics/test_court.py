@@ -11,7 +11,7 @@ from sandbox.physics.court import court_pace, is_pace_test, pace_category
 
 @pytest.mark.parametrize(("friction", "restitution"), [(0.5, 0.81), (0.7, 0.85), (0.6, 0.75)])
 @pytest.mark.parametrize("temperature", [23.0, 33.0])
-def test_a_sliding_ball_gives_the_friction_and_restitution_of_its_court(friction, restitution, temperature):
+def test_a_sliding_ball_tells_friction_and_restitution(friction, restitution, temperature):
     """v_x' = v_x - mu (1 + e) v_y and v_y' = e v_y; a ball of 33 C is rated as if it had 0.03 less."""
     vx, vy = 30.0 * cos(radians(16.0)), -30.0 * sin(radians(16.0))
     after = vx + friction * (1.0 + restitution) * vy, -restitution * vy

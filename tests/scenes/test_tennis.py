@@ -28,7 +28,7 @@ def test_courts_play_in_the_order_that_is_published():
     assert rated("tennis", court__friction=0.73) < 29.5
 
 
-def test_the_pace_is_that_of_the_courts_own_numbers_while_the_ball_slides():
+def test_the_pace_is_that_of_the_courts_own_numbers():
     """100 (1 - mu) + 150 (0.81 - e), e by the angle at which it lands."""
     for friction in (0.4, 0.5, 0.6):
         result = results_of("tennis/pace-test")(court__friction=friction)
