@@ -20,6 +20,7 @@ import sys
 import time
 import zlib
 from dataclasses import dataclass, field
+from math import inf
 from pathlib import Path
 from urllib.parse import urlsplit
 
@@ -32,6 +33,7 @@ SCENES = {"golf": ("launch.angle", 8.0, 20.0), "basketball": ("launch.angle", 45
 BREAK, BREAKERS = "billiards/nine-ball-break", 4
 SHOT = "throws"  # the cheapest
 PROMISED = 0.1  # s
+PATIENCE = 20.0  # s, for answers to the last changes; what has none by then never had one
 
 
 @dataclass
@@ -81,6 +83,10 @@ async def entered(url: str, source: str, key: str, low: float, high: float) -> P
     address, origin = f"ws://{place.netloc}{place.path}talk", f"http://{place.netloc}"
     socket = await connect(address, origin=origin, proxy=None, max_size=None)
     await socket.send(json.dumps({"do": "hello", "source": source}))
+    await socket.send(json.dumps({"do": "path", "n": 0, "changes": {}}))
+    async for data in socket:  # until what computes for this player is there
+        if isinstance(data, bytes):
+            break
     return Player(socket, source, key, low, high)
 
 
@@ -90,13 +96,12 @@ async def aiming(url: str, players: int, rate: float, seconds: float, scene: str
     kinds = [(BREAK, "cue.speed", 7.0, 9.0) if i < breakers else (scene, *SCENES[scene]) for i in range(players)]
     there = [await entered(url, *kind) for kind in kinds]
     reading = [asyncio.create_task(player.hear(draw)) for player in there]
-    until = time.monotonic() + 2.0
-    await asyncio.gather(*(player.change(rate, until, draw) for player in there))  # warm
+    until = time.monotonic() + seconds
+    await asyncio.gather(*(player.change(rate, until, draw) for player in there))
+    while any(player.asked or player.waiting for player in there) and time.monotonic() < until + PATIENCE:
+        await asyncio.sleep(0.05)
     for player in there:
-        player.delays.clear()
-    await asyncio.gather(*(player.change(rate, until + seconds, draw) for player in there))
-    await asyncio.sleep(1.0)
-    for player in there:
+        player.delays += [inf] * len([*player.asked, *player.waiting])
         await player.socket.close()
     await asyncio.gather(*reading, return_exceptions=True)
     return there

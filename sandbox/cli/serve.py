@@ -68,7 +68,7 @@ def _text(address: Address) -> None:
             "computer compute. The connection is not encrypted. Ctrl-C ends it."
         )
     else:
-        where = "Only browsers on this computer can open it; --share lets in the others. Ctrl-C ends it."
+        where = "Only browsers on this computer can open it; --share lets others in.\nCtrl-C ends it."
     code = io.StringIO()
     segno.make(address.url, micro=False).terminal(code, compact=True, border=2)
     say(f"players  {address.url}\nteacher  {address.teacher}\n\n{where}\n\n{code.getvalue().rstrip()}")

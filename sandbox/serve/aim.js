@@ -29,6 +29,15 @@ class Aim extends Player {
     this.play();
   }
 
+  /** A path that is only aimed with is not played. */
+  play() {
+    if (this.watched) super.play();
+  }
+
+  seek(t) {
+    if (this.watched) super.seek(t);
+  }
+
   /** True if the whole path is seen, and large enough. */
   get inSight() {
     const [width, height] = this.view.size, { line } = this.main;

@@ -16,8 +16,9 @@ import pytest
 
 import sandbox
 from sandbox import tasks
+from sandbox.cli import serve as cli
 from sandbox.page.replay import LAYOUTS
-from sandbox.serve import calls, work
+from sandbox.serve import calls, server, work
 from tests.own_scene import DROP, copy_of
 from tests.serve.conftest import Client, serving
 
@@ -165,16 +166,16 @@ def test_no_code_of_a_scene_runs_in_the_server_itself(tmp_path):
     text = (scene / "scene.py").read_text("utf-8")
     mark = f"\nimport os, pathlib\npathlib.Path({str(tmp_path)!r}, f'imported-{{os.getpid()}}').touch()\n"
     (scene / "scene.py").write_text(text + mark, "utf-8")
-    with serving("./drop", "--jobs", "1", cwd=tmp_path) as server:
-        client = Client(server.url)
+    with serving("./drop", "--jobs", "1", cwd=tmp_path) as drop:
+        client = Client(drop.url)
         assert client.hear("scene")["source"] == "./drop"
         assert client.hear("path", n=client.ask("path"))["run"]["verdict"]
         client.close()
         pids = {int(file.name.rpartition("-")[2]) for file in tmp_path.glob("imported-*")}
         assert pids
-        assert server.pid not in pids
+        assert drop.pid not in pids
         assert os.getpid() not in pids
-        assert server.stop() == 130
+        assert drop.stop() == 130
 
 
 def test_the_server_itself_imports_no_scenes_and_no_pictures():
@@ -182,6 +183,20 @@ def test_the_server_itself_imports_no_scenes_and_no_pictures():
     modules = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stdout.split()
     assert "sandbox.serve.app" in modules
     assert {"sandbox.scene.scene", "sandbox.engine", "pygame", "pymunk", "numpy"} & set(modules) == set()
+
+
+def test_sharing_says_what_it_means(capsys: pytest.CaptureFixture[str]):
+    """Without it the server listens to this computer only."""
+    for shared, host in ((False, "127.0.0.1"), (True, "0.0.0.0")):
+        with server._listening(0, shared) as listener:
+            assert listener.getsockname()[0] == host
+        url = f"http://192.168.100.100:54321/{'x' * 12}/"
+        cli._text(server.Address(url, url, 54321, shared))
+        said = capsys.readouterr().out
+        assert ("not encrypted" in said, "Only browsers on this computer" in said) == (shared, not shared)
+        assert url in said
+        assert max(map(len, said.splitlines())) <= 80
+        assert sum("█" in line for line in said.splitlines()) > 10
 
 
 @pytest.mark.parametrize(
