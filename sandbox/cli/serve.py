@@ -64,8 +64,8 @@ def _text(address: Address) -> None:
 
     if address.shared:
         where = (
-            "Shared: whoever is in this network and has the address can play here and makes this\n"
-            "computer compute. The connection is not encrypted. Ctrl-C ends it."
+            "Shared: whoever is in this network and has the address can play here, and makes\n"
+            "this computer compute. The connection is not encrypted. Ctrl-C ends it."
         )
     else:
         where = "Only browsers on this computer can open it; --share lets others in.\nCtrl-C ends it."
