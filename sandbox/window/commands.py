@@ -88,9 +88,11 @@ def do(view: View, command: str, by: float = 1) -> None:
         _list(view, name)
         return
     found = _BY_NAME[name]
-    if name in GIVE_AWAY and view.game.referee.contest is not None and view.game.watching.playback is None:
-        view.game.messages.tell("not before the shot; Esc shows all tasks")
-        return
+    if view.game.referee.contest is not None:
+        aiming = view.game.watching.playback is None
+        if name in FIXED or (name in GIVE_AWAY and aiming):
+            view.game.messages.tell("not while you play for something" if name in FIXED else "not before the shot")
+            return
     if found.do is None:
         view.shown.on ^= {name}
         view.lay_out()
@@ -515,10 +517,9 @@ TABLE: tuple[Command, ...] = (
     Command("row_reset", ("ctrl backspace",), "as in the file", "Panel", lambda view, by: view.panel.reset_row()),
 )
 # fmt: on
-#: What would tell how a shot comes out before it is made, or change what it begins with: not while a contest is aimed.
-GIVE_AWAY = frozenset(
-    ("find", "predict", "fan", "wider", "map", "charts", "graphs", "energy", "accuracy", "reset", "rack", "compare")
-)
+#: What would tell how a shot comes out before it is made: not while a contest is aimed; and what changes the contest.
+GIVE_AWAY = frozenset(("predict", "fan", "wider", "map", "charts", "graphs", "energy", "compare"))
+FIXED = frozenset(("find", "accuracy", "reset", "rack", "undo"))
 GROUPS: tuple[str, ...] = tuple(dict.fromkeys(command.group for command in TABLE))
 #: What the bar's buttons say that open a list of a group of commands; its others say what the help does.
 HINTS = {

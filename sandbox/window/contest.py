@@ -48,6 +48,11 @@ class Contest:
     landed: tuple[float, float] | None = None  # m, of the shot that is over
 
     @property
+    def title(self) -> str:
+        """Its name for people."""
+        return Path(self.name).stem if Path(self.name).is_absolute() else self.name
+
+    @property
     def scene(self) -> Scene:
         """The scene of the next shot, before the player aims."""
         raise NotImplementedError
@@ -142,7 +147,9 @@ class AtTask(Contest):
         self.seed = int(np.random.default_rng().integers(2**31)) if seed is None else seed
         self.sessions = [tasks.Session(task, self.seed, player) for player in range(players)]
         self.turn = 0
-        self.name, self.goal, self.shown = task.name, task.goal, task.shown
+        installed = task.name in tasks.tasks() and tasks.find_task(task.name) == task.file
+        self.name = task.name if installed else str(task.file.resolve())  # by which its best list is kept
+        self.goal, self.shown = task.goal, task.shown
         self.worths: list[float | None] = []  # of each shot
         self._set: dict[str, float] = {}  # by the player, for the shot that is on its way
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from sandbox.engine.model.setup import Touches
 from sandbox.errors import SandboxError
+from sandbox.scene import Scene
 from sandbox.window.aiming import Aiming
 from sandbox.window.background import Workers
 from sandbox.window.contest import Contest, source_of
@@ -66,16 +67,25 @@ class Referee:
         return self.contest is not None and self.contest.over
 
     @property
+    def said(self) -> str:
+        """What came of the shot that is watched: by the contest of the last one."""
+        playback = self.watching.playback
+        if playback is None or self.contest is None or playback.shot in self.shots[-1:]:
+            return self.contest.said if self.contest is not None else ""
+        return playback.shot.verdict
+
+    @property
     def tells(self) -> bool:
         """True if goal and scores are shown, or how a shot came out: not while it is on its way."""
         playback = self.watching.playback
         return playback is None or (self.pending is None and (playback.over or bool(self.again)))
 
     def begin(self, contest: Contest) -> None:
-        """Play for something from here on."""
+        """Play for something from here on. Raises RequestError for a start that is invalid; then nothing changes."""
+        scene = contest.scene
         self.leave()
         self.contest = contest
-        self._put_up()
+        self._put_up(scene)
 
     def leave(self) -> None:
         """Play for nothing."""
@@ -85,13 +95,12 @@ class Referee:
         self._before = None
         self.session.limits, self.shots = None, []
 
-    def _put_up(self) -> None:
+    def _put_up(self, scene: Scene) -> None:
         """Show the next shot, to be aimed."""
         assert self.contest is not None
         self.watching.stop()
         self.path.forget()
         self.again, self.glow = "", 0.0
-        scene = self.contest.scene
         self.session.show(scene, source_of(scene), self.contest.limits)
         self.aiming.history = History(self.session.changes)
 
@@ -100,11 +109,18 @@ class Referee:
         if self.contest is None:
             return False
         self._count()
-        if self.contest.over:
-            self.begin(self.contest.anew())
-        else:
-            self._put_up()
+        contest = self.contest
+        if contest is not None:
+            going_on = not contest.over
+            self._or_leave(lambda: self._put_up(contest.scene) if going_on else self.begin(contest.anew()))
         return True
+
+    def _or_leave(self, action: Callable[[], object]) -> bool:
+        """Do something with the contest, whose rules may be a user's own; one that fails is reported, and ends it."""
+        if self.messages.reporting_errors(action):
+            return True
+        self.leave()
+        return False
 
     def shoot(self) -> bool:
         """Have the shot that is aimed computed, or play it live; returns whether there is a contest."""
@@ -165,22 +181,24 @@ class Referee:
         """A success glows, and is heard."""
         assert self.pending is not None
         self._cheered = True
-        if self.contest is not None and self.contest.would_score(self.pending.run):
+        contest, run = self.contest, self.pending.run
+        found: list[bool] = []
+        if contest is not None and self._or_leave(lambda: found.append(contest.would_score(run))) and found[0]:
             self.glow, self.cheers = GLOW, self.cheers + 1
 
     def _count(self) -> None:
         """Count the shot, and show what decided it again if it is a success."""
         shot, self.pending, playback = self.pending, None, self.watching.playback
-        if shot is None or self.contest is None:
+        contest = self.contest
+        if shot is None or contest is None or not self._or_leave(lambda: contest.record(shot.run)):
             return
-        self.contest.record(shot.run)
-        if self.contest.good and playback is not None and playback.shot is shot and self.watching.live is None:
+        if contest.good and playback is not None and playback.shot is shot and self.watching.live is None:
             self.again = "slow"
             playback.seek(self.decided - BEFORE)
             playback.rate, playback.playing = SLOWER * min(1.0, playback.rate), True
-        if self.contest.over:
+        if contest.over:
             self._rested, self._next_best = 0.0, 0
-            self.ended(self.contest)
+            self.ended(contest)
 
     def _show_best(self, dt: float) -> None:
         """At the end: show the best shots again, one after the other, the best last."""

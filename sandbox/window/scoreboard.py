@@ -32,8 +32,8 @@ def headline_of(referee: Referee, contest: Contest) -> tuple[str, list[str], Col
         notes = [contest.stand] if contest.takes_marks else [contest.stand, how]
         return contest.headline, notes, CARD["text"]
     if contest.over:
-        return contest.said, ["the best shots, the best last"] if referee.again == "best" else [], CARD["text"]
-    return contest.said, ["Enter or click: the next shot", "R: see it again"], CARD["good" if contest.good else "text"]
+        return referee.said, ["the best shots, the best last"] if referee.again == "best" else [], CARD["text"]
+    return referee.said, ["Enter or click: the next shot", "R: see it again"], CARD["good" if contest.good else "text"]
 
 
 def star(sheet: Canvas, centre: tuple[float, float], radius: float, lit: bool) -> None:

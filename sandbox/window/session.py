@@ -169,7 +169,8 @@ class Session:
         """Return to these changes, maybe of another scene file."""
         if changes.source != self.source:
             self.open(changes.source)
-        self._set(changes.values, changes.positions)
+        values = changes.values if self.limits is None else _within(changes.values, self.limits)
+        self._set(dict(values), changes.positions)
 
     def start_from(self, shot: Shot) -> None:
         """Begin the next shot where the balls of ``shot`` came to rest, if the scene supports it."""

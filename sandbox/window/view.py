@@ -157,7 +157,7 @@ class View:
         game, shown, bar, mouse = self.game, self.shown, self.screen.bar, self.targets.mouse
         on = {*shown.on, *([shown.overlay.name] if shown.overlay is not None else [])}
         contest = game.referee.contest
-        title = contest.name if contest is not None else game.session.title
+        title = contest.title if contest is not None else game.session.title
         title += " *" * bool(game.session.changes.values and contest is None)
         known = not (shown.hides_path or game.failure or game.late)
         bar.draw(sheet, title, game.shot if known else None, game.watching.playback, on, mouse)

@@ -124,12 +124,30 @@ class TestATask:
         verdict = thrower.game.shot.verdict
         assert verdict not in said(thrower)
         assert thrower.view.shown.until(thrower.game.shot) is not None  # not the whole path
-        for name in sorted(commands.GIVE_AWAY):
+        for name in sorted(commands.GIVE_AWAY | commands.FIXED):
             before = thrower.game.session.changes, set(thrower.view.shown.on)
             commands.do(thrower.view, name)
             assert (thrower.game.session.changes, set(thrower.view.shown.on)) == before
             assert thrower.view.shown.overlay is None
-            assert "not before the shot" in thrower.game.notices[-1][0]
+            assert thrower.game.notices[-1][0].startswith("not ")
+
+    def test_an_old_shot_is_no_way_to_other_parameters(self, thrower):
+        thrower.game.opening.open("basketball/free-throw")
+        thrower.game.aiming.change({"gravity": 3.0, "launch.speed": 8.0})
+        thrower.settle()
+        thrower.key(pygame.K_SPACE)
+        thrower.settle()
+        (row,) = thrower.game.shots.rows
+        thrower.game.referee.begin(AtTask(tasks.load("free-throw"), seed=SEED))
+        thrower.settle()
+        thrower.game.aiming.aim_as(row)
+        assert thrower.game.session.changes.values == {"launch.speed": 8.0}
+
+    def test_rules_that_fail_end_the_contest_with_a_line(self, thrower, monkeypatch):
+        monkeypatch.setattr(AtTask, "record", lambda *_: 1 / 0)
+        thrower.key(pygame.K_SPACE)
+        passes(thrower, lambda: thrower.game.referee.contest is None)
+        assert any("ZeroDivisionError" in text and bad for text, bad in thrower.game.notices)
 
     def test_only_its_controls_change_and_within_bounds(self, thrower):
         session = thrower.game.session
@@ -193,6 +211,7 @@ class TestATask:
             return len(shown) == 3 and game.watching.playback.over
 
         passes(thrower, three)
+        assert referee.said == referee.shots[0].verdict != contest.said  # of what is shown, not of the last
         assert shown == [3, 2, 1]  # all went in; of equal ones the first is the best
         thrower.key(pygame.K_RETURN)
         thrower.settle()
@@ -266,6 +285,13 @@ class TestATask:
         assert {"Player 1", "Player 2"} <= said(player)
         assert contest.said.startswith("Player 2: ")
         assert contest.outcome == ["A draw: 0 to 0"]
+
+
+def test_a_task_of_ones_own_has_its_own_best_list(tmp_path):
+    mine = tmp_path / "free-throw.toml"
+    mine.write_text(tasks.find_task("free-throw").read_text("utf-8"), "utf-8")
+    assert AtTask(tasks.load(mine)).name == str(mine)
+    assert AtTask(tasks.load("free-throw")).name == "free-throw"
 
 
 class TestAMatch:
