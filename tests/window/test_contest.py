@@ -367,17 +367,13 @@ class TestPredictFirst:
         assert contest.said == "It lands 5.00 m from your mark"
 
 
-def test_the_first_contact_may_be_that_of_another_ball(player):
-    """Which ball an event is of does not matter: the struck one or the one that it meets."""
-    player = player("billiards/cut", (640, 480))
+@pytest.mark.parametrize("source", ["billiards/cut", "billiards/bank", "billiards/eight-ball-break"])
+def test_the_first_contact_may_be_named_by_the_other_ball(player, source):
+    player = player(source, (640, 480))
     player.view.shown.show_more_ahead()
     shot = player.game.shot
     met = next(event.t for event in shot.run.events if "cue" in (event.ball, event.partner) and event.kind == "impact")
     assert player.view.shown.until(shot) == met
-    player.game.referee.begin(AtMatch(installed_folder("billiards"), "nine-ball", seed=1))
-    player.settle()
-    until = player.view.shown.until(player.game.shot)
-    assert player.game.shot.run.state("cue", until)[0] < 0.635  # not beyond the rack
 
 
 def test_a_shot_is_decided_where_its_score_is_final(shot_of, player):
