@@ -96,6 +96,15 @@ def test_games_of_pinball_end_without_an_error(opened: Callable[[str], ModuleTyp
         assert found["created_j"] < 1e-9 * found["moved_j"]
 
 
+def test_intervals_of_fits_are_counted(opened: Callable[[str], ModuleType]):
+    fit = opened("fit")
+    (case,) = (case for case in fit.CASES if case.scene == "soccer")
+    found = fit.measure(case, 3, 0, fit.OUTLIERS, True)
+    assert (found.values, found.failed, len(found.seconds)) == (9, 0, 3)
+    assert 6 <= found.held <= 9
+    assert "9 " in fit.row("soccer", [found])
+
+
 def test_what_passes_through_is_noticed(opened: Callable[[str], ModuleType]):
     """The same case with the surface out of the way, measured as if it were there."""
     moving = opened("moving")

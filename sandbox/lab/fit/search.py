@@ -38,6 +38,9 @@ COARSE = 1e-3
 #: surely.
 ALIKE, OTHER_SHAPE = 1.2, 0.4
 
+#: A path with another shape that is so much off, as a share of what a start is typically off by, ends the search.
+FAR_OFF = 0.1
+
 #: Residuals of a group below which their order says nothing; and how many times the median they may be.
 ENOUGH, LARGE = 8, 5.0
 
@@ -157,7 +160,7 @@ class _Following:
             return found
         inside = self.problem.times <= before
         ratio = neumann(self.problem.measured.groups[inside], place.residuals[inside])
-        if found is not None and 0.0 < ratio < OTHER_SHAPE:
+        if found is not None and 0.0 < ratio < OTHER_SHAPE and self.off(place.residuals, before) > FAR_OFF:
             self.hopeless = True
             return found
         tried = [found] if found is not None else []
