@@ -225,7 +225,7 @@ class TestGif:
     [
         ("volleyball/spike", 4),
         ("baseball-pitch", 4),
-        ("tennis", 2),
+        ("tennis", 4),
         ("bullet-water", 16),
         ("golf", 1),
         ("basketball", 1),
