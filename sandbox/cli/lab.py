@@ -545,5 +545,8 @@ def validate(
             tried = of_rows.teeth(rows, changes, progress)
         say(json_text(of_rows.as_json(rows, tried)) if as_json else "\n".join(of_rows.as_text(tried)))
         return
-    text = [*lab.as_text(rows), *(line for note in notes for line in paragraph(note, ""))]
+    text = [
+        *lab.as_text(rows, "published" if own is None else "given"),
+        *(line for note in notes for line in paragraph(note, "")),
+    ]
     say(json_text(rows) if as_json else "\n".join(text))

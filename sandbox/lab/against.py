@@ -31,6 +31,8 @@ def cases_against(
     """
     table = read_table("--against", path)
     if not entries and all(name in table.names for name in NEEDED):
+        if within:
+            raise RequestError(f"--within: the table has its own tolerances: {path}")
         return _published(table, path, source), ()
     if source is None:
         raise RequestError(f"--against {path}: name the scene that its launches are for")
@@ -40,6 +42,9 @@ def cases_against(
         missing = next(name for name in NEEDED if name not in table.names)
         raise RequestError(f"{table.where}: has no column {missing}, and no known ones; name them by --map")
     found = mapped(scene, table, form, where)
+    unknown = next((name for name in within if name not in found.measured), None)
+    if unknown is not None:
+        raise RequestError(f"--within {unknown}: is no result of the table, which has {', '.join(found.measured)}")
     settings = [_settings(found.given, place) for place in range(len(found.rows))]
     cases = [
         _case(scene, path, row, settings[place], name, one, place, within)
@@ -103,7 +108,10 @@ def _row(table: Table, number: int, row: dict[str, str], path: Path, source: str
         raise RequestError(f"{at} names no scene; give one: sandbox validate SCENE --against {path}")
     if row["kind"] not in KINDS:
         raise RequestError(f"{at} kind = {shortened(row['kind'], 40)!r} is none of {', '.join(KINDS)}")
-    scene = load(row["scene"], assignments(row["set"]))
+    try:
+        scene = load(row["scene"], assignments(row["set"]))
+    except RequestError as error:
+        raise RequestError(f"{at} {error}") from None
     name = row["result"].partition(".")[0]
     if name not in scene.facts:
         raise RequestError(f"{at} result = {shortened(name, 40)}: {no_such_result(name, list(scene.facts))}")

@@ -175,12 +175,12 @@ def compare(case: Case, run: SceneRun) -> Compared:
 # ------------------------------------------------------------------------------------------------------------- report
 
 
-def as_text(rows: Sequence[Compared]) -> list[str]:
-    """A table for each source."""
+def as_text(rows: Sequence[Compared], given: str = "published") -> list[str]:
+    """A table for each source; what the numbers are is said by ``given``."""
     tables: dict[str, list[Compared]] = {}
     for row in rows:
         tables.setdefault(f"{row.scene.partition('/')[0]}, {row.kind}: {row.source}", []).append(row)
-    headings = ("case", "result", "published", "computed", "off by", "allowed", "")
+    headings = ("case", "result", given, "computed", "off by", "allowed", "")
     lines = []
     for title, own in tables.items():
         lines += [*paragraph(title, ""), *table(headings, [cells(row) for row in own], "llrrrrl")]

@@ -362,6 +362,8 @@ def test_launches_are_validated_by_their_columns(tmp_path, capsys, carries):
     assert (second["tolerance"], second["unit"]) == (pytest.approx(0.6096), "m")
     assert call([*command, "--within", "carry=1%"]) == 2
     assert "say how far off apex may be" in capsys.readouterr().err
+    assert call([*command, "--within", "carri=1%"]) == 2
+    assert "--within carri: is no result of the table, which has carry, apex" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
@@ -373,6 +375,7 @@ def test_launches_are_validated_by_their_columns(tmp_path, capsys, carries):
         ("result,value,tolerance,unit,kind\ncarry,1,1,m,guess\n", "row 1, kind = 'guess' is none of exact"),
         ("result,value,tolerance,units\ncarry,1,1,m\n", "column 'units' is none of"),
         ("a,b\n1,2\n", "has no column result"),
+        ("result,set,value,tolerance\ncarry,launch.sped=3,1,1\n", "row 1, override launch.sped: unknown key"),
     ],
 )
 def test_a_table_that_cannot_be_validated_is_one_line(tmp_path, capsys, text, wrong):
