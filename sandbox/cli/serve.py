@@ -24,7 +24,7 @@ PACKAGES = ("starlette", "uvicorn", "websockets", "segno")
 @click.option("--json", "as_json", is_flag=True, help="Print the addresses as one line of JSON.")
 @units_option
 def serve(scenes: tuple[str, ...], port: int | None, share: bool, jobs: int | None, as_json: bool) -> None:
-    """Play in any browser: on this computer or, with --share, on every phone and tablet in the room.
+    """Play in any browser; with --share on every phone in the room.
 
     All computing is done here. The first address is for players; the second is the teacher's: who is there, one scene
     for all, everybody's shots. SCENE is a scene with its presets, one preset, a task or a scene file; by default all
