@@ -18,6 +18,9 @@ from sandbox.lab.fit.problem import Problem
 MOST_STEPS, FIRST_DAMPING, MOST_DAMPING = 60, 1e-3, 1e8
 WORTH = 1e-7
 
+#: The longest step, as a share of the range in which starts are searched: slopes say little of what is farther.
+LONGEST = 0.5
+
 
 @dataclass(frozen=True)
 class Place:
@@ -47,8 +50,10 @@ def descend(
     here, damping = _place(problem, share, inverse, loss, until), FIRST_DAMPING
     if not np.isfinite(here.cost):
         return here
+    low, high = problem.starts_within
+    longest = LONGEST * (high - low)
     for _ in range(MOST_STEPS):
-        step, saved = _step(here, inverse, loss, damping)
+        step, saved = _step(here, inverse, loss, damping, longest)
         if abs(saved) <= worth * here.cost or damping > MOST_DAMPING:
             break
         if saved < 0.0:  # what was cut at a bound spoils the rest of the step
@@ -69,8 +74,11 @@ def _place(problem: Problem, share: np.ndarray, inverse: np.ndarray, loss: Loss,
     return Place(share, residuals, slopes, float(loss.cost(residuals * inverse).sum()))
 
 
-def _step(here: Place, inverse: np.ndarray, loss: Loss, damping: float) -> tuple[np.ndarray, float]:
-    """The damped step in shares, and what it is expected to save; none in a direction that leads out of the range."""
+def _step(
+    here: Place, inverse: np.ndarray, loss: Loss, damping: float, longest: np.ndarray
+) -> tuple[np.ndarray, float]:
+    """The damped step in shares, in no direction longer than ``longest``, and what it is expected to save; none in a
+    direction that leads out of the range."""
     scaled = here.residuals * inverse
     root = np.sqrt(loss.weight(scaled)) * inverse
     slopes, left = here.slopes * root[:, None], here.residuals * root
@@ -83,6 +91,7 @@ def _step(here: Place, inverse: np.ndarray, loss: Loss, damping: float) -> tuple
     unit = slopes[:, free] / size[free]
     matrix = unit.T @ unit + damping * np.eye(len(free))
     step[free] = np.linalg.solve(matrix, downhill[free] / size[free]) / size[free]
+    step = step / max(1.0, float((np.abs(step) / longest).max()))
     step = np.clip(here.share + step, 0.0, 1.0) - here.share
     after = left + slopes @ step
     return step, 0.5 * float(left @ left - after @ after)

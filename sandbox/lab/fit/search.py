@@ -27,11 +27,12 @@ LOST, LOST_SCALE = 8.0, 0.02
 #: most this share of a range; the best are followed. Where that did not help so many times, it is not tried any more.
 WORSE, WORSE_ROBUST, FAR, INFLATED, WIDEST, DRAWN, POLISHED, VAIN = 1.25, 1.6, 4.5, 2.0, 0.3, 32, 4, 2
 
-#: Starts that lead to the same path in the first window, to this share of its standard deviation, are one.
-SAME = 0.1
+#: Starts that lead to the same path in the first window, to this share of its standard deviation, and to values less
+#: apart than this share of a range, are one.
+SAME, APART = 0.1, 0.25
 
-#: The accuracy of the fit to a window that is not the last, as a share of the cost.
-COARSE = 1e-3
+#: The accuracy of the fit to a window that is not the last, as a share of what one residual costs.
+COARSE = 0.3
 
 #: Ratio of von Neumann (1941): the mean square of differences of neighbouring residuals over the mean square of the
 #: residuals. It is 2 for errors that are independent; below this the path has another shape than the track, perhaps or
@@ -55,17 +56,19 @@ def search(problem: Problem, robust: bool) -> Place | None:
             found = following.from_start(share)
             if found is not None and following.merit(found) < least:
                 best, least = found, following.merit(found)
-            if best is not None and _is_good(problem, best.residuals, following.agreed):
+            if best is not None and _is_good(problem, best, following.agreed):
                 return best
         if window(problem, WINDOW) >= problem.last or following.hopeless:
             break  # there is nothing to grow, or no window would do
     return best
 
 
-def _is_good(problem: Problem, residuals: np.ndarray, agreed: int) -> bool:
-    """True if the residuals have no pattern; or where they are too few to have one, if two starts came to them."""
-    ratio = neumann(problem.measured.groups, residuals)
-    return ratio > ALIKE or (ratio == 0.0 and agreed > 0)
+def _is_good(problem: Problem, place: Place, agreed: int) -> bool:
+    """True if the residuals have no pattern; or where they are too few to have one, if two starts came to them. Not at
+    the end of a range, where there may be a better minimum elsewhere."""
+    ratio = neumann(problem.measured.groups, place.residuals)
+    inside = bool(((place.share > 0.0) & (place.share < 1.0)).all())
+    return inside and (ratio > ALIKE or (ratio == 0.0 and agreed > 0))
 
 
 def neumann(groups: np.ndarray, residuals: np.ndarray) -> float:
@@ -125,13 +128,13 @@ class _Following:
         self._vain = 0
         self.hopeless = False  # whether the path has another shape than the track already where it is followed
         self.agreed = 0  # starts that came to the same path as others in the first window
-        self._firsts: list[np.ndarray] = []  # residuals in the first window, of starts so far
+        self._firsts: list[tuple[np.ndarray, np.ndarray]] = []  # residuals in the first window, and shares, so far
 
     def from_start(self, share: np.ndarray) -> Place | None:
         """The place where the search ends; None if a run failed on the way, or another start came to the same path."""
         problem, part = self.problem, WINDOW
         until = window(problem, part)
-        place = self._descend(share, until, COARSE if until < problem.last else WORTH)
+        place = self._descend(share, until, self._worth(until))
         if place is None or self._is_known(place, until):
             return None
         while until < problem.last and place is not None:
@@ -143,18 +146,22 @@ class _Following:
         return place
 
     def _is_known(self, place: Place, until: float) -> bool:
-        inside = self.problem.times <= until
-        first = (place.residuals / self.scale)[inside]
+        """True if another start came to the same path in the first window, and not by far other values."""
+        first = (place.residuals / self.scale)[self.problem.times <= until]
         size = SAME * max(float(np.abs(first).mean()), 1e-12)
-        known = any(float(np.abs(first - other).mean()) < size for other in self._firsts)
-        self._firsts.append(first)
+        matters = (place.slopes != 0.0).any(axis=0)
+        known = any(
+            float(np.abs(first - other).mean()) < size and (np.abs(place.share - share)[matters] < APART).all()
+            for other, share in self._firsts
+        )
+        self._firsts.append((first, place.share))
         self.agreed += known
         return known
 
     def _grown(self, place: Place, before: float, until: float) -> Place | None:
         """The minimum in a larger window. Where the path does not follow the points any more, many candidates that fit
         the window ``before`` as well are tried: an impact makes large differences of small ones."""
-        worth = COARSE if until < self.problem.last else WORTH
+        worth = self._worth(until)
         found = self._descend(place.share, until, worth)
         if found is not None and (self._vain >= VAIN or not self._is_lost(place, before, found, until)):
             return found
@@ -207,6 +214,12 @@ class _Following:
         """The measure by which one of several candidates for all points is chosen; the lower, the better."""
         left = np.abs(place.residuals / self.scale)
         return float((np.sqrt(left) if self.robust else left**2).mean())
+
+    def _worth(self, until: float) -> float:
+        """The share of the cost that a step must save: in a window that is not the last, a part of what one residual
+        costs, so that values of which it says little stay where they are."""
+        inside = int((self.problem.times <= until).sum())
+        return WORTH if until >= self.problem.last else COARSE / inside
 
     def _descend(self, share: np.ndarray, until: float, worth: float) -> Place | None:
         """The minimum in one window; with a robust loss in two rounds, as its scale falls with the residuals."""
