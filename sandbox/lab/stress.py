@@ -57,6 +57,9 @@ _STEP, _PLAIN_STEP = 1 / 60, 1 / 240
 #: Samples of a path in addition to the ends of its arcs, and times at which pairs of balls are checked.
 _SAMPLES, _LOOKS = 300, 300
 
+#: Most extremes that are named where one message is that of several.
+_NAMED = 3
+
 #: Most balls for which pairs are checked along the whole path.
 _MOST_PAIRED = 40
 
@@ -298,12 +301,16 @@ def _sums(measured: Sequence[Outcome], outcomes: Sequence[Outcome]) -> list[str]
 
 
 def _remarks(outcomes: Sequence[Outcome]) -> Iterator[str]:
-    """Each message once, with the methods that gave it."""
+    """Each message once, with the extremes and methods that gave it."""
     by_message: dict[tuple[str, str, str], list[str]] = defaultdict(list)
     for o in outcomes:
         if o.outcome != HELD:
             by_message[o.outcome, o.extreme, o.message.partition("\n")[0]].append(o.method)
     everybody = len({outcome.method for outcome in outcomes})
+    by_extreme: dict[tuple[str, str, tuple[str, ...]], list[str]] = defaultdict(list)
     for (outcome, extreme, message), names in by_message.items():
-        who = "" if len(names) == everybody else f" ({', '.join(names)})"
-        yield from paragraph(f"{outcome}, {extreme}{who}: {message}", "    ")
+        by_extreme[outcome, message, tuple(names)].append(extreme)
+    for (outcome, message, methods), extremes in by_extreme.items():
+        who = "" if len(methods) == everybody else f" ({', '.join(methods)})"
+        where = ", ".join(extremes) if len(extremes) <= _NAMED else f"{len(extremes)} extremes"
+        yield from paragraph(f"{outcome}, {where}{who}: {message}", "    ")
