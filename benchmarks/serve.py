@@ -181,7 +181,7 @@ def main() -> None:
         click.echo("| | changes | within 100 ms | half | 95 of 100 | 99 of 100 | a path | its processor time |")
         click.echo("|---|---|---|---|---|---|---|---|")
         for scene in sources:
-            for breakers in (0, BREAKERS) if scene == sources[-1] else (0,):
+            for breakers in (0, BREAKERS) if scene == sources[-1] and asked.players > BREAKERS else (0,):
                 pids = processes(server.pid)
                 before = processor_time(pids)
                 aim = aiming(url, asked.players, asked.rate, asked.seconds, scene, breakers)

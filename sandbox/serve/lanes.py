@@ -4,7 +4,8 @@ ones waiting."""
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Coroutine, Hashable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from time import monotonic
 from typing import Any
@@ -33,16 +34,25 @@ class Job:
 
 
 class Lanes:
-    """``width`` processes. In the loop of the thread that makes it."""
+    """``width`` processes. In the loop that runs where it is made. Each calls ``warm(*args)`` before its first job, and
+    again after it was ended: how long a process takes to start does not count as a job's time."""
 
-    def __init__(self, width: int | None = None) -> None:
+    def __init__(self, width: int | None, warm: Callable[..., Any] = dict, *args: Any) -> None:
         self.width = width or cores() + SPARE
+        self._warm = warm, args
         self._processes = [Processes(1) for _ in range(self.width)]
-        self._idle = list(self._processes)
+        self._idle: list[Processes] = []
         self._running: dict[Hashable, Job] = {}  # by turn
         self._waiting: dict[Hashable, Job] = {}  # the newest of each want, in the order in which they came
         self._takes: dict[Hashable, float] = {}  # s, by what takes about as long
         self._tasks: set[asyncio.Task[None]] = set()
+        for process in self._processes:
+            self._follow(self._warm_up(process))
+
+    async def started(self) -> None:
+        """Wait until all processes are there."""
+        while len(self._idle) + len(self._running) < self.width:
+            await asyncio.sleep(0.01)
 
     async def compute(
         self, turn: Hashable, want: Hashable, alike: Hashable, work: Callable[..., Reply], *args: Any
@@ -57,11 +67,6 @@ class Lanes:
         self._waiting[turn, want] = job  # in the place of the older one
         self._start()
         return await job.reply
-
-    async def each(self, work: Callable[..., Reply], *args: Any) -> None:
-        """Call ``work(*args)`` in every process."""
-        calls = [process.submit(work, *args) for process in self._processes]
-        await asyncio.gather(*map(asyncio.wrap_future, calls), return_exceptions=True)
 
     def forget(self, turn: Hashable) -> None:
         """Drop what is waited for with this turn: who wanted it has left."""
@@ -89,9 +94,20 @@ class Lanes:
             long += is_long
             job.began = now
             self._running[job.turn] = job
-            task = asyncio.create_task(self._run(job, self._idle.pop()))
-            self._tasks.add(task)
-            task.add_done_callback(self._tasks.discard)
+            self._follow(self._run(job, self._idle.pop()))
+
+    def _follow(self, work: Coroutine[Any, Any, None]) -> None:
+        task = asyncio.create_task(work)
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+
+    async def _warm_up(self, process: Processes) -> None:
+        """Have a process import what it needs; then it takes jobs."""
+        work, args = self._warm
+        with suppress(Exception):  # what is wrong is said where it is asked for
+            await asyncio.wrap_future(process.submit(work, *args))
+        self._idle.append(process)
+        self._start()
 
     def _is_long(self, job: Job, now: float) -> bool:
         """True if a job is expected to take long, or has done so."""
@@ -99,21 +115,25 @@ class Lanes:
 
     async def _run(self, job: Job, process: Processes) -> None:
         reply: Reply
+        lost = False
         call = process.submit(job.work, *job.args)
         ending = asyncio.get_running_loop().call_later(RUN, process.abandon, call)
         try:
             reply = await asyncio.wrap_future(call)
         except WorkerLost:
-            late = monotonic() - job.began >= RUN
-            reply = {"error": f"this takes more than {RUN:g} s to compute, and was ended" if late else
-                     "the process that computed this was lost; try again"}  # fmt: skip
+            lost, late = True, monotonic() - job.began >= RUN
+            why = f"this takes more than {RUN:g} s to compute, and was ended"
+            reply = {"error": why if late else "the process that computed this was lost; try again"}
         except Exception as error:
             reply = {"error": f"this could not be computed: {type(error).__name__}"}
         ending.cancel()
         took = monotonic() - job.began
         self._takes[job.alike] = LEARNED * took + (1 - LEARNED) * self._takes.get(job.alike, took)
         del self._running[job.turn]
-        self._idle.append(process)
         if not job.reply.done():
             job.reply.set_result(reply)
-        self._start()
+        if lost:
+            await self._warm_up(process)
+        else:
+            self._idle.append(process)
+            self._start()

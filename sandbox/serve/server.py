@@ -93,11 +93,10 @@ async def _serve(
     port = listener.getsockname()[1]
     host = _own_address() if share else LOOPBACK
     hosts = {f"{name}:{port}" for name in (LOOPBACK, "localhost", host, *([socket.gethostname()] if share else []))}
-    lanes = Lanes(options.jobs)
+    sources = dict.fromkeys(each.source for each in list(scenes.values())[:WARMED] if not each.is_task)
+    lanes = Lanes(options.jobs, calls.warmed, list(sources))
     try:
-        sources = list(dict.fromkeys(each.source for each in list(scenes.values())[:WARMED] if not each.is_task))
         await _checked(lanes, scenes)
-        warming = asyncio.create_task(lanes.each(calls.warmed, sources))
         room = Room(scenes, lanes, options.units)
         config = uvicorn.Config(
             app_of(room, tokens, hosts), log_config=None, access_log=False, lifespan="off", http=_Asking,
@@ -110,7 +109,6 @@ async def _serve(
         base = f"http://{host}:{port}"
         ready(Address(f"{base}/{tokens.players}/", f"{base}/{tokens.teacher}/", port, share))
         await server.serve(sockets=[listener])
-        warming.cancel()
     finally:
         lanes.close()
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
@@ -41,6 +42,7 @@ def session_of(ask: Ask) -> Session | None:
         played, session = 0, Session(task_of(ask.source), ask.game.seed, ask.game.player)
     for values in shots[played:]:
         session.shoot(dict(values))
+        _drop_runs(session)
     _keep(_key(ask, len(shots)), session)
     return session
 
@@ -50,8 +52,15 @@ def recorded(ask: Ask, session: Session, run: SceneRun) -> None:
     assert ask.game is not None
     _sessions.pop(_key(ask, len(ask.game.shots)), None)
     session.record(dict(ask.changes), run)
+    _drop_runs(session)
     game = Game(ask.game.seed, ask.game.player, (*ask.game.shots, ask.changes))
     _keep(_key(ask._replace(game=game), len(game.shots)), session)
+
+
+def _drop_runs(session: Session) -> None:
+    """Forget the runs of shots that were scored: a class of players would fill the memory with them."""
+    for attempt in session.attempts[-2:]:
+        attempt.shots[:] = [replace(shot, run=None) for shot in attempt.shots]  # type: ignore[arg-type]
 
 
 def _key(ask: Ask, shots: int) -> tuple[str, str]:

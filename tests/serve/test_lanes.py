@@ -22,7 +22,7 @@ def run(play: Callable[[Lanes], Awaitable[Any]], width: int) -> Any:
     async def played() -> Any:
         made = Lanes(width)
         try:
-            await made.each(dict)  # started
+            await made.started()
             return await play(made)
         finally:
             made.close()

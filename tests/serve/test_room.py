@@ -18,7 +18,7 @@ import sandbox
 from sandbox import tasks
 from sandbox.cli import serve as cli
 from sandbox.page.replay import LAYOUTS
-from sandbox.serve import calls, server, work
+from sandbox.serve import calls, server, sessions, work
 from tests.own_scene import DROP, copy_of
 from tests.serve.conftest import Client, serving
 
@@ -138,6 +138,17 @@ def test_a_task_is_played_to_its_end(player):
     assert client.hear("path", n=client.ask("path"))["run"]["task"] | {"total": ""} == {
         "attempt": 1, "attempts": task.attempts, "total": "", "over": False, "passed": False, "stars": 0,
     }  # fmt: skip
+
+
+def test_a_session_is_found_again_from_its_shots():
+    """In a process that has never seen it, with the same starts and the same noise."""
+    aims = [{"launch.speed": 7.0 + 0.1 * n, "launch.angle": 52.0} for n in range(3)]
+    session = tasks.Session(tasks.load("free-throw"), seed=7, player=3)
+    for n, aim in enumerate(aims):
+        sessions._sessions.clear()
+        reply = work.shot(calls.Ask("free-throw", aim, 1, game=calls.Game(7, 3, tuple(aims[:n]))))
+        assert reply["kept"]["verdict"] == session.shoot(aim).said
+        assert reply["kept"]["task"]["attempt"] == session.attempt.number == n + 2
 
 
 @pytest.mark.parametrize(("shown", "task"), [("one metre", "at-the-knees"), ("first contact", "curve-for-a-strike")])
