@@ -1,4 +1,4 @@
-"""The commands that measure: ``aim``, ``fit``, ``spread``, ``sweep``, ``trade``, ``stress``, ``validate``."""
+"""The commands that measure the sandbox: ``aim``, ``spread``, ``sweep``, ``trade``, ``stress``."""
 
 from __future__ import annotations
 
@@ -11,13 +11,10 @@ from sandbox.cli.arguments import (
     changes_options,
     json_option,
     load,
-    map_option,
     optional_scene,
-    pairs,
     say,
     scene_argument,
     units_option,
-    where_option,
 )
 from sandbox.errors import RequestError, RunError
 from sandbox.files import json_text, writing
@@ -87,122 +84,6 @@ def aim(
     else:
         written = [] if show is None else [f"wrote {show}"]
         say("\n".join([*report.as_text(found), *written]))
-
-
-def print_formats(context: click.Context, option: click.Parameter, value: bool) -> None:
-    """Print the known columns of tables and end, in place of a command."""
-    if value:
-        from sandbox.lab.fit.formats import as_text
-
-        say(as_text())
-        context.exit()
-
-
-@click.command()
-@scene_argument
-@click.argument(
-    "tracks",
-    metavar="TRACK.csv...",
-    type=Path,
-    nargs=-1,
-    required=True,
-    help="Measured positions, a file for each ball, or a table of shots: CSV, text or JSON.",
-)
-@click.option(
-    "--vary", metavar="KEY[=LO:HI]", multiple=True, required=True, help="A number to fit, and its range; repeatable."
-)
-@click.option(
-    "--free", metavar="NAME,...", multiple=True, help="Of a film, fit these too: origin, time, tilt (of the camera)."
-)
-@click.option("--scale", metavar='"120 px = 1 m"', help="Positions are in px of a picture, y downwards.")
-@click.option("--origin", metavar="X,Y", help="The scene's origin, in the numbers of the track.")
-@click.option(
-    "--fps", metavar="N", type=click.FloatRange(0.0, min_open=True), help="Frames per second, of a column frame."
-)
-@click.option(
-    "--ball", "balls", metavar="[NAME=]BALL", multiple=True, help="The scene's ball that a track is of; repeatable."
-)
-@map_option
-@where_option
-@click.option(
-    "--formats",
-    is_flag=True,
-    is_eager=True,
-    expose_value=False,
-    callback=print_formats,
-    help="List known columns of tables, and exit.",
-)
-@click.option(
-    "--models",
-    metavar="KEY[=A,B]",
-    help="Fit each of these models, such as ball.drag.model=constant,none, and compare.",
-)
-@click.option("--robust", is_flag=True, help="Count points with gross errors less or not at all (Tukey's biweight).")
-@click.option("--plot", metavar="F.png", type=Path, help="Points, path and residuals as a picture.")
-@click.option("--page", metavar="F.html", type=Path, help="The same with all numbers, as a page.")
-@click.option("--save", metavar="F.toml", type=Path, help="The fitted scene; its pictures show the points (F.csv).")
-@changes_options
-@json_option
-def fit(
-    scene: str,
-    tracks: tuple[Path, ...],
-    vary: tuple[str, ...],
-    free: tuple[str, ...],
-    scale: str | None,
-    origin: str | None,
-    fps: float | None,
-    balls: tuple[str, ...],
-    mapping: tuple[str, ...],
-    where: tuple[str, ...],
-    models: str | None,
-    robust: bool,
-    plot: Path | None,
-    page: Path | None,
-    save: Path | None,
-    changes: dict[str, Any],
-    as_json: bool,
-) -> None:
-    """Find the parameters that explain measured tracks or shots.
-
-    Each has its 95 % interval. A track has the columns t (s since the launch), x, y (m as in the scene), and ball if
-    there are several; other units stand in the names, as "x (cm)". Tracker's exports are read as they are. Without t,
-    points are compared with the nearest place of the path.
-
-    \b
-    Examples:
-      sandbox fit basketball track.csv --vary launch.speed=6:9 --vary floor.restitution
-      sandbox fit throws film.txt --vary launch.speed=5:20 --vary launch.angle=20:60 --free time,origin
-      sandbox fit basketball clicks.csv --scale "96 px = 1 m" --origin 212,655 --vary launch.speed=6:9
-      sandbox fit golf shots.csv --where Club=Driver --vary air.density=1:1.3
-      sandbox fit golf shots.csv --map "Speed=launch.speed mph" --map "Carry=carry yd" --vary launch.angle=5:20
-    """
-    from sandbox.cli.fit_outputs import check_outputs, write_outputs
-    from sandbox.lab.fit import fit_track, parse_varied, read_data, report
-    from sandbox.lab.fit.data import Reading
-    from sandbox.lab.fit.formats import parse_entry
-    from sandbox.lab.fit.frame import parse_free
-    from sandbox.lab.fit.models import compare, parse_models
-    from sandbox.lab.fit.reading import Film, parse_ball, parse_pair, parse_scale
-
-    chosen = load(scene, changes)
-    spans = [parse_varied(chosen, text) for text in vary]
-    film = Film(
-        None if scale is None else parse_scale(scale),
-        (0.0, 0.0) if origin is None else parse_pair("--origin", origin),
-        fps,
-        dict(map(parse_ball, balls)),
-    )
-    entries = tuple(map(parse_entry, mapping))
-    how = Reading(film, parse_free("--free", free), entries, pairs("--where", where))
-    check_outputs(plot, page, save, tracks)
-    data = read_data(chosen, tracks, how)
-    found = (
-        fit_track(chosen, data, spans, robust)
-        if models is None
-        else compare(chosen, data, spans, *parse_models(chosen, "--models", models), robust)
-    )
-    written = write_outputs(found, plot, page, save)
-    say(report.as_json(found) if as_json else "\n".join([*report.as_text(found), *written]))
 
 
 @click.command()
@@ -479,74 +360,3 @@ def stress(scene: str | None, changes: dict[str, Any], as_json: bool) -> None:
     with bar("stress") as progress:
         outcomes = lab.stress(scenes, changes.get("accuracy.level", "balanced"), scene is None, progress)
     say(json_text(outcomes) if as_json else "\n".join(lab.as_text(outcomes)))
-
-
-@click.command()
-@optional_scene
-@click.option("--against", metavar="F.csv", type=Path, help="A table of your own in place of the published ones.")
-@map_option
-@where_option
-@click.option(
-    "--within",
-    metavar="NAME=WIDTH",
-    multiple=True,
-    help='With --map: how far off a result may be, as carry="5 yd" or carry=2%; repeatable.',
-)
-@changes_options
-@click.option("--teeth", is_flag=True, help="Switch off, or change by 20 %, what each row tests: does it fall?")
-@json_option
-def validate(
-    scene: str | None,
-    against: Path | None,
-    mapping: tuple[str, ...],
-    where: tuple[str, ...],
-    within: tuple[str, ...],
-    changes: dict[str, Any],
-    teeth: bool,
-    as_json: bool,
-) -> None:
-    """Compare results with published numbers and their sources.
-
-    Each row is exact, fitted, of another program, of a model, measured, or held out of a fit. Only measured and
-    held-out rows are counted.
-
-    A table of your own has the columns result, value and tolerance, and as you like scene, case, set, unit, source,
-    kind and the others of the published tables; or one launch in each row, with its columns named by --map.
-
-    \b
-    Examples:
-      sandbox validate
-      sandbox validate golf --teeth
-      sandbox validate golf --set ball.drag.model=usga --set ball.lift.model=usga
-      sandbox validate golf --against shots.csv --within carry=3% --within apex="3 yd"
-    """
-    from sandbox.lab import validate as lab
-    from sandbox.lab.tables import paragraph
-    from sandbox.progress import bar
-
-    own = None
-    notes: tuple[str, ...] = ()
-    if against is not None:
-        from sandbox.lab.against import cases_against
-        from sandbox.lab.fit.formats import parse_entry
-
-        if teeth:
-            raise RequestError("--teeth: says what the published numbers test; it cannot be combined with --against")
-        entries = [parse_entry(text) for text in mapping]
-        own, notes = cases_against(against, scene, entries, pairs("--where", where), pairs("--within", within))
-    elif mapping or where or within:
-        raise RequestError("--map, --where and --within require --against F.csv")
-    with bar("validate") as progress:
-        rows = lab.validate(scene, changes, progress, own)
-    if teeth:
-        from sandbox.lab import teeth as of_rows
-
-        with bar("teeth") as progress:
-            tried = of_rows.teeth(rows, changes, progress)
-        say(json_text(of_rows.as_json(rows, tried)) if as_json else "\n".join(of_rows.as_text(tried)))
-        return
-    text = [
-        *lab.as_text(rows, "published" if own is None else "given"),
-        *(line for note in notes for line in paragraph(note, "")),
-    ]
-    say(json_text(rows) if as_json else "\n".join(text))

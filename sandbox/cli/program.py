@@ -21,7 +21,8 @@ COMMANDS = {
     "run": ("run",),
     "serve": ("serve",),
     "tasks": ("tasks",),
-    "lab": ("aim", "fit", "spread", "sweep", "trade", "stress", "validate"),
+    "lab": ("aim", "spread", "sweep", "trade", "stress"),
+    "compare": ("fit", "validate"),
 }
 
 

@@ -158,7 +158,7 @@ def test_a_scene_file_keeps_its_comments(elsewhere):
     assert tomllib.loads(text)["launch"]["speed"] == 2.25
 
 
-def test_measured_points_are_on_the_stage_and_stay_with_a_new_scene_file(elsewhere, shot_of):
+def test_measured_points_are_on_stage_and_stay_with_a_new_file(elsewhere, shot_of):
     (elsewhere / "throw.csv").write_text("t,x,y,ball\n0.1,0.5,2.5,ball\n0.2,1.0,2.9,ball\n")
     (elsewhere / "throw.toml").write_text('scene = "basketball"\n[measured]\ntrack = "throw.csv"\n')
     stages = [Stage(shot_of(Session(source)), (640, 360)) for source in (str(elsewhere / "throw.toml"), "basketball")]
