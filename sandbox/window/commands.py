@@ -18,7 +18,7 @@ from sandbox.picture.palette import palette
 from sandbox.scene import listings, listings_in
 from sandbox.window import aim, export, replay
 from sandbox.window.find import Found, Question, find, questions, said_range
-from sandbox.window.front import Front, begin
+from sandbox.window.front import Entry, Front, begin
 from sandbox.window.measure import Tape
 from sandbox.window.menu import Menu
 from sandbox.window.overlay import Board, Chart, Choice, Overlay, PictureChoice, Row
@@ -411,6 +411,10 @@ def _copy(view: View, by: float) -> None:
 
 
 def _other_preset(view: View, by: float) -> None:
+    contest = view.game.referee.contest
+    if contest is not None and contest.following and by > 0:
+        begin(view.game, Entry("task", contest.following))
+        return
     names = [listing.name for listing in listings()]
     source = view.game.session.source
     now = names.index(source) if source in names else 0
@@ -490,7 +494,7 @@ TABLE: tuple[Command, ...] = (
     Command("mark", ("3",), "predict first: mark where it lands, then see", "Play",
             lambda view, by: view.game.referee.begin(Prediction(view.game.session.scene))),
     Command("menu", ("l",), "all scenes and presets", "More", _menu),
-    Command("next_preset", ("page down", "page up"), "next, previous preset", "More", _other_preset),
+    Command("next_preset", ("page down", "page up"), "next, previous preset; next task", "More", _other_preset),
     Command("panel", ("tab",), "the panel of parameters", "More"),
     Command("reset", ("backspace",), "all parameters as in the file", "More",
             lambda view, by: view.game.aiming.reset()),

@@ -124,6 +124,11 @@ class Contest:
         return []
 
     @property
+    def following(self) -> str:
+        """The name of the task that comes next, "" if there is none."""
+        return ""
+
+    @property
     def best_shots(self) -> Sequence[int]:
         """Which of the shots were the best, from 0, the best first: three at most."""
         return ()
@@ -229,6 +234,12 @@ class AtTask(Contest):
         lower = self.task.score.lower_is_better and self.task.score.how != "fewest"
         known = [(worth if lower else -worth, i) for i, worth in enumerate(self.worths) if worth is not None]
         return [i for _, i in sorted(known)[:3]]
+
+    @property
+    def following(self) -> str:
+        names = tasks.tasks()
+        after = names[names.index(self.name) + 1 :] if self.players == 1 and self.name in names else []
+        return next((name for name in after if tasks.find_task(name).parent == self.task.file.parent), "")
 
     @property
     def stars(self) -> int | None:

@@ -120,7 +120,13 @@ class Drawing:
         if referee.glow and not self.shown.follows:
             scoreboard.draw_glow(sheet, stage.ball_at(shot, min(self.shown.time, referee.decided)), referee.glow)
         if contest is not None and referee.is_over and referee.tells and referee.again != "slow":
-            scoreboard.draw_end(sheet, contest, self.game.best, self.game.place)
+            best, place, mouse = self.game.best, self.game.place, self.targets.mouse
+            forms = scoreboard.end_forms(sheet, contest, best, place, mouse, self.targets.cards)
+            at = sheet.size[0] // 2, sheet.top_row + 2 * sheet.gap
+            if self.layout.put("end", forms, at, "midtop") is None:  # over all else
+                rect = pygame.Rect((0, 0), forms[0].size)
+                rect.midtop = at
+                forms[0].draw(rect)
 
     def _draw_no_path(self, sheet: Canvas, stage: Stage) -> None:
         """The place, dark and without a path."""

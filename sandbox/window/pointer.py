@@ -11,6 +11,7 @@ import pygame
 from sandbox.window import aim, commands
 from sandbox.window.hand import ShownGrip
 from sandbox.window.measure import Tape
+from sandbox.window.scoreboard import CHOICES
 from sandbox.window.view import View
 
 Place = tuple[int, int]  # px
@@ -114,6 +115,9 @@ class Pointer:
         card = view.targets.card_at(at)
         if card == "map":
             return self._begun(self._aim_on_map, at)
+        if card in CHOICES:
+            commands.do(view, card)
+            return None
         if card == "charts":
             commands.do(view, "graphs")
         elif (shown := view.targets.grip_at(at)) is not None:

@@ -3,7 +3,7 @@ the end the stars, the best scores and what can be done next."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import cos, pi, sin
 
 import pygame
@@ -12,17 +12,20 @@ from sandbox.picture.palette import Colour, mix, palette
 from sandbox.window.best import BestList
 from sandbox.window.canvas import Canvas
 from sandbox.window.contest import AtTask, Contest
+from sandbox.window.layout import Form
 from sandbox.window.referee import GLOW, Referee
 
 CARD = palette("card")
 
+#: Places of buttons in px, by command.
+Buttons = dict[str, pygame.Rect]
 #: Radius of a star on the card at the end, and of a small one in a list; px on 720 rows.
 STAR, SMALL_STAR = 30.0, 8.0
 #: Radius of a glow at its end, in px on 720 rows, and how many rays it has.
 RADIUS, RAYS = 110.0, 12
 
-#: What can be done at the end, with its key.
-CHOICES = (("Enter", "play again"), ("1", "other tasks and games"), ("N, P", "see the shots"))
+#: What can be done at the end, by the command that does it: its key and what it is called.
+CHOICES = {"again": ("Enter", "play again"), "next_preset": ("PgDn", "next: "), "front": ("1", "all tasks and games")}
 
 
 def headline_of(referee: Referee, contest: Contest) -> tuple[str, list[str], Colour]:
@@ -84,30 +87,60 @@ def draw_mark(sheet: Canvas, spots: Sequence[tuple[float, float]], upright: bool
             sheet.painter.line(ends, (4 + wider) * unit, colour)
 
 
-def draw_end(sheet: Canvas, contest: Contest, best: BestList, place: int) -> pygame.Rect:
-    """The card at the end of a contest, in the upper half; ``place`` is that in the best list, 0 for none. Returns
-    where it is."""
-    letters, gap, unit = sheet.lettering, sheet.gap, sheet.unit
+def end_forms(
+    sheet: Canvas, contest: Contest, best: BestList, place: int, mouse: tuple[int, int], found: Buttons
+) -> list[Form]:
+    """The card at the end of a contest: its choices side by side, or one below the other. ``place`` is that in the best
+    list, 0 for none; the places of its buttons, by command, go into ``found`` once it is drawn."""
     lines = [(line, "medium" if i == 0 else "small", "text" if i == 0 else "quiet")
              for i, line in enumerate(contest.outcome)]  # fmt: skip
     lines += [(line, "small", "quiet") for line in _best_lines(contest, best, place)]
-    choices = "     ".join(f"{key}: {what}" for key, what in CHOICES)
-    lines.append((choices, "small", "accent"))
-    head = round(2.6 * STAR * unit) if contest.stars is not None else 0
-    wide = max(letters.width(text, size, bold=size == "medium") for text, size, _ in lines) + 8 * gap
-    tall = head + sum(letters.height(size) + gap for _, size, _ in lines) + 4 * gap
-    rect = pygame.Rect(0, 0, min(max(wide, round(12 * STAR * unit)), sheet.frame.width), tall)
-    rect.midtop = sheet.size[0] // 2, sheet.top_row + 2 * gap
-    sheet.painter.panel(rect, CARD["background"], 0.94, 12 * unit)
-    if contest.stars is not None:
-        middle = rect.top + 2 * gap + 1.2 * STAR * unit
-        stars(sheet, (rect.centerx - 2.4 * STAR * unit, middle), STAR * unit, contest.stars)
-    y = rect.top + 2 * gap + head
-    for text, size, colour in lines:
-        text = letters.cut(text, size, rect.width - 4 * gap, size == "medium")
-        sheet.write(text, size, (rect.centerx, y), CARD[colour], "midtop", bold=size == "medium")
-        y += letters.height(size) + gap
-    return rect
+    choices = {name: f"{key}  {what}{_title(contest.following) if name == 'next_preset' else ''}"
+               for name, (key, what) in CHOICES.items() if name != "next_preset" or contest.following}  # fmt: skip
+    return [_end_form(sheet, contest.stars, lines, choices, mouse, found, across) for across in (True, False)]
+
+
+def _end_form(
+    sheet: Canvas,
+    lit: int | None,
+    lines: Sequence[tuple[str, str, str]],
+    choices: Mapping[str, str],
+    mouse: tuple[int, int],
+    found: Buttons,
+    across: bool,
+) -> Form:
+    """The card with ``lit`` stars, lines of text with their size and colour, and choices side by side if ``across``."""
+    letters, gap, radius = sheet.lettering, sheet.gap, STAR * sheet.unit
+    row, count = letters.height("small") + 2 * gap, len(choices)
+    widths = {name: letters.width(text, "small") + 4 * gap for name, text in choices.items()}
+    side = sum(widths.values()) + (count - 1) * gap if across else max(widths.values())
+    head = round(2.6 * radius) if lit is not None else 0
+    texts = max(letters.width(text, size, bold=size == "medium") for text, size, _ in lines)
+    wide = min(max(texts, side, round(7.5 * radius)) + 4 * gap, sheet.frame.width)
+    tall = head + sum(letters.height(size) + gap for _, size, _ in lines) + 5 * gap
+    tall += row if across else count * (row + gap) - gap
+
+    def draw(rect: pygame.Rect) -> None:
+        sheet.painter.panel(rect, CARD["background"], 0.94, 12 * sheet.unit)
+        if lit is not None:
+            stars(sheet, (rect.centerx - 2.4 * radius, rect.top + 2 * gap + 1.2 * radius), radius, lit)
+        y = rect.top + 2 * gap + head
+        for text, size, colour in lines:
+            text = letters.cut(text, size, rect.width - 4 * gap, size == "medium")
+            sheet.write(text, size, (rect.centerx, y), CARD[colour], "midtop", bold=size == "medium")
+            y += letters.height(size) + gap
+        left, y = rect.centerx - side // 2, y + gap
+        for name, text in choices.items():
+            button = found[name] = pygame.Rect(left, y, widths[name] if across else side, row)
+            shade = 0.35 if button.collidepoint(mouse) else 0.16
+            sheet.item(button, text, CARD["accent"], shade, left=button.left + 2 * gap, right=button.right)
+            left, y = (left + widths[name] + gap, y) if across else (left, y + row + gap)
+
+    return Form((wide, tall), draw)
+
+
+def _title(name: str) -> str:
+    return name.replace("-", " ")
 
 
 def _best_lines(contest: Contest, best: BestList, place: int) -> list[str]:

@@ -213,10 +213,15 @@ class TestATask:
         passes(thrower, three)
         assert referee.said == referee.shots[0].verdict != contest.said  # of what is shown, not of the last
         assert shown == [3, 2, 1]  # all went in; of equal ones the first is the best
-        thrower.key(pygame.K_RETURN)
+        thrower.frames()
+        buttons = thrower.view.targets.cards
+        assert buttons.keys() >= {"again", "next_preset", "front"}
+        thrower.click(buttons["again"].center)
         thrower.settle()
         assert (referee.contest is contest, referee.contest.session.left, referee.shots) == (False, 5, [])
         assert referee.contest.seed != contest.seed
+        thrower.key(pygame.K_PAGEDOWN)
+        assert referee.contest.name == contest.following != contest.name
 
     def test_escape_leads_to_the_tiles_and_a_scene_ends_it(self, thrower):
         thrower.key(pygame.K_ESCAPE)

@@ -364,7 +364,7 @@ def test_every_key_does_something_harmless_in_every_state(player, tmp_path, monk
     player.game.workers.helper = Unanswered()  # fans, maps and what is found have tests of their own, and take seconds
     for state in ("aiming", "playing", "over"):
         for command, key in [(each, key) for each in TABLE for key in each.keys]:
-            if command.name in ("quit", "next_preset", "fullscreen", "animation"):
+            if command.name in ("quit", "next_preset", "fullscreen", "animation", "mark"):
                 continue  # they have tests of their own
             if state != "aiming" and command.group not in ("Play", "Watch", "See"):
                 continue  # the others do the same
