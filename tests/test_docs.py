@@ -256,6 +256,18 @@ def test_the_exercises_work_as_they_stand(tmp_path: Path, monkeypatch: pytest.Mo
     assert pictures <= {path.name for path in tmp_path.iterdir()}
 
 
+def test_a_task_of_your_own_works_as_the_page_says(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "80")
+    (played,) = executed("tasks.md", capsys)
+    assert len(played.splitlines()) == 4
+
+
+def test_code_of_the_page_on_environments_runs(monkeypatch: pytest.MonkeyPatch, capsys):
+    one, many = executed("gym.md", capsys)
+    assert (one, many) == ("True True True\n", "(64,) True\n")
+
+
 @pytest.mark.parametrize("page", ["from-your-video.md", "from-your-launch-monitor.md"])
 def test_measurements_are_fitted_as_the_page_says(page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys):
     for file in (ROOT / "docs" / "tracks").glob("*.[ct][sx][vt]"):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 from pathlib import Path
 
 import gymnasium
@@ -16,6 +17,7 @@ from sandbox.gym import TaskEnv, environment_id, register
 from sandbox.tasks import tasks
 from tests.tasks.test_task import DIAGONAL, direction
 
+ROOT = Path(__file__).resolve().parents[2]
 IN = {"launch.speed": 7.4, "launch.angle": 52.0}
 
 
@@ -159,3 +161,20 @@ def test_a_wrong_request_is_refused_in_a_line(arguments: dict[str, object], said
         TaskEnv(**arguments)  # type: ignore[arg-type]
     assert said in str(refused.value)
     assert "\n" not in str(refused.value)
+
+
+def test_the_policy_of_the_page_follows_the_reward():
+    """Its mean goes to the actions that are rewarded, each by its own observation, and its deviation falls."""
+    found = importlib.util.spec_from_file_location("learn", ROOT / "docs" / "learn_free_throws.py")
+    learn = importlib.util.module_from_spec(found)
+    found.loader.exec_module(learn)
+    policy = learn.Policy(sandbox.gym.TaskVectorEnv(2, "free-throw"))
+    random, low, high = np.random.default_rng(0), policy.low, policy.high
+    for _ in range(60):
+        observations = random.uniform(low, high, (500, 1))
+        actions = random.normal(policy.mean(observations), np.exp(policy.log_sd))
+        wanted = 0.3 * policy.features(observations)[:, 1:]
+        policy.learn(observations, actions, (np.abs(actions - wanted).max(axis=1) < 0.2).astype(float))
+    ends = policy.mean(np.array([low, high]))
+    assert ends == pytest.approx(np.array([[-0.3, -0.3], [0.3, 0.3]]), abs=0.15)
+    assert np.exp(policy.log_sd).max() < 0.25

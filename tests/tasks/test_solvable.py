@@ -1,0 +1,68 @@
+"""Every task can be solved, and none by holding the button; each sport has three, in rising order."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from sandbox import resources
+from sandbox.lab.runs import runs
+from sandbox.scene.scene_run import SceneRun
+from sandbox.tasks import Session, Task, load, tasks
+
+SOLUTIONS = json.loads((Path(__file__).parent / "solutions.json").read_text("utf-8"))
+
+#: Scenes that have no tasks: pinball is played with flippers, while the ball runs.
+WITHOUT = {"pinball"}
+
+of_name = cache(load)
+
+
+@pytest.mark.parametrize("name", tasks())
+def test_a_task_can_be_solved(name: str):
+    """By the shots that docs/measure_tasks.py found for its first attempt."""
+    session = Session(of_name(name), noise=False)
+    for values in SOLUTIONS[name]["shots"]:
+        shot = session.shoot(values)
+    assert shot.made
+    assert session.attempts[0].over
+
+
+@pytest.mark.parametrize("name", tasks())
+def test_holding_the_button_passes_no_task(name: str):
+    """Neither where the controls stand at first, nor at full strength or the least."""
+    task = of_name(name)
+    first = task.controls[0]
+    held = [{}, {first.key: first.high}, {first.key: first.low}]
+    passed = _passed_at_once if task.shots == 1 else _passed_shot_by_shot
+    assert [values for values in held if passed(task, values)] == []
+
+
+def _passed_at_once(task: Task, values: Mapping[str, float]) -> bool:
+    """True if the same shot in all attempts passes: computed as arrays, and ended when the score is final."""
+    drawn = [list(task.drawn_for(0, attempt).values()) for attempt in range(1, task.attempts + 1)]
+    keys = [*(start.key for start in task.start), *task.defaults]
+    points = [[*start, *task.aimed(values).values()] for start in drawn]
+    found = [run for run in runs(task.scene, keys, points, asked=task.facts) if isinstance(run, SceneRun)]
+    assert len(found) == len(points)
+    return task.passed(task.score.total([task.score.of_shot(run.result) for run in found]))
+
+
+def _passed_shot_by_shot(task: Task, values: Mapping[str, float]) -> bool:
+    session = Session(task, noise=False)
+    while not session.over:
+        session.shoot(values)
+    return session.passed
+
+
+def test_each_sport_has_three_tasks_in_rising_order():
+    scenes = {path.parent.name for path in resources.folder("scenes").glob("*/scene.py")} - WITHOUT
+    found = [(of_name(name).scene.name, of_name(name).file) for name in tasks()]
+    for scene in sorted(scenes):
+        names = [name for name in tasks() if of_name(name).scene.name == scene]
+        assert len(names) >= 3, scene
+    assert [file.parent.parent.name for _, file in found] == [scene for scene, _ in found]
