@@ -325,7 +325,7 @@ def test_one_of_a_list_may_be_set(call, monkeypatch):
     played = []
     monkeypatch.setattr("sandbox.window.app.play", lambda *args: played.append(args))
     assert call("play", "golf", *wind, "--set", "gravity=5").code == 0
-    assert played == [("golf", {"air.wind": (4.91744, 2.0), "gravity": 5}, None)]
+    assert played == [("golf", {"air.wind": (4.91744, 2.0), "gravity": 5}, None, None, 1)]
 
 
 @pytest.mark.parametrize(
