@@ -521,9 +521,10 @@ TABLE: tuple[Command, ...] = (
     Command("row_reset", ("ctrl backspace",), "as in the file", "Panel", lambda view, by: view.panel.reset_row()),
 )
 # fmt: on
-#: What would tell how a shot comes out before it is made: not while a contest is aimed; and what changes the contest.
+#: What would tell how a shot comes out before it is made: not while a contest is aimed; and what changes
+#: the contest, or would write only a part of it.
 GIVE_AWAY = frozenset(("predict", "fan", "wider", "map", "charts", "graphs", "energy", "compare"))
-FIXED = frozenset(("find", "accuracy", "reset", "rack", "undo"))
+FIXED = frozenset(("find", "accuracy", "reset", "rack", "undo", "save_scene", "copy"))
 GROUPS: tuple[str, ...] = tuple(dict.fromkeys(command.group for command in TABLE))
 #: What the bar's buttons say that open a list of a group of commands; its others say what the help does.
 HINTS = {

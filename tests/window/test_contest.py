@@ -301,7 +301,7 @@ def test_a_task_of_ones_own_has_its_own_best_list(tmp_path):
 
 class TestAMatch:
     def test_the_ball_in_hand_is_dragged_and_the_rules_go_on(self, player):
-        player = player("golf", (1100, 640))
+        player = player("billiards/bank", (800, 500))
         player.game.referee.begin(AtMatch(installed_folder("billiards"), "eight-ball", seed=1))
         player.settle()
         game, session = player.game, player.game.session
