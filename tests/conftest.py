@@ -10,6 +10,7 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from sandbox.cli import main
+from tests.browser import browser  # noqa: F401
 from tests.own_scene import DROP, Outcome, copy_of
 
 for ignored, handler in ((signal.SIGINT, signal.default_int_handler), (signal.SIGHUP, signal.SIG_DFL)):

@@ -101,6 +101,8 @@ def rounded(value: Any, digits: int = DIGITS) -> Any:
     if isinstance(value, Mapping):
         return {str(key): rounded(item, digits) for key, item in value.items()}
     if isinstance(value, list | tuple):
+        if all(type(item) is float for item in value) and isfinite(sum(value)):  # most are: coefficients
+            return [round(item, digits) for item in value]
         return [rounded(item, digits) for item in value]
     return rounded(value.tolist(), digits) if hasattr(value, "tolist") else value
 

@@ -16,7 +16,6 @@ from urllib.parse import urlsplit
 import pytest
 
 from tests.own_scene import COMMAND
-from tests.page.conftest import browser  # noqa: F401
 
 pytest.importorskip("starlette", reason="serving is tested with the extra serve")
 

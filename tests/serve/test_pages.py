@@ -13,7 +13,7 @@ from selenium.webdriver.support.select import Select
 from selenium.webdriver.support.wait import WebDriverWait
 
 import sandbox
-from tests.page.conftest import Browser
+from tests.browser import Browser
 from tests.serve.conftest import Client, Served
 
 NAME = '<img src=x onerror="x">'  # 23 characters: cut to 20
