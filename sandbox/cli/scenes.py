@@ -85,4 +85,10 @@ def play(scene: str | None, changes: dict[str, Any], scene_of_replay: str | None
         from sandbox.parameters import without_indices
 
         changes = without_indices(load(scene, {}).parameters, changes, "--set")
-    play_in_window(scene, changes, scene_of_replay, game, 1 + two)
+
+    def page_of(session: Any) -> str:
+        from sandbox.page.task import session_page
+
+        return session_page(session)
+
+    play_in_window(scene, changes, scene_of_replay, game, 1 + two, page_of)

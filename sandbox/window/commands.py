@@ -17,6 +17,7 @@ from sandbox.picture.graph import graph
 from sandbox.picture.palette import palette
 from sandbox.scene import listings, listings_in
 from sandbox.window import aim, export, replay
+from sandbox.window.contest import AtTask
 from sandbox.window.find import Found, Question, find, questions, said_range
 from sandbox.window.front import Entry, Front, begin
 from sandbox.window.measure import Tape
@@ -397,6 +398,20 @@ def _animate(view: View, shot: Shot) -> None:
     game.jobs.ask(work, lambda path: game.messages.tell(f"wrote {path}"), "writing the animation ...")
 
 
+def _page(view: View, by: float) -> None:
+    """A page of each player's attempts at the task, each shot as a replay."""
+    game, contest, page_of = view.game, view.game.referee.contest, view.page_of
+    if not isinstance(contest, AtTask) or page_of is None:
+        game.messages.tell("a page is made of a task that is played")
+        return
+    if not game.referee.shots:
+        game.messages.tell(NO_SHOTS)
+        return
+    for session in contest.sessions:
+        work = view.writer.submit(export.new_file, contest.title, ".html", partial(export.page, page_of, session))
+        game.jobs.ask(work, lambda path: game.messages.tell(f"wrote {path}"), "writing the page ...")
+
+
 def _copy(view: View, by: float) -> None:
     command = view.game.session.command()
     try:
@@ -485,6 +500,7 @@ TABLE: tuple[Command, ...] = (
     Command("screenshot", ("f12",), "picture of the window", "Keep", _screenshot),
     Command("animation", ("f9",), "animation of the last shot", "Keep",
             lambda view, by: _with_shot(view, lambda shot: _animate(view, shot))),
+    Command("page", ("f8",), "page of the task, each shot as a replay", "Keep", _page),
     Command("save_replay", ("f5",), "replay file of the last shot", "Keep",
             lambda view, by: _with_shot(view, lambda shot: _export(view, replay.SUFFIX, partial(replay.save, shot)))),
     Command("compare", ("f6",), "compute the shot again, and compare", "Keep",

@@ -13,6 +13,7 @@ import pytest
 
 from sandbox import tasks
 from sandbox.errors import RequestError
+from sandbox.page.task import session_page
 from sandbox.scene.finding import installed_folder, installed_folders
 from sandbox.window import commands
 from sandbox.window.app import play
@@ -34,8 +35,8 @@ SEED = 1
 def passes(player: Player, enough: Callable[[], bool]) -> None:
     """Time passes until it is enough, without drawing; then one frame."""
     for _ in range(5000):
-        if player.game.referee.work is not None:
-            wait([player.game.referee.work], 60.0)
+        under_way = [player.game.referee.work, *(job.work for job in player.game.jobs.waiting)]
+        wait([work for work in under_way if work is not None], 60.0)
         player.game.advance(LONGEST_FRAME)
         if enough():
             player.frames()
@@ -222,6 +223,20 @@ class TestATask:
         assert referee.contest.seed != contest.seed
         thrower.key(pygame.K_PAGEDOWN)
         assert referee.contest.name == contest.following != contest.name
+
+    def test_a_page_has_the_attempts_so_far(self, thrower, tmp_path, monkeypatch):
+        monkeypatch.chdir(tmp_path)
+        thrower.key(pygame.K_F8)
+        assert thrower.game.notices[-1][0] == "a page is made of a task that is played"
+        thrower.view.page_of = session_page
+        thrower.key(pygame.K_F8)
+        assert thrower.game.notices[-1][0] == commands.NO_SHOTS
+        shoot(thrower, launch__speed=5.0)
+        thrower.key(pygame.K_F8)
+        passes(thrower, lambda: ("wrote out/free-throw-1.html", False) in thrower.game.notices)
+        page = (tmp_path / "out" / "free-throw-1.html").read_text("utf-8")
+        assert thrower.game.referee.contest.said in page
+        assert "Attempt 1" in page
 
     def test_escape_leads_to_the_tiles_and_a_scene_ends_it(self, thrower):
         thrower.key(pygame.K_ESCAPE)
