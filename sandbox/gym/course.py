@@ -39,8 +39,12 @@ class Course:
     drawn of balls is left out, and for each ball of the first shot there are x and y in m, and 1 while it is in play.
     """
 
-    def __init__(self, task: str | Task, facts: Sequence[str] | None = None, noise: bool = True) -> None:
+    def __init__(
+        self, task: str | Task, facts: Sequence[str] | None = None, noise: bool = True, accuracy: str | None = None
+    ) -> None:
         self.task = task if isinstance(task, Task) else load_task(task)
+        if accuracy is not None:
+            self.task = replace(self.task, scene=self.task.scene.changed({"accuracy.level": accuracy}, "accuracy"))
         self.noise, scene = noise, self.task.scene
         self.several = self.task.shots > 1
         self.facts = self._free(scene) if facts is None else tuple(dict.fromkeys((*self.task.facts, *facts)))

@@ -30,7 +30,8 @@ class TaskEnv(gymnasium.Env["NDArray[np.float32]", "NDArray[np.float32]"]):
     bounds of each control (``action_of`` and ``controls_of`` convert); the noise of a player's aim is added unless
     ``noise`` is False. The reward is what a shot is worth, or minus the distance where the nearest counts. ``info`` has
     the facts of the run, ``is_success``, and ``controls``: what became of the action. A run ends when the facts of the
-    score are final; ``facts`` names those in ``info`` besides them, by default all that are final then.
+    score are final; ``facts`` names those in ``info`` besides them, by default all that are final then. ``accuracy`` is
+    a level such as ``"fast"``, by default the scene's.
 
     >>> import gymnasium, sandbox.gym
     >>> env = gymnasium.make("sandbox/FreeThrow-v0")
@@ -50,10 +51,11 @@ class TaskEnv(gymnasium.Env["NDArray[np.float32]", "NDArray[np.float32]"]):
         noise: bool = True,
         facts: Sequence[str] | None = None,
         size: tuple[int, int] = SIZE,
+        accuracy: str | None = None,
     ) -> None:
         if render_mode not in (None, *self.metadata["render_modes"]):
             raise RequestError(f'render_mode = {render_mode!r}: must be "rgb_array", or None')
-        self.course = Course(task, facts, noise)
+        self.course = Course(task, facts, noise, accuracy)
         self.render_mode, self._size = render_mode, size
         self.action_space: Any = self.course.action_space
         self.observation_space: Any = self.course.observation_space

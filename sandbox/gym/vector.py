@@ -43,11 +43,17 @@ class TaskVectorEnv(VectorEnv[Any, Any, Any]):
     }
 
     def __init__(
-        self, num_envs: int, task: str | Task, noise: bool = True, facts: Sequence[str] = (), render_mode: None = None
+        self,
+        num_envs: int,
+        task: str | Task,
+        noise: bool = True,
+        facts: Sequence[str] = (),
+        render_mode: None = None,
+        accuracy: str | None = None,
     ) -> None:
         if render_mode is not None:
             raise RequestError("render_mode: the vector environment draws nothing; gymnasium.make gives one that does")
-        self.course = Course(task, facts, noise)
+        self.course = Course(task, facts, noise, accuracy)
         self.num_envs = num_envs
         self.single_action_space, self.single_observation_space = (
             self.course.action_space,

@@ -153,6 +153,7 @@ def test_attempts_of_several_shots_go_on_side_by_side(tmp_path: Path):
     [
         ({"task": "free-thro"}, "unknown task free-thro; did you mean free-throw?"),
         ({"task": "free-throw", "render_mode": "human"}, 'must be "rgb_array", or None'),
+        ({"task": "free-throw", "accuracy": "fats"}, 'accuracy accuracy.level = "fats": must be "fast"'),
         ({"task": "free-throw", "facts": ("apexx",)}, "basketball has no apexx; choose from made, verdict"),
     ],
 )

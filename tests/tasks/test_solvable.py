@@ -66,3 +66,9 @@ def test_each_sport_has_three_tasks_in_rising_order():
         names = [name for name in tasks() if of_name(name).scene.name == scene]
         assert len(names) >= 3, scene
     assert [file.parent.parent.name for _, file in found] == [scene for scene, _ in found]
+
+
+def test_a_practised_player_makes_a_quarter_of_the_shots():
+    """As docs/measure_tasks.py has measured it, with the noise of his aim; a random shot is seldom a success."""
+    assert [name for name in tasks() if SOLUTIONS[name]["practised"] < 0.25] == []
+    assert [name for name in tasks() if SOLUTIONS[name]["by_chance"] > 0.3] == []
