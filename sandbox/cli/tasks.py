@@ -95,11 +95,13 @@ def _value(scene: Scene, key: str) -> Any:
 
 def tried(source: str, changes: dict[str, Any], attempt: int | None, seed: int | None) -> Tried | None:
     """The attempt at a task that ``sandbox run`` is asked for; None for a scene. Raises RequestError."""
+    from sandbox.scene import load
     from sandbox.tasks import is_task
     from sandbox.tasks import load as load_task
 
     if not is_task(source):
         if attempt is not None or seed is not None:
+            load(source)  # says what is wrong with a file that there is not
             option = "--seed" if attempt is None else "--attempt"
             raise RequestError(
                 f"{option}: only a task has attempts, and {source} is a scene; sandbox tasks lists tasks"

@@ -95,7 +95,8 @@ def read_task_file(path: Path) -> TaskFile:
     try:
         found = declared.validate(TaskFile, values, where)
     except RequestError as error:
-        raise RequestError(str(error).replace(f"{where}: passing", f"{where}: pass")) from None
+        line = str(error).replace(f"{where}: passing", f"{where}: pass").replace("mean passing?", "mean pass?")
+        raise RequestError(line) from None
     if not found.controls:
         raise RequestError(f"{where}: controls: the player sets nothing; add [[controls]] with key, low and high")
     return found

@@ -6,6 +6,8 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from sandbox.errors import RequestError
+
 
 @dataclass(frozen=True)
 class Wanted:
@@ -63,6 +65,10 @@ class Score:
         Of ``fewest`` 1 if it is made, and else 0.
         """
         value = result[self.fact]
+        if isinstance(value, str):
+            raise RequestError(
+                f'score.fact = "{self.fact}": is "{value}" here; what counts is a number, a list, true or false'
+            )
         counts = all(wanted.met(result) for wanted in self.wanted)
         if self.how in ("sum", "fewest"):
             return _size(value) if counts else 0.0

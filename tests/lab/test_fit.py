@@ -26,6 +26,41 @@ def test_a_noisy_track_through_bounces_gives_back_the_truth():
     assert found.residual_sd == pytest.approx({"x": 0.005, "y": 0.005}, rel=0.4)
 
 
+def test_a_value_without_effect_does_not_end_the_search():
+    """Any friction at which the ball grips gives one path, which has no slope to where it slides."""
+    true = {
+        "launch.speed": 50.0, "launch.angle": -6.0, "launch.spin": -1500.0, "court.restitution": 0.78,
+        "court.friction": 0.5,
+    }  # fmt: skip
+    t = np.linspace(0.0, 1.1, 40)
+    places = sandbox.simulate(sandbox.load("tennis", true)).states("ball", t)[:, :2]
+    x, y = (places + np.random.default_rng(5).normal(0.0, 0.01, (40, 2))).T
+    ranges = {"launch.speed": (30, 70), "launch.angle": (-10, 0), "launch.spin": (-4000, 0)}
+    vary = {key: ranges.get(key) for key in true}
+    found = sandbox.fit("tennis", {"t": t, "x": x, "y": y}, vary)
+    assert found.residual_sd == pytest.approx({"x": 0.01, "y": 0.01}, rel=0.3)
+    assert found.values["court.friction"].value == pytest.approx(0.5, abs=0.02)
+
+
+def test_values_that_change_nothing_are_refused_without_a_warning():
+    """The ball of the track is one that no run moves."""
+    track = {"t": np.linspace(0.0, 1.0, 9), "x": np.linspace(0.0, 9.0, 9), "y": np.linspace(2.0, 9.0, 9)}
+    with pytest.raises(RequestError, match="no run of billiards in these ranges comes near this track"):
+        sandbox.fit("billiards", track, {"cue.speed": None})
+
+
+@pytest.mark.parametrize(
+    ("vary", "models", "wrong"),
+    [
+        ({"ball.drag.model": None}, None, "ball.drag.model: only numbers can be fitted; --models compares words"),
+        ({"launch.speed": None}, "launch.speed", "launch.speed: is a number, not a choice of models; --vary fits it"),
+    ],
+)
+def test_a_number_is_no_model_and_a_word_no_number(vary, models, wrong):
+    with pytest.raises(RequestError, match=wrong):
+        sandbox.fit("basketball", {"t": [0, 0.1, 0.2], "x": [0, 0.5, 1], "y": [2, 2.5, 3]}, vary, models=models)
+
+
 @pytest.mark.parametrize(
     ("text", "wrong"),
     [

@@ -92,6 +92,7 @@ def test_an_attempt_is_run_from_what_is_drawn_for_it(call, file: Path):
             "shots = 2: a shot of basketball does not go on from the one before",
         ),
         ("pass = 2\n", "", "pass: missing"),
+        ("pass = 2", "pas = 2", "pas: unknown key; did you mean pass?"),
         ("pass = 2", 'pass = "two"', 'pass = "two": '),
         ("stars = [1, 2, 3]", "stars = [3, 2, 1]", "stars = [3, 2, 1]: must be rising"),
         ('"one metre"', '"some"', 'shown = "some": must be "all", "first contact", "one metre" or "nothing"'),
@@ -117,6 +118,9 @@ def test_what_is_wrong_with_a_task_is_a_line(call, file: Path, before: str, afte
 def test_other_requests_that_are_refused(call, file: Path):
     assert_refused(call("run", file, "--attempt", 4), "--attempt 4: mine has 3 attempts")
     assert_refused(call("run", "golf", "--attempt", 2), "--attempt: only a task has attempts, and golf is a scene")
+    assert_refused(call("run", "nowhere.toml", "--attempt", 2), "nowhere.toml: cannot be read: no such file")
+    file.write_text(TASK.replace('"made"', '"verdict"', 1))
+    assert_refused(call("run", file), 'score.fact = "verdict": is "')
     assert_refused(call("aim", file, "--vary", "launch.angle=3:4", "--target", "made=true"), "is a task, not a scene")
 
 

@@ -21,7 +21,7 @@ from sandbox.lab.fit.models import chosen_models, compare
 from sandbox.lab.fit.reading import Film, parse_scale
 from sandbox.lab.fit.squares import Fit, solve
 from sandbox.lab.fit.track import Track
-from sandbox.parameters import walk
+from sandbox.parameters import value_at, walk
 from sandbox.scene import Scene, as_scene
 from sandbox.text import check_mapping
 
@@ -111,6 +111,8 @@ def _span(scene: Scene, option: str, key: str, given: Any) -> Span:
         known = next((one for one in walk(scene.parameters, entries=True) if one.key == key), None)
         if known is None:
             checked(scene, option, key, 0.0)  # says what is wrong with the key
+        if isinstance(value_at(scene.parameters, key), str):
+            raise RequestError(f"{option} {key}: only numbers can be fitted; --models compares words")
         if known is None or known.low is None or known.high is None:
             raise RequestError(f"{option} {key}: has no bounds to search in; give a range, {key}=LO:HI")
         return Span(key, known.low, known.high)

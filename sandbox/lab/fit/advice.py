@@ -62,9 +62,9 @@ def _sds(slopes: np.ndarray) -> np.ndarray:
 
 
 def _named(run: SceneRun, ball: str, start: float, end: float) -> str:
-    """What happens between two times: ``more of the descent``, ``the path after the bounce on the floor``."""
+    """What happens between two times: ``more of the descent``, ``the path after the impact on floor``."""
     met = next((event for event in run.events if start < event.t < end and event.partner and ball == event.ball), None)
     if met is not None:
-        return f"the path after {met.partner}"
+        return f"the path after the impact on {met.partner}"
     falls = run.setup.plane is None and run.state(ball, start).vy < 0.0 and run.state(ball, end).vy < 0.0
     return "more of the descent" if falls else "more of the path"

@@ -113,7 +113,7 @@ def _inverse(slopes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The inverse of slopes' slopes in directions that have an effect, and the enormous variance of those that have
     none."""
     size = np.sqrt((slopes**2).sum(axis=0))
-    size = np.maximum(size, NO_EFFECT * max(float(size.max(initial=0.0)), 1e-300))
+    size = np.maximum(size, NO_EFFECT * (float(size.max(initial=0.0)) or 1.0))
     unit = slopes / size
     values, vectors = np.linalg.eigh(unit.T @ unit)
     known, scale = values > NO_EFFECT**2, np.outer(size, size)

@@ -31,6 +31,8 @@ def chosen_models(scene: Scene, option: str, key: str, words: Sequence[Any] = ()
     """The models to compare, by default all that the parameter ``key`` can name. Raises RequestError."""
     known = _choices(scene.parameters, key)
     if not known:
+        if isinstance(value_at(scene.parameters, key), int | float):
+            raise RequestError(f"{option} {key}: is a number, not a choice of models; --vary fits it")
         checked(scene, option, key, "")  # says what is wrong with the key
     for word in words:
         if word not in known:

@@ -54,8 +54,9 @@ def search(problem: Problem, robust: bool) -> Place | None:
         following = _Following(problem, scale, robust, growth)
         for share in starts:
             found = following.from_start(share)
-            if found is not None and following.merit(found) < least:
-                best, least = found, following.merit(found)
+            for place in (found, following.freed(found)):
+                if place is not None and following.merit(place) < least:
+                    best, least = place, following.merit(place)
             if best is not None and _is_good(problem, best, following.agreed):
                 return best
         if window(problem, WINDOW) >= problem.last or following.hopeless:
@@ -144,6 +145,16 @@ class _Following:
             until = max(window(problem, part), good, following)
             place = self._grown(place, before, until)
         return place
+
+    def freed(self, place: Place | None) -> Place | None:
+        """Down again with the scene's own values for those that are at an end of their range or change nothing; None if
+        there are none. Friction at which a ball grips is such a value: no slope leads back to where it slides."""
+        if place is None:
+            return None
+        stuck = (place.share <= 0.0) | (place.share >= 1.0) | ~place.slopes.any(axis=0)
+        if not stuck.any():
+            return None
+        return self._descend(np.where(stuck, self.problem.own, place.share), self.problem.last, WORTH)
 
     def _is_known(self, place: Place, until: float) -> bool:
         """True if another start came to the same path in the first window, and not by far other values."""
