@@ -144,8 +144,11 @@ def test_attempts_of_several_shots_go_on_side_by_side(tmp_path: Path):
     assert (observations[:, 5].tolist(), infos["potted"][0]) == ([0.0, 1.0], ["1"])
     assert (infos["_potted"].tolist(), infos["_final_info"].tolist()) == ([True, False], [False, True])
     aim = {"cue.angle": direction(observations[0, :2], observations[0, 6:8]), "cue.speed": 1.2, "cue.follow": -0.1}
-    _, rewards, terminations, _, _ = envs.step(np.array([envs.course.action_of(aim), action]))
+    observations, rewards, terminations, _, infos = envs.step(np.array([envs.course.action_of(aim), action]))
     assert (rewards.tolist(), terminations.tolist()) == ([1.0, 1.0], [True, False])
+    assert (infos["final_obs"][0][5], observations[0, 5]) == (0.0, 1.0)
+    _, rewards, terminations, _, _ = envs.step(np.array([action, miss]))  # the first has begun anew
+    assert (rewards.tolist(), terminations.tolist()) == ([1.0, 0.0], [False, True])
 
 
 @pytest.mark.parametrize(
