@@ -42,7 +42,7 @@ def test_a_value_without_effect_does_not_end_the_search():
     assert found.values["court.friction"].value == pytest.approx(0.5, abs=0.02)
 
 
-def test_values_that_change_nothing_are_refused_without_a_warning():
+def test_values_that_change_nothing_are_refused_without_warning():
     """The ball of the track is one that no run moves."""
     track = {"t": np.linspace(0.0, 1.0, 9), "x": np.linspace(0.0, 9.0, 9), "y": np.linspace(2.0, 9.0, 9)}
     with pytest.raises(RequestError, match="no run of billiards in these ranges comes near this track"):
