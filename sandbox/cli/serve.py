@@ -40,9 +40,8 @@ def serve(scenes: tuple[str, ...], port: int | None, share: bool, jobs: int | No
 
     missing = [package for package in PACKAGES if find_spec(package) is None]
     if missing:
-        raise RequestError(
-            f"sandbox serve needs {', '.join(missing)}, not installed here: pip install 'sports-sandbox[serve]'"
-        )
+        needed = ", ".join(missing)
+        raise RequestError(f"sandbox serve needs {needed}, not installed here: pip install {' '.join(missing)}")
     from sandbox.serve.server import Options
     from sandbox.serve.server import serve as serve_scenes
     from sandbox.sport.amounts import chosen_units

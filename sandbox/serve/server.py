@@ -109,6 +109,7 @@ async def _serve(
         base = f"http://{host}:{port}"
         ready(Address(f"{base}/{tokens.players}/", f"{base}/{tokens.teacher}/", port, share))
         await server.serve(sockets=[listener])
+        raise KeyboardInterrupt  # only a signal ends it, whether or not this process was started to ignore that
     finally:
         lanes.close()
 
