@@ -109,7 +109,7 @@ def _row(table: Table, number: int, row: dict[str, str], path: Path, source: str
     if row["kind"] not in KINDS:
         raise RequestError(f"{at} kind = {shortened(row['kind'], 40)!r} is none of {', '.join(KINDS)}")
     try:
-        scene = load(row["scene"], assignments(row["set"]))
+        scene = load(row["scene"], assignments(row["set"]), overrides_from="set")
     except RequestError as error:
         raise RequestError(f"{at} {error}") from None
     name = row["result"].partition(".")[0]
@@ -121,6 +121,8 @@ def _row(table: Table, number: int, row: dict[str, str], path: Path, source: str
             column = next(column for column in table.columns if column.name == key)
             row[key] = repr(table.number(column, number - 1))
         tolerance = float(row["tolerance"])
+        if tolerance < 0.0:
+            raise RequestError(f"{at} tolerance = {tolerance:g}: must be 0 or more")
         _check_unit(at, row, declared_units(scene)[name])
     row["value"] = row["value"].removesuffix(".0")
     return Case(name=row.pop("case"), tolerance=tolerance, **{k: v for k, v in row.items() if k != "tolerance"})

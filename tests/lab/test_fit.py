@@ -43,10 +43,10 @@ def test_a_value_without_effect_does_not_end_the_search():
 
 
 def test_values_that_change_nothing_are_refused_without_warning():
-    """The ball of the track is one that no run moves."""
-    track = {"t": np.linspace(0.0, 1.0, 9), "x": np.linspace(0.0, 9.0, 9), "y": np.linspace(2.0, 9.0, 9)}
-    with pytest.raises(RequestError, match="no run of billiards in these ranges comes near this track"):
-        sandbox.fit("billiards", track, {"cue.speed": None})
+    """The mark in the sector is only drawn."""
+    track = {"t": np.linspace(0.0, 1.0, 9), "x": np.linspace(0.0, 90.0, 9), "y": np.linspace(2.0, 9.0, 9)}
+    with pytest.raises(RequestError, match="no run of throws in these ranges comes near this track"):
+        sandbox.fit("throws", track, {"record": (20, 25)})
 
 
 @pytest.mark.parametrize(

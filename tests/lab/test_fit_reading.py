@@ -14,6 +14,7 @@ from sandbox.cli.program import app, call
 from sandbox.errors import RequestError
 from sandbox.lab.fit.data import Reading, data_of, read_data, table_of
 from sandbox.lab.fit.formats import forms, parse_entry, recognized
+from sandbox.lab.fit.launches import Launches
 from sandbox.lab.fit.outline import distances
 from sandbox.lab.fit.reading import Film, measurements, parse_scale
 from sandbox.lab.fit.report import as_text
@@ -66,7 +67,7 @@ def test_pixels_have_y_downwards_and_frames_have_no_times(tmp_path):
 
 def test_names_of_columns_can_be_given():
     track = {"Zeit": [0, 100, 200], "rechts (cm)": [0, 50, 100], "hoch": [210, 260, 290]}
-    columns = {"Zeit": "t ms", "rechts": "x", "hoch": "y cm"}
+    columns = {"Zeit": "t ms", "rechts (cm)": "x", "hoch": "y cm"}
     entries = tuple(parse_entry(f"{column}={target}") for column, target in columns.items())
     found = data_of(sandbox.load("throws"), [("", table_of(track))], Reading(entries=entries))
     assert found.times == pytest.approx([0.0, 0.0, 0.1, 0.1, 0.2, 0.2])
@@ -366,6 +367,23 @@ def test_launches_are_validated_by_their_columns(tmp_path, capsys, carries):
     assert "--within carri: is no result of the table, which has carry, apex" in capsys.readouterr().err
 
 
+def test_a_long_table_takes_fewer_starts(monkeypatch):
+    angles, computed, tried = np.linspace(30.0, 50.0, 100), Launches.residuals, []
+    shots = [sandbox.simulate(sandbox.load("throws", {"launch.angle": angle})) for angle in angles[::25]]
+    distances = [shot.result["distance"] for shot in shots for _ in range(25)]
+
+    def counted(self, scene, keys, values, until):
+        tried.append(len(values))
+        return computed(self, scene, keys, values, until)
+
+    monkeypatch.setattr(Launches, "residuals", counted)
+    table = {"a (deg)": np.repeat(angles[::25], 25), "d (m)": distances}
+    columns = {"a (deg)": "launch.angle", "d (m)": "distance"}
+    found = sandbox.fit("throws", table, {"launch.speed": (10, 20)}, columns=columns)
+    assert found.values["launch.speed"].value == pytest.approx(14.0)
+    assert tried[0] == 1 + 1000 // 100
+
+
 @pytest.mark.parametrize(
     ("text", "wrong"),
     [
@@ -375,7 +393,8 @@ def test_launches_are_validated_by_their_columns(tmp_path, capsys, carries):
         ("result,value,tolerance,unit,kind\ncarry,1,1,m,guess\n", "row 1, kind = 'guess' is none of exact"),
         ("result,value,tolerance,units\ncarry,1,1,m\n", "column 'units' is none of"),
         ("a,b\n1,2\n", "has no column result"),
-        ("result,set,value,tolerance\ncarry,launch.sped=3,1,1\n", "row 1, override launch.sped: unknown key"),
+        ("result,set,value,tolerance\ncarry,launch.sped=3,1,1\n", "row 1, set launch.sped: unknown key"),
+        ("result,value,tolerance,unit\ncarry,1,-1,m\n", "row 1, tolerance = -1: must be 0 or more"),
     ],
 )
 def test_a_table_that_cannot_be_validated_is_one_line(tmp_path, capsys, text, wrong):

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from sandbox.errors import RequestError
-from sandbox.lab.fit.formats import Entry, check_columns, device, recognized, stated
+from sandbox.lab.fit.formats import Entry, device, in_table, recognized, stated
 from sandbox.lab.fit.frame import frame_of
 from sandbox.lab.fit.launches import launches
 from sandbox.lab.fit.measured import Measured
@@ -67,8 +67,7 @@ def data_of(scene: Scene, tables: Sequence[tuple[str, Table]], how: Reading) -> 
 
 def renamed(table: Table, entries: Sequence[Entry]) -> Table:
     """The table of a track with the names, and units, that entries such as ``Zeit=t ms`` give. Raises RequestError."""
-    named = {entry.column.lower(): entry for entry in entries}
-    check_columns(entries, table)
+    named = {entry.column.lower(): entry for entry in in_table(entries, table)}
     columns = [
         replace(one, name=named[one.name.lower()].key, unit=named[one.name.lower()].unit or one.unit)
         if one.name.lower() in named

@@ -11,7 +11,7 @@ from typing import Any
 
 from sandbox import units
 from sandbox.errors import RequestError
-from sandbox.lab.table_file import PIXEL, Table
+from sandbox.lab.table_file import PIXEL, Table, split_unit
 from sandbox.parameters import walk
 from sandbox.scene import Scene
 from sandbox.text import nearest, shortened
@@ -109,18 +109,25 @@ def _is_complete(form: Form, scene: Scene) -> bool:
     return any(measured) and measured.count(False) >= 2
 
 
-def check_columns(entries: Sequence[Entry], table: Table) -> None:
-    """Raise RequestError for a column that the table does not have."""
+def in_table(entries: Sequence[Entry], table: Table) -> tuple[Entry, ...]:
+    """The entries with columns as the table names them: ``Speed (mph)`` is its column ``Speed`` too.
+
+    Raises RequestError for a column that it does not have.
+    """
+    names, found = {name.lower() for name in table.names}, []
     for entry in entries:
-        if entry.column.lower() not in {name.lower() for name in table.names}:
+        plain = split_unit(entry.column)[0]
+        found.append(replace(entry, column=plain) if plain.lower() in names else entry)
+        if found[-1].column.lower() not in names:
             near = nearest(entry.column, table.names)
             has = f"did you mean {near}?" if near else f"it has {shortened(', '.join(table.names), 80)}"
             raise RequestError(f"{table.where}: has no column {entry.column!r}, which --map names; {has}")
+    return tuple(found)
 
 
 def stated(entries: Sequence[Entry], table: Table, scene: Scene) -> Form:
     """The form that the user gave. Raises RequestError for a column or a key that does not exist."""
-    check_columns(entries, table)
+    entries = in_table(entries, table)
     parameters = {one.key for one in walk(scene.parameters)}
     for entry in entries:
         if entry.key not in parameters and entry.key not in scene.facts:
@@ -130,7 +137,7 @@ def stated(entries: Sequence[Entry], table: Table, scene: Scene) -> Form:
     for number, key in enumerate(keys := [entry.key for entry in entries]):
         if key in keys[:number]:
             raise RequestError(f"--map: two columns are {key}")
-    return Form(tuple(entries))
+    return Form(entries)
 
 
 def declared_units(scene: Scene) -> Mapping[str, str]:

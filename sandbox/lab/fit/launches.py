@@ -40,6 +40,11 @@ class Launches:
         return len(self.numbers)
 
     @property
+    def runs(self) -> int:
+        """As many."""
+        return self.count
+
+    @property
     def rows(self) -> np.ndarray:
         """The row of each residual: all results of the first launch, of the second, and so on."""
         return np.repeat(self.numbers, len(self.measured))

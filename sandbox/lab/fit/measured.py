@@ -31,6 +31,10 @@ class Measured(Protocol):
         """Rows of the data: points of a track, launches of a table."""
 
     @property
+    def runs(self) -> int:
+        """Runs that one candidate needs: 1 for a track, one for each launch of a table."""
+
+    @property
     def what(self) -> str:
         """A row by name: ``"point"``, ``"launch"``."""
 

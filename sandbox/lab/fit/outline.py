@@ -31,6 +31,7 @@ class Outline:
     where: str = "track"  # as messages begin
 
     what = "point"
+    runs = 1
     names = ("distance",)
     units = ("m",)
 

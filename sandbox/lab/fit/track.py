@@ -28,6 +28,7 @@ class Track:
     where: str = "track"  # as messages begin
 
     what = "point"
+    runs = 1
     names = ("x", "y")
     units = ("m", "m")
 
