@@ -4,6 +4,7 @@ ones waiting."""
 from __future__ import annotations
 
 import asyncio
+import os
 from collections.abc import Callable, Coroutine, Hashable
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -17,6 +18,8 @@ from sandbox.workers.processes import Processes
 
 #: More processes than cores: as many long jobs may run at once.
 SPARE = 2
+#: By so much those for long jobs give way to the others.
+NICE = 10
 #: Share of the last time in the time that a job is expected to take.
 LEARNED = 0.5
 
@@ -41,6 +44,7 @@ class Lanes:
         self.width = width or cores() + SPARE
         self._warm = warm, args
         self._processes = [Processes(1) for _ in range(self.width)]
+        self._slow = self._processes[cores() :] or self._processes[-1:]  # those for long jobs
         self._idle: list[Processes] = []
         self._running: dict[Hashable, Job] = {}  # by turn
         self._waiting: dict[Hashable, Job] = {}  # the newest of each want, in the order in which they came
@@ -94,7 +98,9 @@ class Lanes:
             long += is_long
             job.began = now
             self._running[job.turn] = job
-            self._follow(self._run(job, self._idle.pop()))
+            process = max(self._idle, key=lambda each: (each in self._slow) == is_long)
+            self._idle.remove(process)
+            self._follow(self._run(job, process))
 
     def _follow(self, work: Coroutine[Any, Any, None]) -> None:
         task = asyncio.create_task(work)
@@ -105,6 +111,8 @@ class Lanes:
         """Have a process import what it needs; then it takes jobs."""
         work, args = self._warm
         with suppress(Exception):  # what is wrong is said where it is asked for
+            if process in self._slow and self.width > cores():
+                await asyncio.wrap_future(process.submit(os.nice, NICE))
             await asyncio.wrap_future(process.submit(work, *args))
         self._idle.append(process)
         self._start()
