@@ -182,3 +182,8 @@ def test_measured_points_that_cannot_be_read_are_one_line(table: str, wrong: str
     with pytest.raises(RequestError, match=wrong) as error:
         sandbox.load(tmp_path / "shot.toml")
     assert "\n" not in str(error.value)
+
+
+def test_a_track_without_noise_shows_seven_digits():
+    found = sandbox.fit("throws", track("throws", {}, 1.5, 0.0, 12), {"launch.speed": (10, 20)})
+    assert report.value_rows(found) == [("launch.speed", "14.00000", "m/s", "14.00000 to 14.00000", "± 0 %")]

@@ -24,6 +24,9 @@ AS_GOOD, RULED_OUT = 2.0, 10.0
 #: Most outliers that are listed.
 _MOST = 12
 
+#: Digits of a value that are shown, at most: data without noise tell more.
+_SHOWN = 7
+
 #: The headings of ``value_rows``.
 VALUES = ("", "value", "", "95 % interval", "")
 
@@ -45,15 +48,21 @@ def value_rows(found: Fit) -> list[tuple[str, ...]]:
     for key, one in found.values.items():
         digits = _digits(one)
         half = 0.5 * (one.high - one.low)
-        share = f"± {significant(100.0 * half / abs(one.value))} %" if one.value and half < abs(one.value) else ""
+        percent = round(100.0 * half / abs(one.value), _SHOWN - 1) if one.value and half < abs(one.value) else None
+        share = "" if percent is None else f"± {significant(percent)} %"
         rows.append((key, f"{one.value:.{digits}f}", one.unit, f"{one.low:.{digits}f} to {one.high:.{digits}f}", share))
     return rows
 
 
 def _digits(one: Value) -> int:
-    """Decimals that show the interval with two digits."""
+    """Decimals that show the interval with two digits, but at most seven digits of the value."""
     half = 0.5 * (one.high - one.low)
-    return max(0, 1 - int(f"{half:e}".partition("e")[2])) if half > 0.0 else 6
+    most = _SHOWN - 1 - _exponent(one.value)
+    return max(0, min(1 - _exponent(half), most) if half > 0.0 else most)
+
+
+def _exponent(number: float) -> int:
+    return int(f"{number:e}".partition("e")[2])
 
 
 def residual_text(found: Fit) -> str:
