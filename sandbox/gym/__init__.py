@@ -9,7 +9,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from sandbox.errors import RequestError
-from sandbox.tasks import find_task, tasks
+from sandbox.tasks import find_task, load, tasks
 
 try:
     import gymnasium
@@ -32,8 +32,13 @@ def environment_id(name: str) -> str:
 
 
 def register(source: str | Path) -> str:
-    """Register the task of that name, or in that file, with Gymnasium; returns the environment's id."""
+    """Register the task of that name, or in that file, with Gymnasium; returns the environment's id.
+
+    Raises RequestError for a file that is no task.
+    """
     path = find_task(source)
+    if source not in tasks():
+        load(source)
     name = environment_id(path.stem)
     gymnasium.register(
         name,
