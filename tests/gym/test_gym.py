@@ -47,7 +47,7 @@ def test_a_file_of_ones_own_is_registered(tmp_path: Path):
     assert env.spec is not None
     assert env.spec.id == "sandbox/MyCornerShot-v0"
     assert env.reset(seed=1)[0].shape == (9,)
-    with pytest.raises(RequestError, match="nowhere.toml: cannot be read"):
+    with pytest.raises(RequestError, match=r"nowhere\.toml: cannot be read"):
         register(tmp_path / "nowhere.toml")
 
 
