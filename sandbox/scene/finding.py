@@ -26,6 +26,9 @@ from sandbox.toml import read_toml, shown
 
 ENTRY_POINTS = "sandbox.scenes"
 
+#: What is said of a task where a scene is wanted.
+_TASK = "is a task, not a scene: sandbox play and sandbox run take it"
+
 #: Most scene files that are based on one another.
 MOST_FILES = 30
 
@@ -171,6 +174,8 @@ def _is_word(name: str) -> bool:
 
 
 def _unknown(name: str) -> str:
+    if _is_word(name) and any((folder / "tasks" / f"{name}.toml").is_file() for folder in installed_folders().values()):
+        return f"{name}: {_TASK}"
     near = nearest(name, [listing.name for listing in listings()])
     return f"unknown scene {shortened(name)}; " + (f"did you mean {near}?" if near else "sandbox list shows them all")
 
@@ -224,7 +229,7 @@ def _of_file(path: Path) -> SceneSource:
     if "scene" not in values:
         raise RequestError(f'{path}: needs a line that names its scene, such as scene = "golf"{_own_folder(path)}')
     if isinstance(values.get("goal"), str) and "attempts" in values:
-        raise RequestError(f"{path}: is a task, not a scene: sandbox play and sandbox run take it")
+        raise RequestError(f"{path}: {_TASK}")
     name, folder, _ = _meant(path, values["scene"])
     is_preset = path.resolve().parent == folder / "presets"
     return SceneSource(name, folder, _files(path, name, folder), path.stem if is_preset else None)

@@ -17,7 +17,7 @@ from sandbox.tasks.file import ScoreEntry, TaskFile, read_task_file
 from sandbox.tasks.finding import find_task
 from sandbox.tasks.scoring import Score, Wanted
 from sandbox.tasks.task import Control, Start, Task
-from sandbox.text import nearest, no_such_result
+from sandbox.text import counted, nearest, no_such_result
 from sandbox.toml import shown
 
 #: The distance from a target, over the one that passes, that counts for a shot that has none.
@@ -81,9 +81,20 @@ class _Reader:
         if [first, second, third] != sorted((first, second, third), reverse=score.lower_is_better):
             order = "falling: a smaller score is better" if score.lower_is_better else "rising"
             raise self.wrong(f"stars = {shown(file.stars)}: must be {order}")
+        most, wanted = self.most(score), {"pass": passing, "stars[2]": third}
+        for what, value in wanted.items():
+            if value > most:
+                raise self.wrong(f"{what} = {value:g}: {counted(file.attempts, 'attempt')} can reach {most:g} at most")
         if score.how == "nearest":
             score = replace(score, farthest=FARTHEST * passing)
         return score, (first, second, third), passing
+
+    def most(self, score: Score) -> float:
+        """The highest score that all attempts together can reach; inf where that is up to the shots."""
+        shots = self.file.attempts * self.file.shots
+        if score.how == "points":
+            return shots * max(points for _, points in score.rings)
+        return shots if score.how == "sum" and score.fact == self.scene.controls.scores else inf
 
     def wrong(self, message: str) -> RequestError:
         return RequestError(f"{self.where}: {message}")

@@ -95,6 +95,8 @@ def test_an_attempt_is_run_from_what_is_drawn_for_it(call, file: Path):
         ("pass = 2", "pas = 2", "pas: unknown key; did you mean pass?"),
         ("pass = 2", 'pass = "two"', 'pass = "two": '),
         ("stars = [1, 2, 3]", "stars = [3, 2, 1]", "stars = [3, 2, 1]: must be rising"),
+        ("pass = 2", "pass = 20", "pass = 20: 3 attempts can reach 3 at most"),
+        ("stars = [1, 2, 3]", "stars = [1, 2, 4]", "stars[2] = 4: 3 attempts can reach 3 at most"),
         ('"one metre"', '"some"', 'shown = "some": must be "all", "first contact", "one metre" or "nothing"'),
         ('"basketball"', '"basketbal"', 'scene = "basketbal": unknown scene basketbal; did you mean basketball?'),
         ("attempts = 3", "atempts = 3", "atempts: unknown key; did you mean attempts?"),
@@ -122,6 +124,7 @@ def test_other_requests_that_are_refused(call, file: Path):
     file.write_text(TASK.replace('"made"', '"verdict"', 1))
     assert_refused(call("run", file), 'score.fact = "verdict": is "')
     assert_refused(call("aim", file, "--vary", "launch.angle=3:4", "--target", "made=true"), "is a task, not a scene")
+    assert_refused(call("validate", "free-throw"), "free-throw: is a task, not a scene")
 
 
 def test_units_and_defaults_of_a_task_file(file: Path):
