@@ -95,7 +95,6 @@ class Clear(Message):
     do: Literal["clear"]
 
 
-PUPILS = (Hello, Name, Play, Aim, Shoot)
 _PUPIL: TypeAdapter[Any] = TypeAdapter(Annotated[Hello | Name | Play | Aim | Shoot, Field(discriminator="do")])
 _TEACHER: TypeAdapter[Any] = TypeAdapter(
     Annotated[Hello | Aim | Lead | Freeze | Predict | Clear, Field(discriminator="do")]

@@ -20,9 +20,6 @@ MOST_ATTEMPTS = 100
 #: How much of the path is shown while the player aims.
 SHOWN = ("all", "first contact", "one metre", "nothing")
 
-#: How the fact of each shot becomes a score.
-HOW = ("sum", "greatest", "nearest", "points", "fewest")
-
 #: Keys that no scene file has: a file with one of them is taken for a task.
 _ONLY_OF_TASKS = ("attempts", "controls", "score", "stars", "pass", "shown")
 
