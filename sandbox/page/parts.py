@@ -12,38 +12,31 @@ from functools import cache
 from html import escape
 from itertools import zip_longest
 from pathlib import Path
-from string import Template
 from typing import Any
 
 import numpy as np
 from PIL import Image
 
 from sandbox.files import atomic_write, json_text
+from sandbox.page.templates import PLAYER, framed, source, with_player
 from sandbox.picture.palette import ASSETS, Colour
 from sandbox.text import one_line
 
-FOLDER = Path(__file__).parent
 WEIGHTS = {"400": "Regular", "700": "Bold"}
 #: The scripts of each page with data, in order.
 SCRIPTS = {
-    "run.html": ("page.js", "paths.js", "player.js", "run.js"),
+    "run.html": (*PLAYER, "run.js"),
     "sweep.html": ("page.js", "sweep.js"),
 }
 
 
-@cache
-def source(name: str) -> str:
-    """The text of one of the files here."""
-    return (FOLDER / name).read_text("utf-8")
-
-
 def filled(name: str, title: str, data: str = "", **parts: str) -> str:
     """A page: a template with its parts, which are HTML already; with packed ``data`` also its scripts."""
-    body = Template(source(name)).substitute(title=title, **parts)
+    body = with_player(source(name), title=title, **parts)
     if data:
         script = "".join(map(source, SCRIPTS[name]))
         body += f'<script type="text/plain" id="data">{data}</script>\n<script>\n{script}\n</script>\n'
-    return Template(source("frame.html")).substitute(title=title, style=source("page.css"), body=body)
+    return framed(title, f"<style>\n{source('page.css')}\n</style>", body)
 
 
 def save(page: str, path: Path | str) -> None:

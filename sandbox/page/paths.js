@@ -19,6 +19,15 @@ function pixels(picture) {
   return context.getImageData(0, 0, picture.width, picture.height).data;
 }
 
+/** Decode the layers of views and the skins of looks, which come as addresses. */
+async function decode({ views, looks }) {
+  const layers = views.map(async (view) => {
+    for (const name of ["place", "along", "over"]) if (view[name]) view[name] = await image(view[name]);
+  });
+  const skins = looks.filter(({ skin }) => skin).map(async (look) => (look.skin = pixels(await image(look.skin))));
+  await Promise.all([...layers, ...skins]);
+}
+
 // ------------------------------------------------------------------------------------------------ paths
 
 const BINOMIALS = [[1]]; // by degree

@@ -171,37 +171,3 @@ class Aim extends Player {
     });
   }
 }
-
-/** The list of all scenes, by sport, and of the tasks. */
-function fillScenes(list, scenes) {
-  const groups = new Map();
-  for (const [name, about, isTask] of scenes) {
-    const group = isTask ? "tasks" : name.startsWith(".") ? name : name.split("/")[0];
-    if (!groups.has(group)) groups.set(group, Object.assign(document.createElement("optgroup"), { label: group }));
-    groups.get(group).append(Object.assign(new Option(name, name), { title: about }));
-  }
-  list.replaceChildren(...(groups.size === 1 ? [...groups.values()][0].children : groups.values()));
-}
-
-/** A histogram: bars of shots that score, and of the rest on them. */
-function drawBars(canvas, good, rest, [low, high]) {
-  const density = Math.max(1, devicePixelRatio || 1), [wide, tall] = [canvas.clientWidth, canvas.clientHeight], foot = 16;
-  [canvas.width, canvas.height] = [Math.round(wide * density), Math.round(tall * density)];
-  const context = canvas.getContext("2d"), most = Math.max(1, ...good.map((count, i) => count + rest[i])), each = wide / good.length;
-  context.setTransform(density, 0, 0, density, 0, 0);
-  good.forEach((count, i) => {
-    let top = tall - foot;
-    for (const [number, colour] of [[count, "#2bb673"], [rest[i], "#8a99a6"]]) {
-      const height = (number / most) * (tall - foot);
-      context.fillStyle = colour;
-      context.fillRect(i * each + 0.5, top - height, each - 1, height);
-      top -= height;
-    }
-  });
-  context.font = '12px "Sandbox Sans", "Noto Sans", sans-serif';
-  context.fillStyle = getComputedStyle(canvas).color;
-  context.textBaseline = "bottom";
-  context.fillText(low, 0, tall);
-  context.textAlign = "right";
-  context.fillText(high, wide, tall);
-}

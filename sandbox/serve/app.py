@@ -21,19 +21,19 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from starlette.websockets import WebSocket
 
 from sandbox import resources
+from sandbox.page import templates
 from sandbox.serve.connection import REFUSED, Connection
 from sandbox.serve.room import Room
 from sandbox.text import csv_text
 
 HERE = Path(__file__).parent
-PAGES = resources.PACKAGE / "page"
-#: The scripts of each page, in order.
+#: The scripts of each page after those of the player, in order; a page has the name of the last.
 SCRIPTS = {
-    "play.js": (*(PAGES / name for name in ("page.js", "paths.js", "player.js")),
-                *(HERE / name for name in ("wire.js", "aim.js", "settings.js", "play.js"))),
-    "teach.js": (*(PAGES / name for name in ("page.js", "paths.js", "player.js")),
-                 *(HERE / name for name in ("wire.js", "aim.js", "settings.js", "teach.js"))),
-}  # fmt: skip
+    "play": ("wire.js", "settings.js", "charts.js", "aim.js", "play.js"),
+    "teach": ("wire.js", "settings.js", "charts.js", "teach.js"),
+}
+TITLES = {"play": "sports sandbox", "teach": "sports sandbox: the teacher's page"}
+AGAIN = '<button id="again" type="button" title="aim again (Escape)">Aim again</button>\n'
 FONTS = {"regular.ttf": "NotoSans-Regular.ttf", "bold.ttf": "NotoSans-Bold.ttf"}
 #: Nothing from elsewhere, no script or style in the page itself, in no frame.
 POLICY = (
@@ -50,41 +50,42 @@ HEADERS = {
 
 
 class Tokens(NamedTuple):
-    """What must be in the address: of players and of the teacher."""
+    """The tokens that must be in the address, of players and of the teacher, by the names of their pages."""
 
-    players: str
-    teacher: str
+    play: str
+    teach: str
 
 
 def app_of(room: Room, tokens: Tokens, hosts: Collection[str]) -> ASGIApp:
     """The application. Only requests to ``hosts``, such as ``127.0.0.1:8765``, are answered."""
     files = _files()
 
-    def is_known(request: Request | WebSocket) -> str | None:
-        """Which of the two tokens the address has."""
+    def kind_of(request: Request | WebSocket) -> str | None:
+        """Return the page whose token the address has; None if it has neither."""
         given = request.path_params["token"].encode()
         return next(
             (kind for kind, token in tokens._asdict().items() if hmac.compare_digest(given, token.encode())), None
         )
 
+    def sent(name: str) -> Response:
+        content, media = files[name]
+        return Response(content, media_type=media)
+
     async def page(request: Request) -> Response:
-        kind = is_known(request)
-        if kind is None:
-            return _nothing()
-        return Response(files["play.html" if kind == "players" else "teach.html"][0], media_type="text/html")
+        kind = kind_of(request)
+        return _nothing() if kind is None else sent(f"{kind}.html")
 
     async def file(request: Request) -> Response:
-        kind, name = is_known(request), request.path_params["name"]
-        if kind == "teacher" and name == "shots.csv":
+        kind, name = kind_of(request), request.path_params["name"]
+        if kind == "teach" and name == "shots.csv":
             return Response(_csv(room), media_type="text/csv; charset=utf-8",
                             headers={"Content-Disposition": 'attachment; filename="shots.csv"'})  # fmt: skip
         if kind is None or name not in files or name.endswith(".html"):
             return _nothing()
-        content, media = files[name]
-        return Response(content, media_type=media)
+        return sent(name)
 
     async def talk(socket: WebSocket) -> None:
-        kind = is_known(socket)
+        kind = kind_of(socket)
         origin, host = socket.headers.get("origin", ""), socket.headers.get("host", "")
         if kind is None or origin != f"http://{host}":
             await socket.close(REFUSED)
@@ -93,7 +94,7 @@ def app_of(room: Room, tokens: Tokens, hosts: Collection[str]) -> ASGIApp:
         connection = Connection(socket)
         writing = asyncio.create_task(connection.write())
         try:
-            await (room.teach(connection) if kind == "teacher" else room.play(connection))
+            await (room.teach(connection) if kind == "teach" else room.play(connection))
         finally:
             connection.is_open = False
             writing.cancel()
@@ -146,13 +147,32 @@ def _nothing() -> Response:
 
 def _files() -> dict[str, tuple[bytes, str]]:
     """All files that are ever sent, by name, with their types: no path of a request reaches the disk."""
-    found = {name: (b"\n".join(map(Path.read_bytes, parts)), "text/javascript") for name, parts in SCRIPTS.items()}
-    style = (PAGES / "page.css").read_bytes() + (HERE / "serve.css").read_bytes()
-    found |= {
-        name: ((resources.folder("assets") / "fonts" / font).read_bytes(), "font/ttf") for name, font in FONTS.items()
+    scripts = {
+        f"{page}.js": "\n".join([*map(templates.source, templates.PLAYER), *map(_source, names)])
+        for page, names in SCRIPTS.items()
     }
-    found |= {name: ((HERE / name).read_bytes(), "text/html") for name in ("play.html", "teach.html")}
-    return found | {"serve.css": (style, "text/css")}
+    fonts = {name: (resources.folder("assets") / "fonts" / font).read_bytes() for name, font in FONTS.items()}
+    style = templates.source("page.css") + _source("serve.css")
+    return {
+        **{f"{page}.html": (_page(page).encode(), "text/html") for page in SCRIPTS},
+        **{name: (script.encode(), "text/javascript") for name, script in scripts.items()},
+        **{name: (font, "font/ttf") for name, font in fonts.items()},
+        "serve.css": (style.encode(), "text/css"),
+    }
+
+
+def _page(page: str) -> str:
+    """The page of players or of the teacher."""
+    content = templates.with_player(_source(f"{page}.html"), AGAIN)
+    return templates.framed(
+        TITLES[page],
+        Template(_source("head.html")).substitute(script=f"{page}.js"),
+        Template(_source("main.html")).substitute(page=page, content=content),
+    )
+
+
+def _source(name: str) -> str:
+    return (HERE / name).read_text("utf-8")
 
 
 def _csv(room: Room) -> str:

@@ -25,8 +25,6 @@ function link() {
 
 // ------------------------------------------------------------------------------------------------ asking
 
-const narrow = () => $("picture").clientWidth < 700;
-
 /** The parameters have changed: aim with them. */
 function changed(still = false) {
   if (state.shot) again(false);
@@ -55,11 +53,7 @@ function askFan() {
 }
 
 function set(values) {
-  const { by } = state.scene;
-  for (const [key, value] of Object.entries(values)) {
-    if (by.get(key)?.value === value) delete state.changes[key];
-    else state.changes[key] = value;
-  }
+  for (const [key, value] of Object.entries(values)) change(state, key, value);
   changed();
 }
 
@@ -283,8 +277,7 @@ function compare() {
 function keep() {
   const { run, changes, scene } = state;
   if (!run || run.hidden) return;
-  const sets = new Set(Object.keys(scene.pull?.sets ?? {}));
-  const said = Object.entries(changes).filter(([key]) => !sets.has(key)).map(([key, each]) => `${labelOf(key).split(" ").slice(1).join(" ") || key} ${typeof each === "number" ? typed(each) : each}`);
+  const said = changedBy(changes, scene).map(([key, text]) => `${labelOf(key).split(" ").slice(1).join(" ") || key} ${text}`);
   const main = run.balls.find(({ name }) => name === run.ball);
   const label = said.length ? said.slice(0, 2).join(", ") + (said.length > 2 ? ", ..." : "") : scene.title;
   state.compared = [{ label, radius: main.radius, shift: [0, 0], path: main.path, rows: run.rows }, ...state.compared].slice(0, MOST_COMPARED);
@@ -313,46 +306,6 @@ function told(what, text) {
 
 const tell = (text) => told("error", text);
 
-// ------------------------------------------------------------------------------------------------ charts
-
-/** A canvas as sharp as the screen: its context and size in CSS px. */
-function sheet(canvas) {
-  const density = Math.max(1, devicePixelRatio || 1), [wide, tall] = [canvas.clientWidth, canvas.clientHeight];
-  [canvas.width, canvas.height] = [Math.round(wide * density), Math.round(tall * density)];
-  const context = canvas.getContext("2d");
-  context.setTransform(density, 0, 0, density, 0, 0);
-  context.font = '12px "Sandbox Sans", "Noto Sans", sans-serif';
-  context.fillStyle = getComputedStyle(canvas).color;
-  return { context, wide, tall };
-}
-
-function drawEnergy(canvas, legend, { times, bands }) {
-  const { context, wide, tall } = sheet(canvas), last = times[times.length - 1] || 1, foot = 18;
-  const high = Math.max(1e-9, ...bands.flatMap(({ top }) => top));
-  const at = (t, joules) => [(t / last) * wide, (tall - foot) * (1 - joules / high)];
-  context.textBaseline = "bottom";
-  context.fillText("0 s", 0, tall);
-  context.textAlign = "right";
-  context.fillText(amount(last, "s"), wide, tall);
-  for (const { top, foot: below, colour } of bands) {
-    context.beginPath();
-    times.forEach((t, i) => context.lineTo(...at(t, top[i])));
-    for (let i = times.length - 1; i >= 0; i--) context.lineTo(...at(times[i], below[i] ?? 0));
-    context.fillStyle = colour;
-    context.fill();
-  }
-  const energy = (joules) => (joules >= 1000 ? `${(joules / 1000).toFixed(1)} kJ` : joules >= 1 ? `${joules.toFixed(1)} J` : `${(1000 * joules).toPrecision(2)} mJ`);
-  const entry = (text, colour) => {
-    const item = document.createElement("li"), dot = document.createElement("i");
-    dot.style.background = colour;
-    item.append(...(colour ? [dot] : []), text);
-    return item;
-  };
-  const ends = bands.map(({ name, colour, top, foot: below }) => [name, colour, top[top.length - 1] - (below[below.length - 1] ?? 0)]);
-  const left = ends.map(([name, colour, joules]) => entry(joules >= 0.0005 * high ? `${name} ${energy(joules)}` : name, colour));
-  legend.replaceChildren(entry(`at the end, of ${energy(high)}:`, ""), ...left);
-}
-
 // ------------------------------------------------------------------------------------------------ the page
 
 function begin() {
@@ -361,10 +314,7 @@ function begin() {
     const here = state.source ? { source: state.source, changes: state.changes } : linked(location.hash);
     return { do: "hello", session: sessionStorage.getItem("session") || "", name: state.name || localStorage.getItem("name") || "", ...here };
   };
-  wire = new Wire(hello, heard, (there, why) => {
-    $("state").hidden = there;
-    $("state").textContent = why ? `connection closed: ${why}` : "connection lost; trying again ...";
-  });
+  wire = new Wire(hello, heard);
   ask = Object.fromEntries(["path", "stage", "fan", "shoot"].map((kind) => [kind, new Latest(wire, kind)]));
   $("shoot").addEventListener("click", () => hands.shoot());
   $("prediction").addEventListener("submit", (event) => (event.preventDefault(), hands.shoot()));

@@ -107,7 +107,7 @@ async def _serve(
         )  # fmt: skip
         server = uvicorn.Server(config)
         base = f"http://{host}:{port}"
-        ready(Address(f"{base}/{tokens.players}/", f"{base}/{tokens.teacher}/", port, share))
+        ready(Address(f"{base}/{tokens.play}/", f"{base}/{tokens.teach}/", port, share))
         await server.serve(sockets=[listener])
         raise KeyboardInterrupt  # only a signal ends it, whether or not this process was started to ignore that
     finally:

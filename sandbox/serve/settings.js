@@ -116,3 +116,26 @@ class Settings {
     }
   }
 }
+
+/** Change a parameter; what is as in the scene is no change. */
+function change({ scene, changes }, key, value) {
+  if (scene.by.get(key)?.value === value) delete changes[key];
+  else changes[key] = value;
+}
+
+/** What a player has changed, besides what every pull sets: each key with its value as text. */
+function changedBy(changes, scene) {
+  const own = Object.entries(changes).filter(([key]) => !(key in (scene.pull?.sets ?? {})));
+  return own.map(([key, value]) => [key, typeof value === "number" ? typed(value) : value]);
+}
+
+/** The list of all scenes, by sport, and of the tasks. */
+function fillScenes(list, scenes) {
+  const groups = new Map();
+  for (const [name, about, isTask] of scenes) {
+    const group = isTask ? "tasks" : name.startsWith(".") ? name : name.split("/")[0];
+    if (!groups.has(group)) groups.set(group, Object.assign(document.createElement("optgroup"), { label: group }));
+    groups.get(group).append(Object.assign(new Option(name, name), { title: about }));
+  }
+  list.replaceChildren(...(groups.size === 1 ? [...groups.values()][0].children : groups.values()));
+}

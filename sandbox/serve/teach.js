@@ -63,7 +63,7 @@ const heard = {
     $("predict").replaceChildren(...options([new Option("nothing", "")]));
     for (const each of Object.values(ask)) each.forget();
     ask.path.ask({ changes: state.changes });
-    ask.stage.ask({ changes: state.changes, narrow: $("picture").clientWidth < 700 });
+    ask.stage.ask({ changes: state.changes, narrow: narrow() });
   },
   async stage({ n, stage }) {
     if (!ask.stage.answered(n)) return;
@@ -99,6 +99,8 @@ function show() {
 
 const cell = (kind, text, name = "") => Object.assign(document.createElement(kind), { textContent: text, className: name });
 
+const counted = (shots) => `${shots} ${shots === 1 ? "shot" : "shots"}`;
+
 /** Players, table and histogram. */
 function shown() {
   if (!state.room.lead) return;
@@ -111,7 +113,7 @@ function shown() {
   $("players").replaceChildren(...players.map((each) => {
     const item = cell("li", "", each.here ? "" : "away"), dot = document.createElement("i");
     dot.style.background = colourOf(each.number);
-    item.append(dot, each.name, cell("span", ` ${each.shots ? `${each.shots} ${each.shots === 1 ? "shot" : "shots"}` : ""}${each.last?.task ? `, ${each.last.task.total}${each.last.task.over ? ` ${"★".repeat(each.last.task.stars)}` : ""}` : ""}${each.here ? "" : " away"}`));
+    item.append(dot, each.name, cell("span", ` ${each.shots ? counted(each.shots) : ""}${each.last?.task ? `, ${each.last.task.total}${each.last.task.over ? ` ${"★".repeat(each.last.task.stars)}` : ""}` : ""}${each.here ? "" : " away"}`));
     return item;
   }));
   table(rows);
@@ -123,7 +125,6 @@ function table(rows) {
   if (!fact) return;
   const number = (value) => (typeof value === "number" ? String(Number(value.toPrecision(4))) : "–");
   const own = rows.filter((row) => row.scene === state.source), predicted = own.some((row) => row.predicted !== null);
-  const sets = new Set(Object.keys(scene.pull?.sets ?? {}));
   const head = document.createElement("tr");
   const more = predicted ? [cell("th", "predicted", "number"), cell("th", "off by", "number")] : [];
   head.append(cell("th", "#", "number"), cell("th", "name"), cell("th", `${fact.label} (${fact.unit})`, "number"), ...more, cell("th", "what happened"), cell("th", "changed"));
@@ -131,7 +132,7 @@ function table(rows) {
   $("shots").tBodies[0].replaceChildren(...[...own].reverse().map((row) => {
     const line = document.createElement("tr"), value = row.facts[row.fact || fact.key];
     const guess = predicted ? [cell("td", number(row.predicted), "number"), cell("td", row.predicted === null || value === undefined ? "–" : number(row.predicted - value), "number")] : [];
-    const changed = Object.entries(row.changes).filter(([key]) => !sets.has(key)).map(([key, each]) => `${labelOf(key)} ${typeof each === "number" ? typed(each) : each}`);
+    const changed = changedBy(row.changes, scene).map(([key, text]) => `${labelOf(key)} ${text}`);
     line.append(cell("td", row.number, "number"), cell("td", row.name), cell("td", number(row.facts[fact.key]), "number"), ...guess, cell("td", row.verdict), cell("td", changed.join(", ")));
     return line;
   }));
@@ -142,20 +143,16 @@ function table(rows) {
     (row.scored ? good : rest)[bar] += 1;
   });
   const mean = values.reduce((sum, each) => sum + each, 0) / values.length;
-  $("bars-title").textContent = values.length ? `${fact.label}: ${values.length} shots, mean ${number(mean)} ${fact.unit}` : "no shots yet";
+  $("bars-title").textContent = values.length ? `${fact.label}: ${counted(values.length)}, mean ${number(mean)} ${fact.unit}` : "no shots yet";
   drawBars($("bars"), good, rest, values.length ? [`${number(low)} ${fact.unit}`, `${number(high)} ${fact.unit}`] : ["", ""]);
 }
 
 function begin() {
   settings = new Settings($("sliders"), $("rest"), (key, value) => {
-    if (state.scene.by.get(key).value === value) delete state.changes[key];
-    else state.changes[key] = value;
+    change(state, key, value);
     settings.show(state.changes);
   });
-  wire = new Wire(() => ({ do: "hello" }), heard, (there, why) => {
-    $("state").hidden = there;
-    $("state").textContent = why ? `connection closed: ${why}` : "connection lost; trying again ...";
-  });
+  wire = new Wire(() => ({ do: "hello" }), heard);
   ask = Object.fromEntries(["path", "stage"].map((kind) => [kind, new Latest(wire, kind)]));
   $("lead").addEventListener("click", () => {
     const source = $("scene").value;

@@ -5,9 +5,9 @@ const EVERY = 33; // ms between two questions of a kind: the server reads 40 mes
 const FINAL = new Set([1008]); // refused: trying again would not help
 
 class Wire {
-  /** `hello` makes the first message; `heard` has what is done with each kind; `state` is told whether it is there. */
-  constructor(hello, heard, state) {
-    Object.assign(this, { hello, heard, state, wait: SOONEST });
+  /** `hello` makes the first message; `heard` has what is done with each kind. */
+  constructor(hello, heard) {
+    Object.assign(this, { hello, heard, wait: SOONEST });
     this.connect();
   }
 
@@ -30,6 +30,12 @@ class Wire {
       setTimeout(() => this.connect(), this.wait);
       this.wait = Math.min(2 * this.wait, LATEST);
     };
+  }
+
+  /** Say on the page whether the line is there. */
+  state(there, why) {
+    $("state").hidden = there;
+    $("state").textContent = why ? `connection closed: ${why}` : "connection lost; trying again ...";
   }
 
   async read(data) {
@@ -91,11 +97,12 @@ class Latest {
 }
 Latest.number = 0;
 
+const narrow = () => $("picture").clientWidth < 700;
+
 /** A stage as it came, with its images. */
 async function staged(stage) {
-  for (const name of ["place", "over"]) stage.view[name] = await image(stage.view[name]);
-  for (const look of stage.looks) if (look.skin) look.skin = pixels(await image(look.skin));
   stage.views = [stage.view];
+  await decode(stage);
   return stage;
 }
 
