@@ -1,4 +1,4 @@
-"""What the single and the vector environment share: spaces of a task, and shots that are played as fast as possible."""
+"""The common part of the single and the vector environment: spaces of a task, and shots played as fast as possible."""
 
 from __future__ import annotations
 
@@ -160,14 +160,8 @@ class Course:
         scene, run = self.scene_of(parameters), simulate(self._build(parameters), self._accuracy)
         return SceneRun.of(run, scene, self._read(run, parameters))
 
-    def after(self, run: SceneRun) -> Scene:
-        """The scene from where the balls lie after a shot, with the controls at their defaults."""
-        next_start = run.scene.controls.next_start
-        assert next_start is not None
-        return run.scene.changed({**next_start(run, run.scene.parameters), **self.task.defaults}, "next shot")
-
     def reward(self, worth: float | None, over: bool, made: bool) -> float:
-        """What a shot of this worth gives. Of the fewest shots, one that was missed to the end costs one more."""
+        """The reward of a shot of this worth; where the fewest count, a last one that is missed costs one more."""
         extra = -1.0 if self.task.score.how == "fewest" and over and not made else 0.0
         return float(self.task.score.reward(worth) + extra)
 

@@ -75,14 +75,8 @@ class TaskVectorEnv(VectorEnv[Any, Any, Any]):
         return self._observations(range(self.num_envs)), {}
 
     def _drawn_anew(self, count: int) -> list[list[Any]]:
-        """What is drawn for so many attempts."""
-        columns: list[list[Any]] = []
-        for start in self.course.task.start:
-            if start.values:
-                places = self.np_random.integers(len(start.values), size=count)
-                columns.append([start.values[place] for place in places])
-            else:
-                columns.append(self.np_random.uniform(start.low, start.high, count).tolist())
+        """Draw the starts of so many attempts."""
+        columns = [start.column(self.np_random, count) for start in self.course.task.start]
         return [list(row) for row in zip(*columns, strict=True)] if columns else [[] for _ in range(count)]
 
     def _observations(self, places: Sequence[int]) -> NDArray[np.float32]:
@@ -90,13 +84,12 @@ class TaskVectorEnv(VectorEnv[Any, Any, Any]):
         return np.array([self.course.seen(self._drawn[place], self._later[place]) for place in places], np.float32)
 
     def _aimed(self, actions: Any) -> NDArray[Any]:
-        """What becomes of actions, in the controls' units, with the noise of the aim; shape (attempts, controls)."""
+        """The values that shots have, in the controls' units, with the noise of the aim; shape (attempts, controls)."""
         values = self.course.controls_of(actions)
         if not self.course.noise:
             return values
-        controls = self.course.task.controls
-        for column, control in enumerate(controls):
-            sd = control.sd + control.share * np.abs(values[:, column])
+        for column, control in enumerate(self.course.task.controls):
+            sd = control.deviation(values[:, column])
             if np.any(sd > 0.0):
                 values[:, column] = np.clip(self.np_random.normal(values[:, column], sd), *control.bounds)
         return values
@@ -108,9 +101,9 @@ class TaskVectorEnv(VectorEnv[Any, Any, Any]):
         aimed = self._aimed(actions)
         found = self._played(aimed)
         self._shots += 1
-        score, task = self.course.task.score, self.course.task
+        task = self.course.task
         results = [None if isinstance(run, Exception) else run.result for run in found]
-        worths = [None if result is None else score.of_shot(result) for result in results]
+        worths = [None if result is None else task.score.of_shot(result) for result in results]
         made = np.array([task.is_made(worth) for worth in worths])
         over = np.array(
             [result is None or task.is_over(result, shots) for result, shots in zip(results, self._shots, strict=True)]
@@ -119,7 +112,7 @@ class TaskVectorEnv(VectorEnv[Any, Any, Any]):
         for place in np.flatnonzero(~over):
             run = found[place]
             assert isinstance(run, SceneRun)
-            self._later[place] = self.course.after(run)
+            self._later[place] = task.after(run)
         infos = self._infos(found, made, aimed, ~over)
         if over.any():
             self._begin_anew(np.flatnonzero(over), infos, self._infos(found, made, aimed, over))

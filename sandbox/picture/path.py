@@ -51,12 +51,17 @@ def instants(run: Run, pieces: int, names: Collection[str] = ()) -> np.ndarray:
     return np.union1d(np.linspace(0.0, run.duration, pieces + 1), [t for hit in hits for t in (hit - BEFORE, hit)])
 
 
+def first_impact(run: Run, ball: str) -> float | None:
+    """The time in s at which a ball first hits something, or is hit; None if it never does."""
+    impacts = (event.t for event in run.events if event.kind == "impact" and ball in (event.ball, event.partner))
+    return next((t for t in impacts if t > BEFORE), None)
+
+
 def slow_motion(run: Run, ball: str) -> int:
     """The factor by which a run is slowed down at first: 1, or a power of two for one that is over too soon to be seen,
     such as a pitch, a spike, or a serve up to its bounce."""
-    strikes = (event.t for event in run.events if event.kind == "impact" and ball in (event.ball, event.partner))
-    first = next((t for t in strikes if t > BEFORE), run.duration)
-    lasts = max(first, STORIES * run.duration)
+    first = first_impact(run, ball)
+    lasts = max(run.duration if first is None else first, STORIES * run.duration)
     if not 0.0 < lasts < BRIEF:
         return 1
     return min(SLOWEST, 2 ** ceil(log2(SEEN / lasts)))
@@ -154,6 +159,12 @@ def points(paths: Sequence[tuple[Run, str]]) -> list[np.ndarray]:
             rows = np.flatnonzero(lengths == terms)
             out[rows, :, column] = evaluate(np.array([curves[row] for row in rows]).T[:, :, None], u)
     return np.split(out.reshape(-1, 3), POINTS * np.cumsum(counts)[:-1])
+
+
+def time_after(way: float, track: np.ndarray) -> float:
+    """The time in s at which a ball has gone ``way`` m along the points of its path, shape (n, 3): t, x and y."""
+    gone = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(track[:, 1:], axis=0).T))])
+    return float(np.interp(way, gone, track[:, 0]))
 
 
 def moves(run: Run, ball: str) -> bool:

@@ -6,19 +6,15 @@ from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
-import numpy as np
-
 from sandbox.files import json_text
 from sandbox.page.task import worth_text
-from sandbox.picture.path import points
+from sandbox.picture.path import first_impact, points, time_after
 from sandbox.scene.scene_run import SceneRun
 from sandbox.serve.calls import Ask, Game
 from sandbox.tasks import Session, Task, load
 
 #: So many sessions are kept; another is played again up to where it is.
 KEPT = 64
-#: A task that shows one metre shows so much of the path, in m.
-METRE = 1.0
 
 _sessions: dict[tuple[str, str], Session] = {}  # by task and game
 
@@ -95,10 +91,7 @@ def shown_until(session: Session | None, run: SceneRun, ball: str) -> float | No
     """The time in s until which a task shows the path while the player aims; None for all of it."""
     shown = session.task.shown if session is not None else "all"
     if shown == "first contact":
-        met = (event.t for event in run.events if event.kind == "impact" and ball in (event.ball, event.partner))
-        return next((t for t in met if t > 0.0), None)
+        return first_impact(run, ball)
     if shown == "one metre":
-        track = points([(run, ball)])[0]
-        way = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(track[:, 1:], axis=0).T))])
-        return float(np.interp(METRE, way, track[:, 0]))
+        return time_after(1.0, points([(run, ball)])[0])
     return 0.0 if shown == "nothing" else None

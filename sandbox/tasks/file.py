@@ -1,10 +1,10 @@
-"""What a task file holds, as it is written; ``task.py`` reads it against its scene."""
+"""The content of a task file, as it is written; ``reading.py`` reads it against its scene."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 from pydantic import Field
 
@@ -17,8 +17,9 @@ from sandbox.toml import read_toml
 #: Most attempts at a task, and most shots of one attempt.
 MOST_ATTEMPTS = 100
 
-#: How much of the path is shown while the player aims.
-SHOWN = ("all", "first contact", "one metre", "nothing")
+#: The parts of the path of which one is shown while the player aims.
+Shown = Literal["all", "first contact", "one metre", "nothing"]
+SHOWN: tuple[str, ...] = get_args(Shown)
 
 #: Keys that no scene file has: a file with one of them is taken for a task.
 _ONLY_OF_TASKS = ("attempts", "controls", "score", "stars", "pass", "shown")
@@ -44,7 +45,7 @@ class ControlEntry(Group):
 
 
 class ScoreEntry(Group):
-    """What counts."""
+    """The score: how the shots of all attempts are counted."""
 
     fact: str = Field(description="a fact of the scene, or made: the one that says that the shot scored")
     how: Literal["sum", "greatest", "nearest", "points", "fewest"] = choice("sum", "how the shots become a score")
@@ -63,7 +64,7 @@ class TaskFile(Group):
     level: int = Field(1, description="order among the tasks of its scene", ge=1, le=99, strict=True)
     attempts: int = Field(description="how often the player may try", ge=1, le=MOST_ATTEMPTS, strict=True)
     shots: int = Field(1, description="most shots of one attempt", ge=1, le=MOST_ATTEMPTS, strict=True)
-    shown: Literal["all", "first contact", "one metre", "nothing"] = choice("all", "how much of the path is shown")
+    shown: Shown = choice("all", "how much of the path is shown")
     stars: list[Any] = Field(description="the scores for one, two and three stars", min_length=3, max_length=3)
     passing: Any = Field(description="the score that passes")
     goes_on: dict[str, Any] = Field(default_factory=dict, description="facts without which the attempt ends")

@@ -29,7 +29,7 @@ class Shot:
 
     @property
     def said(self) -> str:
-        """What happened, in a sentence."""
+        """The verdict, in a sentence."""
         return self.run.scene.verdict(self.run)
 
 
@@ -86,7 +86,7 @@ class Session:
 
     @property
     def left(self) -> int:
-        """How many attempts are not over yet."""
+        """The number of attempts that are not over yet."""
         return self.task.attempts - sum(attempt.over for attempt in self.attempts)
 
     @property
@@ -96,7 +96,7 @@ class Session:
 
     @property
     def streak(self) -> int:
-        """How many shots in a row, up to the last, were made."""
+        """The number of shots in a row, up to the last, that were made."""
         count = 0
         for shot in reversed([shot for attempt in self.attempts for shot in attempt.shots]):
             if not shot.made:
@@ -135,8 +135,8 @@ class Session:
             attempt.worth = task.score.of_attempt([shot.worth for shot in attempt.shots], task.shots)
             if len(self.attempts) < task.attempts:
                 self._begin()
-        elif next_start := self.scene.controls.next_start:
-            self.scene = run.scene.changed({**next_start(run, run.scene.parameters), **task.defaults}, "next shot")
+        else:
+            self.scene = task.after(run)
         return shot
 
     def shoot(self, values: Mapping[str, float]) -> Shot:

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from numpy.random import Generator
 
     from sandbox.scene.scene import Scene
+    from sandbox.scene.scene_run import SceneRun
 
 
 @dataclass(frozen=True)
@@ -33,6 +34,12 @@ class Start:
         if self.values:
             return self.values[int(random.integers(len(self.values)))]
         return float(random.uniform(self.low, self.high))
+
+    def column(self, random: Generator, count: int) -> list[Any]:
+        """The values for so many attempts, drawn at once."""
+        if self.values:
+            return [self.values[place] for place in random.integers(len(self.values), size=count)]
+        return random.uniform(self.low, self.high, count).tolist()
 
 
 @dataclass(frozen=True)
@@ -53,9 +60,13 @@ class Control:
         """The value, or the bound that it exceeds."""
         return min(max(float(value), self.low), self.high)
 
+    def deviation(self, value: Any) -> Any:
+        """The standard deviation of the player's aim at a value, or at each of an array."""
+        return self.sd + self.share * abs(value)
+
     def aimed(self, value: float, random: Generator | None) -> float:
-        """What becomes of a value that the player sets: normally distributed around it, within the scene's bounds."""
-        value, sd = self.within(value), self.sd + self.share * abs(value)
+        """The value of a shot whose player sets this one: normally distributed around it, within the scene's bounds."""
+        sd, value = self.deviation(value), self.within(value)
         if random is None or sd == 0.0:
             return value
         low, high = self.bounds
@@ -89,7 +100,7 @@ class Task:
 
     @cached_property
     def defaults(self) -> dict[str, float]:
-        """Where the controls stand before the player sets them, by key."""
+        """The values of the controls before the player sets them, by key."""
         return {control.key: control.default for control in self.controls}
 
     @cached_property
@@ -99,11 +110,11 @@ class Task:
         return tuple(dict.fromkeys((*self.score.facts, *others)))
 
     def drawn(self, random: Generator) -> dict[str, Any]:
-        """What is drawn for one attempt, by key."""
+        """Draw the start of one attempt: values by key."""
         return {start.key: start.drawn(random) for start in self.start}
 
     def drawn_for(self, seed: int, attempt: int) -> dict[str, Any]:
-        """What is drawn for an attempt, from 1: the same for the same seed."""
+        """Draw the start of an attempt, counted from 1: the same for the same seed."""
         from numpy.random import default_rng
 
         return self.drawn(default_rng([attempt, seed]))
@@ -113,13 +124,19 @@ class Task:
         return self.scene.changed({**self.drawn_for(seed, attempt), **self.defaults}, "start")
 
     def aimed(self, values: Mapping[str, float], random: Generator | None = None) -> dict[str, float]:
-        """What becomes of the values that the player sets: within bounds, and with the noise of his aim unless
-        ``random`` is None; a control that he leaves out stands at its default. Raises RequestError."""
+        """The values of a shot whose player sets these: within bounds, and with the noise of his aim unless ``random``
+        is None; a control that he leaves out stands at its default. Raises RequestError."""
         unknown = next((key for key in values if key not in self.defaults), None)
         if unknown is not None:
             raise RequestError(f"{self.name}: {unknown} is no control of this task; set {', '.join(self.defaults)}")
         chosen = {**self.defaults, **values}
         return {control.key: control.aimed(chosen[control.key], random) for control in self.controls}
+
+    def after(self, run: SceneRun) -> Scene:
+        """The scene of the next shot of an attempt: from where the balls lie, with all controls at their defaults."""
+        next_start = self.scene.controls.next_start
+        assert next_start is not None  # of a task with several shots
+        return run.scene.changed({**next_start(run, run.scene.parameters), **self.defaults}, "next shot")
 
     def is_over(self, result: Mapping[str, Any], shots: int) -> bool:
         """True if an attempt ends with a shot that has these facts, its ``shots``-th."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from math import dist
 
+from sandbox.picture.path import first_impact
 from sandbox.scene import Scene
 from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.amounts import metres
@@ -56,7 +57,7 @@ class Prediction(Contest):
         return scene
 
     def _off(self, run: SceneRun) -> tuple[float, float]:
-        """How far beyond its mark a shot lands, and how far it goes, in m; from above how far away from the mark."""
+        """The distance in m of a landing beyond its mark, or from above away from it; and that of the whole shot."""
         shot, mark = Shot(run.scene, run), self.mark or (0.0, 0.0)
         (x0, y0), (_, x, y) = run.state(shot.ball, 0.0)[:2], landing(shot)
         return (x - mark[0], abs(x - x0)) if shot.upright else (dist((x, y), mark), dist((x, y), (x0, y0)))
@@ -99,14 +100,10 @@ class Prediction(Contest):
 
 
 def landing(shot: Shot) -> tuple[float, float, float]:
-    """When (s) and where (m) a shot lands: from the side where the ball first touches something, from above where it
-    stops or is caught."""
+    """The time in s and the place in m at which a shot lands: from the side where the ball first touches something,
+    from above where it stops or is caught."""
     run, ball = shot.run, shot.ball
-    if shot.upright:
-        touches = (e.t for e in run.events if e.kind == "impact" and ball in (e.ball, e.partner) and e.t > 0.0)
-        t = next(touches, run.duration)
-    else:
-        caught = run.caught_at(ball)
-        t = run.duration if caught is None else caught
+    t = first_impact(run, ball) if shot.upright else run.caught_at(ball)
+    t = run.duration if t is None else t
     x, y = run.state(ball, t)[:2]
     return float(t), float(x), float(y)

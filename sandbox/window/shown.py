@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-
+from sandbox.picture.path import first_impact, time_after
+from sandbox.tasks.file import SHOWN
 from sandbox.window.game import Game
 from sandbox.window.measure import Tape
 from sandbox.window.overlay import Overlay
@@ -13,7 +13,7 @@ from sandbox.window.shots import Shot
 
 #: How much of the path is shown while aiming; and how tasks call it.
 AHEAD = ("all", "to the first contact", "the first metre", "nothing")
-OF_TASKS = dict(zip(("all", "first contact", "one metre", "nothing"), AHEAD, strict=True))
+OF_TASKS = dict(zip(SHOWN, AHEAD, strict=True))
 #: The fan can be made this many times wider or narrower.
 WIDEST = 16.0
 
@@ -31,7 +31,7 @@ class Shown:
 
     @property
     def ahead(self) -> str:
-        """How much of the path is shown while aiming: the player's choice, or that of the contest."""
+        """The part of the path that is shown while aiming: the player's choice, or that of the contest."""
         contest = self.game.referee.contest
         return self._ahead if contest is None else OF_TASKS[contest.shown]
 
@@ -104,10 +104,7 @@ class Shown:
         if driven and self.game.session.controls.held:  # what the player's keys move decides from there on
             return next((e.t for e in shot.run.events if e.kind == "impact" and e.partner in driven), None)
         if self.ahead == "to the first contact":
-            met = (e.t for e in shot.run.events if e.kind == "impact" and shot.ball in (e.ball, e.partner) and e.t > 0)
-            return next(met, None)
+            return first_impact(shot.run, shot.ball)
         if self.ahead == "the first metre":
-            track = shot.track(shot.ball)
-            way = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(track[:, 1:], axis=0).T))])
-            return float(np.interp(1.0, way, track[:, 0]))
+            return time_after(1.0, shot.track(shot.ball))
         return 0.0 if self.ahead == "nothing" else None
