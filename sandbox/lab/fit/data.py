@@ -1,4 +1,4 @@
-"""What is to be fitted, of files or of columns in Python: a track, places without times, or a table of launches."""
+"""The data of a fit, from files or from columns in Python: a track, places without times, or a table of launches."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from sandbox.lab.fit.launches import launches
 from sandbox.lab.fit.measured import Measured
 from sandbox.lab.fit.outline import Outline
 from sandbox.lab.fit.reading import NAMES, Film, has_positions, measurements
-from sandbox.lab.fit.track import track_of
+from sandbox.lab.fit.track import Track
 from sandbox.lab.table_file import Column, Table, read_table, split_unit
 from sandbox.scene import Scene, simulate
 from sandbox.text import shortened
@@ -25,7 +25,7 @@ LONGER = 2.0
 
 @dataclass(frozen=True)
 class Reading:
-    """How files are to be read."""
+    """The choices by which files are read."""
 
     film: Film = Film()
     free: tuple[str, ...] = ()  # of the film: origin, time, tilt
@@ -44,10 +44,8 @@ def data_of(scene: Scene, tables: Sequence[tuple[str, Table]], how: Reading) -> 
             raise RequestError("--where is for tables of launches")
         found = measurements(tables, how.film)
         frame = frame_of(scene, found, how.free)
-        if found.t is not None:
-            return track_of(found, frame)
-        until = LONGER * simulate(scene).duration
-        return Outline(found.positions, found.balls, found.rows, until, frame, found.where)
+        places = found.positions, found.balls, found.rows, frame, found.where
+        return Outline(*places, LONGER * simulate(scene).duration) if found.t is None else Track(*places, found.t)
     form = stated(how.entries, first, scene) if how.entries else recognized(first, scene)
     if form is None and (known := device(first)) is not None:
         about = f"looks like {known.title}, whose columns are known for {known.scene}"

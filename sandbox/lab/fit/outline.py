@@ -7,10 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sandbox.lab.fit.flown import flown
-from sandbox.lab.fit.frame import Frame
-from sandbox.lab.fit.measured import Free
-from sandbox.lab.fit.track import check_balls, named
+from sandbox.lab.fit.filmed import Filmed
 from sandbox.scene import Scene
 from sandbox.scene.points import Points
 from sandbox.scene.scene_run import SceneRun
@@ -20,33 +17,13 @@ STEPS, NEWTON = 96, 3
 
 
 @dataclass(frozen=True)
-class Outline:
+class Outline(Filmed):
     """Measured places on the paths of balls."""
 
-    positions: np.ndarray  # m, shape (points, 2): x, y, in the axes of the photograph
-    balls: tuple[str, ...]  # the ball of each point; "" if the file names none
-    numbers: np.ndarray  # the row of each point in its file, the first is 1; shape (points,)
     until: float  # s, how long a run may take
-    frame: Frame = Frame()
-    where: str = "track"  # as messages begin
 
-    what = "point"
-    runs = 1
     names = ("distance",)
     units = ("m",)
-
-    def __len__(self) -> int:
-        return len(self.positions)
-
-    @property
-    def count(self) -> int:
-        """The points."""
-        return len(self)
-
-    @property
-    def free(self) -> tuple[Free, ...]:
-        """What is not known of the axes of the photograph."""
-        return self.frame.free
 
     @property
     def rows(self) -> np.ndarray:
@@ -55,7 +32,7 @@ class Outline:
 
     @property
     def groups(self) -> np.ndarray:
-        """0: all are distances."""
+        """The group of each residual: 0, since all are distances."""
         return np.zeros(len(self), dtype=int)
 
     @property
@@ -66,29 +43,19 @@ class Outline:
         """
         return np.linspace(0.0, self.until, len(self))
 
-    def check(self, scene: Scene) -> None:
-        """Raise RequestError if it is of a ball that the scene does not have."""
-        check_balls(self.where, self.balls, scene)
-
     def residuals(self, scene: Scene, keys: Sequence[str], values: np.ndarray, until: float) -> np.ndarray:
         """Distances from the path in m, positive to its left, shape (candidates, points)."""
-        balls = named(self.balls, scene)
         found = np.full((len(values), len(self)), np.nan)
-        for place, run in enumerate(flown(scene, keys, values, self.until)):
-            if run is None:
-                continue
-            measured = self.frame.places(self.positions, values[place, len(keys) :].tolist())
-            for ball in dict.fromkeys(balls):
-                rows = [row for row, name in enumerate(balls) if name == ball]
-                found[place, rows] = distances(run, ball, measured[rows])
+        for candidate, run, ball, points, measured in self.flights(scene, keys, values, self.until):
+            found[candidate, points] = distances(run, ball, measured)
         return found
 
     def points(self, scene: Scene, free: Sequence[float]) -> Points:
         """The measured places."""
-        return Points(np.full(len(self), np.nan), self.frame.places(self.positions, free), named(self.balls, scene))
+        return Points(np.full(len(self), np.nan), self.frame.places(self.positions, free), self.named(scene))
 
     def remarks(self, scene: Scene, free: Sequence[float]) -> tuple[str, ...]:
-        """What was compared."""
+        """A sentence on how points without times are compared."""
         return ("no times: each point is compared with the nearest place of the path",)
 
 
