@@ -7,7 +7,7 @@ from pathlib import Path
 
 from sandbox import units
 from sandbox.errors import RequestError
-from sandbox.lab.fit.formats import Entry, declared_units, recognized, stated
+from sandbox.lab.fit.formats import Entry, recognized, stated
 from sandbox.lab.fit.mapped import Quantity, mapped
 from sandbox.lab.table_file import Table, read_table
 from sandbox.lab.validate import KINDS, Case, assignments
@@ -123,7 +123,7 @@ def _row(table: Table, number: int, row: dict[str, str], path: Path, source: str
         tolerance = float(row["tolerance"])
         if tolerance < 0.0:
             raise RequestError(f"{at} tolerance = {tolerance:g}: must be 0 or more")
-        _check_unit(at, row, declared_units(scene)[name])
+        _check_unit(at, row, scene.facts[name].unit)
     row["value"] = row["value"].removesuffix(".0")
     return Case(name=row.pop("case"), tolerance=tolerance, **{k: v for k, v in row.items() if k != "tolerance"})
 

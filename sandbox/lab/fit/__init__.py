@@ -24,6 +24,7 @@ from sandbox.lab.fit.track import Track
 from sandbox.parameters import value_at, walk
 from sandbox.scene import Scene, as_scene
 from sandbox.text import check_mapping
+from sandbox.toml import toml_value
 
 __all__ = ["Fit", "Track", "fit", "fit_track", "parse_varied", "read_data"]
 
@@ -102,7 +103,7 @@ def parse_varied(scene: Scene, text: str) -> Span:
     parts = body.split(":")
     if equals and len(parts) != 2:
         raise RequestError(f"--vary {text}: write it as KEY or KEY=LO:HI, for example --vary launch.speed=5:15")
-    return _span(scene, "--vary", key, (parts[0].strip(), parts[1].strip()) if equals else None)
+    return _span(scene, "--vary", key, tuple(toml_value(part.strip()) for part in parts) if equals else None)
 
 
 def _span(scene: Scene, option: str, key: str, given: Any) -> Span:
@@ -117,10 +118,6 @@ def _span(scene: Scene, option: str, key: str, given: Any) -> Span:
             raise RequestError(f"{option} {key}: has no bounds to search in; give a range, {key}=LO:HI")
         return Span(key, known.low, known.high)
     low, high = given
-    if option == "--vary":
-        from sandbox.toml import toml_value
-
-        low, high = toml_value(low), toml_value(high)
     axis = as_axis(scene, key, (low, high), option)
     if not isinstance(axis, Span):
         raise RequestError(f"{option} {key}: only numbers can be fitted")

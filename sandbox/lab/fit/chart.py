@@ -31,7 +31,7 @@ _MOST = 6
 
 
 def draw(found: Fit, path: Path) -> None:
-    """Points and path, if places were measured, and a panel with the residuals of each group."""
+    """Draw points and path, if places were measured, and a panel with the residuals of each group."""
     points, groups = found.measured.points(found.scene, found.free), found.measured.names
     tall = 0.0 if points is None else _height(points)
     about = _about(found)
@@ -53,7 +53,7 @@ def _about(found: Fit) -> str:
             for key, value, unit, interval, _ in value_rows(found)]  # fmt: skip
     more = f" and {len(rows) - _MOST} more" if len(rows) > _MOST else ""
     pairs = [",   ".join(rows[place : place + 2]) for place in range(0, min(len(rows), _MOST), 2)]
-    return "\n".join([*pairs]) + more
+    return "\n".join(pairs) + more
 
 
 def _height(points: Points) -> float:
@@ -67,14 +67,13 @@ def _has_times(found: Fit, points: Points | None) -> bool:
 
 
 def _path(axes: Any, found: Fit, points: Points, colours: dict[str, Any]) -> None:
-    """The path of each ball that was measured, up to the last point, with the points and what the ball meets."""
+    """Draw the path of each ball that was measured, up to the last point, with the points and what the ball meets."""
     card, traces = colours["card"], colours["trace"]["colours"]
     (run,) = flown(found.scene, (), np.empty((1, 0)), _last(found, points))
     low, high = points.positions.min(axis=0), points.positions.max(axis=0)
     margin = _BEYOND * max(float((high - low).max()), 1e-9)
     if run is not None:
         margin = max(margin, _ROOM * max(ball.radius for ball in run.setup.balls))
-    if run is not None:
         _surfaces(axes, run, card)
     outlying = np.isin(_rows(found, len(points.positions)), found.outliers)
     for ball, colour in zip(dict.fromkeys(points.balls), traces * 4, strict=False):
@@ -98,7 +97,7 @@ def _last(found: Fit, points: Points) -> float:
 
 
 def _surfaces(axes: Any, run: SceneRun, card: dict[str, str]) -> None:
-    """What balls meet, as lines that do not widen the picture."""
+    """Draw what balls meet, as lines that do not widen the picture."""
     for surface in run.setup.surfaces:
         shape = surface.at(0.0).shape
         if isinstance(shape, Segment):
@@ -116,7 +115,7 @@ def _rows(found: Fit, count: int) -> np.ndarray:
 
 
 def _residuals(axes: Any, found: Fit, points: Points | None, place: int, colours: dict[str, Any]) -> None:
-    """The residuals of one group, with a band of two standard deviations."""
+    """Draw the residuals of one group, with a band of two standard deviations."""
     card, measured = colours["card"], found.measured
     own = measured.groups == place
     name, unit = measured.names[place], measured.units[place]

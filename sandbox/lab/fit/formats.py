@@ -1,9 +1,9 @@
-"""Which column of a table is which parameter or result of a scene: as ``--map`` says, or by the names of a device."""
+"""Columns of tables as parameters and results of a scene: as ``--map`` says, or by the names of a device."""
 
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
@@ -96,7 +96,7 @@ def device(table: Table) -> Form | None:
 def _usable(form: Form, table: Table, scene: Scene) -> Form:
     """The form with those of its entries that the table and the scene have, one for each key."""
     names = {name.lower() for name in table.names}
-    known = {*(one.key for one in walk(scene.parameters)), *scene.facts}
+    known = declared_units(scene)
     taken: dict[str, Entry] = {}
     for entry in form.entries:
         if entry.column.lower() in names and entry.key in known:
@@ -128,10 +128,10 @@ def in_table(entries: Sequence[Entry], table: Table) -> tuple[Entry, ...]:
 def stated(entries: Sequence[Entry], table: Table, scene: Scene) -> Form:
     """The form that the user gave. Raises RequestError for a column or a key that does not exist."""
     entries = in_table(entries, table)
-    parameters = {one.key for one in walk(scene.parameters)}
+    known = declared_units(scene)
     for entry in entries:
-        if entry.key not in parameters and entry.key not in scene.facts:
-            near = nearest(entry.key, [*parameters, *scene.facts])
+        if entry.key not in known:
+            near = nearest(entry.key, [*known])
             hint = f"; did you mean {near}?" if near else ""
             raise RequestError(f"--map {entry.column}={entry.key}: no such parameter or result in {scene.title}{hint}")
     for number, key in enumerate(keys := [entry.key for entry in entries]):
@@ -142,11 +142,5 @@ def stated(entries: Sequence[Entry], table: Table, scene: Scene) -> Form:
 
 def declared_units(scene: Scene) -> Mapping[str, str]:
     """The unit of every parameter and result, "" for a plain number."""
-    return dict(_units(scene))
-
-
-def _units(scene: Scene) -> Iterator[tuple[str, str]]:
-    for one in walk(scene.parameters):
-        yield one.key, one.unit or ""
-    for key, fact in scene.facts.items():
-        yield key, fact.unit
+    parameters = {one.key: one.unit or "" for one in walk(scene.parameters)}
+    return parameters | {key: fact.unit for key, fact in scene.facts.items()}

@@ -27,7 +27,7 @@ class Launches:
     given: Mapping[str, np.ndarray]  # by parameter, shape (launches,)
     measured: Mapping[str, np.ndarray]  # by fact, shape (launches,)
     numbers: np.ndarray  # the row of each launch in its file, the first is 1
-    fact_units: tuple[str, ...]
+    units: tuple[str, ...]  # of each fact
     notes: tuple[str, ...] = ()  # on how the table was read
     where: str = "track"  # as messages begin
 
@@ -41,7 +41,7 @@ class Launches:
 
     @property
     def runs(self) -> int:
-        """As many."""
+        """The runs of one candidate, one for each launch."""
         return self.count
 
     @property
@@ -60,13 +60,8 @@ class Launches:
         return tuple(self.measured)
 
     @property
-    def units(self) -> tuple[str, ...]:
-        """Their units."""
-        return self.fact_units
-
-    @property
     def times(self) -> np.ndarray:
-        """NaN: results have no times."""
+        """NaN for each residual, since results have no times."""
         return np.full(self.count * len(self.measured), np.nan)
 
     def check(self, scene: Scene) -> None:
@@ -98,11 +93,11 @@ class Launches:
         return found.reshape(len(values), self.count, -1)
 
     def points(self, scene: Scene, free: Sequence[float]) -> Points | None:
-        """None: there are no places."""
+        """Return None, since there are no places."""
         return None
 
     def remarks(self, scene: Scene, free: Sequence[float]) -> tuple[str, ...]:
-        """How the table was read, and what is taken as exact."""
+        """Sentences on how the table was read, and on what is taken as exact."""
         return (*self.notes, f"the launches are taken as measured: {', '.join(self.given)}")
 
 

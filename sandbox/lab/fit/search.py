@@ -86,9 +86,9 @@ def neumann(groups: np.ndarray, residuals: np.ndarray) -> float:
     return min(ratios, default=0.0)
 
 
-def robust_sds(residuals: np.ndarray, groups: np.ndarray, inside: np.ndarray) -> np.ndarray:
-    """The standard deviation of each residual's group, by those ``inside``, which outliers hardly change: 1.4826 median
-    absolute residual. It is 1 for a group with no residuals other than 0."""
+def robust_sds(residuals: np.ndarray, groups: np.ndarray, inside: np.ndarray | bool = True) -> np.ndarray:
+    """The standard deviation of each residual's group, by those ``inside`` (by default all), which outliers hardly
+    change: 1.4826 median absolute residual. It is 1 for a group with no residuals other than 0."""
     sds = np.ones(len(residuals))
     for group in np.unique(groups):
         size = np.abs(residuals[(groups == group) & inside])
@@ -218,8 +218,8 @@ class _Following:
         return [shares[best] for best in np.argsort(costs, kind="stable")[:POLISHED] if np.isfinite(costs[best])]
 
     def off(self, residuals: np.ndarray, until: float) -> float:
-        """How far the path is from the points of a window: the root mean square, or the median where outliers are
-        expected, on the scale of all."""
+        """The typical distance of the path from the points of a window: the root mean square, or the median where
+        outliers are expected, on the scale of all."""
         left = np.abs(residuals / self.scale)[self.problem.times <= until]
         return float(np.median(left) if self.robust else np.sqrt((left**2).mean()))
 

@@ -164,14 +164,14 @@ def _slopes(problem: Problem, place: Place, sds: np.ndarray) -> np.ndarray:
 
 def _refined(problem: Problem, place: Place, robust: bool) -> tuple[Place, np.ndarray, Loss]:
     """The place with each group weighted by its own scatter, the scale of each residual, and the loss."""
-    groups, everywhere = problem.measured.groups, np.ones(len(problem.measured.groups), bool)
+    groups = problem.measured.groups
     counts, units, used = np.bincount(groups), problem.measured.units, np.ones(len(groups))
     first = np.unique(groups, return_index=True)[1]
     if robust:
-        sds = robust_sds(place.residuals, groups, everywhere)
+        sds = robust_sds(place.residuals, groups)
         for loss in (HUBERS, HUBERS, TUKEYS, TUKEYS):
             place = descend(problem, place.share, 1.0 / sds, loss)
-            sds = pooled(robust_sds(place.residuals, groups, everywhere)[first], counts, units)[groups]
+            sds = pooled(robust_sds(place.residuals, groups)[first], counts, units)[groups]
         return place, sds, TUKEYS
     for _ in range(ROUNDS):
         by_group = pooled(group_sds(place.residuals, place.slopes, used, groups), counts, units)
@@ -191,9 +191,7 @@ def _finished(problem: Problem, place: Place, sds: np.ndarray, loss: Loss) -> Fi
     scatter = group_sds(place.residuals, place.slopes, sds, measured.groups)
     if loss is not SQUARES:
         scatter = np.array([sds[measured.groups == group][0] for group in range(len(measured.names))])
-    kept = np.abs(place.residuals) <= OUTLIER * np.maximum(
-        robust_sds(place.residuals, measured.groups, np.ones(len(sds), bool)), 1e-12
-    )
+    kept = np.abs(place.residuals) <= OUTLIER * np.maximum(robust_sds(place.residuals, measured.groups), 1e-12)
     keys, values = problem.keys, problem.values(place.share).tolist()
     best = problem.scene.changed(dict(zip(problem.scene_keys, values, strict=False)))
     correlated = errors.covariance / np.maximum(np.outer(errors.sds, errors.sds), 1e-300)
@@ -215,8 +213,8 @@ def _finished(problem: Problem, place: Place, sds: np.ndarray, loss: Loss) -> Fi
 
 
 def _pattern(problem: Problem, residuals: np.ndarray, slopes: np.ndarray) -> float:
-    """How many times larger residuals are than those of neighbours differ; 0.0 if they are not, are too few, or are
-    rounding."""
+    """The factor by which residuals are larger than those of neighbours differ; 0.0 if they are not, are too few, or
+    are rounding."""
     if np.sqrt((residuals**2).mean()) < ROUNDING_SHARE * np.abs(slopes).max():
         return 0.0
     ratio = neumann(problem.measured.groups, residuals)
