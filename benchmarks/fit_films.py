@@ -1,5 +1,5 @@
-"""How honest the intervals of ``sandbox fit`` are where a film's clock and axes are not known, for places without
-times, and for tables of shots.
+"""Measure how honest the intervals of ``sandbox fit`` are where a film's clock and axes are not known, for places
+without times, and for tables of shots.
 
 Each case draws values, measures a run with normally distributed errors, and fits. ``python benchmarks/fit_films.py``:
 how many of the 95 % intervals hold the true value, and the median processor time of a fit. Five minutes of processor

@@ -89,7 +89,7 @@ def call(args: Sequence[str] | None) -> int:
 
 
 def _stopped_before(error: BaseException) -> Stopped | None:
-    """What a first Ctrl-C has stopped, if a second one interrupts the work that was left then."""
+    """Return what a first Ctrl-C has stopped, if a second one interrupts the work that was left then; else None."""
     found: BaseException | None = error
     while found is not None and not isinstance(found, Stopped):
         found = found.__context__

@@ -56,7 +56,7 @@ def _json(address: Address) -> None:
 
 
 def _text(address: Address) -> None:
-    """The addresses and what sharing means, and the first as a QR code."""
+    """Print the addresses and what sharing means, and the first as a QR code."""
     import io
 
     import segno

@@ -55,7 +55,7 @@ class Tried:
     scene: Scene
 
     def report(self, run: SceneRun) -> dict[str, Any]:
-        """What the attempt was, and what it is worth, for JSON."""
+        """Return what the attempt was, and what it is worth, for JSON."""
         worth = self.task.score.of_shot(run.result)
         return {
             "task": self.task.name,
@@ -70,7 +70,7 @@ class Tried:
         }
 
     def lines(self, run: SceneRun) -> list[str]:
-        """The same for people."""
+        """Return the same as lines for people."""
         from sandbox.lab.tables import table
         from sandbox.sport.amounts import amount
 

@@ -70,7 +70,7 @@ def ledger(run: Run) -> Ledger:
 
 
 class _Books:
-    """What each cause has added to the kinetic energy so far, in J."""
+    """The books of a run: the kinetic energy in J that each cause has added so far."""
 
     def __init__(self, run: Run) -> None:
         self._run, self._met = run, _Impacts(run)

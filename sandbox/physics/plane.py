@@ -25,7 +25,7 @@ _AT_EDGE = 1e-9
 
 
 class PlaneMode(Enum):
-    """How a body moves on a plane during one phase."""
+    """The kinds of motion of a body on a plane, one for each phase."""
 
     SLIDING = "sliding"
     """It slips where it touches the plane."""

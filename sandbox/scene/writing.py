@@ -11,7 +11,7 @@ from sandbox.scene.scene import Scene, load
 
 
 def source_of(scene: Scene) -> str:
-    """What a command line calls the scene, or the preset that it begins from."""
+    """The name by which a command line calls the scene, or the preset that it begins from."""
     if is_installed(scene.folder):
         return scene.title
     return f"{as_path(scene.folder)}/{scene.preset}" if scene.preset else as_path(scene.folder)

@@ -45,12 +45,12 @@ class Launch(Directed):
 
     @property
     def active_spin(self) -> float:
-        """In rpm: the spin about an axis across the flight, which is all that the air notices."""
+        """The spin in rpm about an axis across the flight, which is all that the air notices."""
         return self.spin
 
     @property
     def lift_share(self) -> float | None:
-        """Share of the lift in the scene's plane, less than 1 if the spin axis is tilted; None for all of it."""
+        """The share of the lift in the scene's plane, less than 1 if the spin axis is tilted; None for all of it."""
         return None
 
 

@@ -19,7 +19,7 @@ Same = TypeVar("Same", bound="Match")
 
 @dataclass(frozen=True)
 class Match:
-    """Where a match stands. A game defines ``after``, ``scores`` and, unless all shots begin alike, ``start``."""
+    """The state of a match. A game defines ``after``, ``scores`` and, unless all shots begin alike, ``start``."""
 
     title: ClassVar[str] = ""
     goal: ClassVar[str] = ""  # what it is about, in one sentence
@@ -40,7 +40,7 @@ class Match:
 
     @property
     def scores(self) -> tuple[str, str]:
-        """How each of the two stands, in a word or two."""
+        """The score of each of the two, in a word or two."""
         raise NotImplementedError
 
     @property
@@ -55,12 +55,12 @@ class Match:
 
     @property
     def room(self) -> tuple[float, float, float, float] | None:
-        """Where that may be placed: from x, y to x, y, in m; None for anywhere."""
+        """The area where that may be placed: from x, y to x, y, in m; None for anywhere."""
         return None
 
     @property
     def placing(self) -> str:
-        """What the player is told of that, in a few words."""
+        """The hint to the player on that, in a few words."""
         return ""
 
     @property

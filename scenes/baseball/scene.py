@@ -78,7 +78,7 @@ class BattedBall(flight.Launch):
 
     @property
     def active_spin(self) -> float:
-        """Of both, with the sign of the backspin."""
+        """The spin in rpm of both, with the sign of the backspin."""
         both = (self.spin * self.spin + self.sidespin * self.sidespin) ** 0.5
         return where(self.spin < 0.0, -both, both)
 
@@ -132,7 +132,7 @@ over_fence = fact_from(
 
 
 def backspin(run: Run, parameters: Parameters) -> float:
-    """In rpm, without the sidespin."""
+    """The backspin in rpm, without the sidespin."""
     return parameters.launch.spin if parameters.start == "launch" else LAUNCH_SPIN.compute(run, parameters)
 
 

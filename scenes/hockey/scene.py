@@ -172,7 +172,7 @@ def _word(run: Run, parameters: Parameters) -> str:
 
 
 def _off_boards(run: Run, parameters: Parameters) -> int:
-    """How often the puck goes off the boards, until the shot is decided."""
+    """The number of times the puck goes off the boards, until the shot is decided."""
     end = decided(run, parameters)[0]
     return sum(what == "boards" and event.t <= end for what, event in collisions_of(run, "puck"))
 

@@ -1,4 +1,4 @@
-"""What a fit says and writes: models, warnings, outliers, JSON, picture, page, and a scene file with its points."""
+"""Reports and files of a fit: models, warnings, outliers, JSON, picture, page, and a scene file with its points."""
 
 from __future__ import annotations
 

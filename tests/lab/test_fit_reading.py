@@ -1,4 +1,4 @@
-"""What a fit can be given: tracks as other programs write them, photographs, tables of launches; and what it cannot."""
+"""Data for a fit: tracks as other programs write them, photographs, tables of launches; and what is refused."""
 
 from __future__ import annotations
 
@@ -188,7 +188,7 @@ def test_clock_axes_and_tilt_of_a_film_are_found_with_the_ball():
 
 
 def test_a_late_launch_is_compared_at_all_points():
-    """What the search sees is what is computed for the result alone: no point is later than a run lasts."""
+    """The search sees what is computed for the result alone: no point is later than a run lasts."""
     t, places = flown(0.002)
     track = {"t": t + 0.9, "x": places[:, 0], "y": places[:, 1]}
     found = sandbox.fit("collisions/bouncing-ball", track, {"floor.restitution": (0.5, 1.0)}, free=["time"])
@@ -231,7 +231,7 @@ def carries() -> tuple[list[float], list[float]]:
 
 
 def devices(carries: tuple[list[float], list[float]]) -> dict[str, str]:
-    """The same shots as each device writes them."""
+    """Those shots as each device writes them."""
     rows = list(zip(*SHOTS.values(), *carries, strict=True))
     trackman = "sep=,\nClub,Ball Speed,Launch Angle,Spin Rate,Spin Axis,Carry Flat - Length,Max Height - Height\n"
     trackman += ",[mph],[deg],[rpm],[deg],[yds],[ft]\n"

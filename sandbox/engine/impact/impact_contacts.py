@@ -69,5 +69,5 @@ def after_single_contact(balls: Sequence[Ball], states: Sequence[State], contact
 
 
 def _without_pull(bounce: Bounce, approach: float) -> Bounce:
-    """Without restitution where a point of contact does not close: it may be pressed on, not pulled along."""
+    """The bounce, without restitution where a point of contact does not close: it may be pressed on, not pulled."""
     return bounce if approach > CLOSING else bounce._replace(restitution=0.0)

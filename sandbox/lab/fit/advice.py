@@ -1,4 +1,4 @@
-"""What measurement would tell two values apart that a track does not."""
+"""Advice on which measurement would tell two values apart that a track does not."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ STEP = 0.1
 
 
 def advice(found: Fit, first: str, second: str) -> str:
-    """What more of the track would tell two values apart, in a few words; "" if none would, or that is not known."""
+    """Say in a few words which more of the track would tell two values apart; "" if none would, or none is known."""
     points = found.measured.points(found.scene, found.free)
     if points is None or np.isnan(points.t).any() or found.free:
         return ""
@@ -35,7 +35,7 @@ def advice(found: Fit, first: str, second: str) -> str:
 
 
 def _gain(found: Fit, pair: tuple[str, str], ball: str, times: np.ndarray) -> float:
-    """How many times smaller the interval of the worse known of two values would be with points at these times."""
+    """The factor by which points at these times would narrow the interval of the worse known of two values."""
     keys = list(found.values)
     middle = np.array([float(value_at(found.scene.parameters, key)) for key in keys])
     half = np.array([0.5 * (one.high - one.low) for one in found.values.values()])
@@ -62,7 +62,7 @@ def _sds(slopes: np.ndarray) -> np.ndarray:
 
 
 def _named(run: SceneRun, ball: str, start: float, end: float) -> str:
-    """What happens between two times: ``more of the descent``, ``the path after the impact on floor``."""
+    """Name what happens between two times: ``more of the descent``, ``the path after the impact on floor``."""
     met = next((event for event in run.events if start < event.t < end and event.partner and ball == event.ball), None)
     if met is not None:
         return f"the path after the impact on {met.partner}"

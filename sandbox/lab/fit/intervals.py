@@ -1,4 +1,4 @@
-"""How well values are known: scatter of each group, covariance of the values, and their 95 % intervals."""
+"""The accuracy of fitted values: scatter of each group, covariance of the values, and their 95 % intervals."""
 
 from __future__ import annotations
 

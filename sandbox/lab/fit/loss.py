@@ -1,4 +1,4 @@
-"""What a residual costs: its square, or less where it is an outlier.
+"""The cost of a residual: its square, or less where it is an outlier.
 
 Maronna, Martin, Yohai: Robust Statistics (2006), sections 2.2 and 4.4. Residuals are in standard deviations.
 """

@@ -31,7 +31,7 @@ class Quantity:
 
 @dataclass(frozen=True)
 class Mapped:
-    """What is known of each row."""
+    """The quantities of each row of a table."""
 
     given: Mapping[str, Quantity]  # by parameter
     measured: Mapping[str, Quantity]  # by fact

@@ -1,4 +1,4 @@
-"""What a fit needs of measured data: residuals for many candidates at once, and which of them scatter alike."""
+"""Measured data as a fit needs them: residuals for many candidates at once, and which of them scatter alike."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class Measured(Protocol):
 
     @property
     def names(self) -> tuple[str, ...]:
-        """What was measured, by group: ``("x", "y")``, ``("carry", "apex")``."""
+        """The quantities that were measured, by group: ``("x", "y")``, ``("carry", "apex")``."""
 
     @property
     def units(self) -> tuple[str, ...]:
@@ -56,7 +56,7 @@ class Measured(Protocol):
 
     @property
     def times(self) -> np.ndarray:
-        """When each residual was measured, in s since the launch, NaN if unknown; shape (residuals,)."""
+        """The time of each residual in s since the launch, NaN if unknown; shape (residuals,)."""
 
     @property
     def free(self) -> tuple[Free, ...]:

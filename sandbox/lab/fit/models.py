@@ -1,4 +1,4 @@
-"""Which of several models explains the data best: a fit with each, compared by Akaike's criterion."""
+"""Several models compared by how well they explain the data: a fit with each, ranked by Akaike's criterion."""
 
 from __future__ import annotations
 

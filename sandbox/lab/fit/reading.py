@@ -29,7 +29,7 @@ _PER = re.compile(rf"\s*({units.NUMBER})\s*px\s*/\s*(\w+)\s*")
 
 @dataclass(frozen=True)
 class Film:
-    """How positions were measured: what turns the numbers of a file into s and m."""
+    """The scale, origin and frame rate of a film, which turn the numbers of a file into s and m."""
 
     scale: float | None = None  # m in one px
     origin: tuple[float, float] = (0.0, 0.0)  # of the scene, in the coordinates of the file
@@ -191,7 +191,7 @@ def _times(table: Table, film: Film, rows: Sequence[int], balls: Sequence[str]) 
 
 
 def _factor(table: Table, column: Column, unit: str) -> float:
-    """What the numbers of a column are multiplied by to be in this SI unit. Raises RequestError."""
+    """The factor from the numbers of a column to this SI unit. Raises RequestError."""
     if not column.unit:
         return 1.0
     try:

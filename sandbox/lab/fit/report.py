@@ -100,7 +100,7 @@ def sentences(found: Fit) -> Iterator[str]:
 
 
 def assumed(found: Fit) -> str:
-    """What was assumed of the errors."""
+    """Say what was assumed of the errors."""
     *most, last = found.measured.names
     names = f"{', '.join(most)} and {last}" if most else last
     alike = "" if len(found.measured.names) == 1 else f", alike in {names}" if found.pooled else f"; {names} weighted"
@@ -130,7 +130,7 @@ def _of_pairs(found: Fit) -> Iterator[str]:
 
 
 def models_text(found: Fit) -> str:
-    """Which model fits best, in a sentence."""
+    """Say in a sentence which model fits best."""
     (best, _), *others = found.models.items()
     words = {("fits", "fit", "as well"): AS_GOOD, ("fits", "fit", "worse"): RULED_OUT, ("is", "are", "ruled out"): inf}
     said, beyond = [f"{found.models_of}: {best} fits best"], -inf
