@@ -100,6 +100,16 @@ class Sphere(Group):
         return 0.0
 
 
+class SlowedSphere(Sphere):
+    """A ball whose spin the air slows, the less the thinner it is."""
+
+    spin_decay: float = quantity(..., "", 0, 0.01, "k of dw/dt = -k |u| w / r, in air of 1.204 kg/m^3")
+
+    def decay_in(self, air: Air) -> float:
+        """In proportion to the density."""
+        return self.spin_decay * air.density / 1.204
+
+
 class Flight(SceneParameters):
     """Parameters of a ball that flies, seen from the side; a sport adds its own, and says which ball and air it has."""
 

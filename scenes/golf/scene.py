@@ -24,7 +24,6 @@ from sandbox.kit import (
     LAUNCH,
     LAUNCH_SPIN,
     SOLID_SPHERE,
-    Air,
     Ball,
     Bounds,
     ConstantDrag,
@@ -41,7 +40,6 @@ from sandbox.kit import (
     Run,
     SceneRun,
     Setup,
-    Sphere,
     Spin,
     Spread,
     Touches,
@@ -56,6 +54,7 @@ from sandbox.kit import (
     roughly,
 )
 from sandbox.physics.club import Head, strike
+from sandbox.sport.flight import SlowedSphere
 
 from .course import FAR, Ground, Pin, surfaces
 
@@ -82,16 +81,11 @@ class DimpledDrag(ConstantDrag):
     coefficient: float = quantity(0.25, "", 0, 10, "drag coefficient")
 
 
-class GolfBall(Sphere, drag=GOLF_DRAG, lift=GOLF_LIFT):
+class GolfBall(SlowedSphere, drag=GOLF_DRAG, lift=GOLF_LIFT):
     """The golf ball, a solid sphere."""
 
     INERTIA = SOLID_SPHERE
-    spin_decay: float = quantity(..., "", 0, 0.01, "k of dw/dt = -k |u| w / r, in air of 1.204 kg/m^3")
     drag: DimpledDrag | NoForce = one_of(..., "drag of the air")
-
-    def decay_in(self, air: Air) -> float:
-        """Thinner air slows the spin less, in proportion."""
-        return self.spin_decay * air.density / 1.204
 
 
 class Parameters(Flight):

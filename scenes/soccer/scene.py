@@ -18,7 +18,6 @@ from sandbox.kit import (
     LAUNCH,
     SOCCER_DRAG,
     SOCCER_LIFT,
-    Air,
     Circle,
     Controls,
     Event,
@@ -34,7 +33,6 @@ from sandbox.kit import (
     Segment,
     Setup,
     Solid,
-    Sphere,
     Spin,
     Spread,
     State,
@@ -53,6 +51,7 @@ from sandbox.kit import (
     roughly,
     switch,
 )
+from sandbox.sport.flight import SlowedSphere
 
 SPREAD = (Spread("launch.speed", 0.02), Spread("launch.angle", minimum=1.0), Spread("launch.spin", 0.1))  # assumed
 
@@ -60,13 +59,8 @@ SPREAD = (Spread("launch.speed", 0.02), Spread("launch.angle", minimum=1.0), Spr
 # What soccer from above has, too.
 
 
-class SoccerBall(Sphere, drag=SOCCER_DRAG, lift=SOCCER_LIFT):
+class SoccerBall(SlowedSphere, drag=SOCCER_DRAG, lift=SOCCER_LIFT):
     """The soccer ball, a hollow sphere."""
-
-    spin_decay: float = quantity(..., "", 0, 0.01, "k of dw/dt = -k |u| w / r, in air of 1.204 kg/m^3")
-
-    def decay_in(self, air: Air) -> float:
-        return self.spin_decay * air.density / 1.204
 
 
 class Wall(Solid):
