@@ -72,13 +72,13 @@ class Tried:
     def lines(self, run: SceneRun) -> list[str]:
         """Return the same as lines for people."""
         from sandbox.lab.tables import table
-        from sandbox.sport.amounts import amount
 
         units = {start.key: start.unit for start in self.task.start}
         units |= {control.key: control.unit for control in self.task.controls}
-        worth, unit = self.task.score.of_shot(run.result), self.task.score.total_unit
-        counts = "nothing" if worth is None else f"{worth:g}" if not unit else amount(worth, unit)
-        rows = [("goal", self.task.goal), ("counts", f"{counts} ({self.task.score.said})")]
+        score = self.task.score
+        worth = score.of_shot(run.result)
+        counts = "nothing" if worth is None else score.number(worth)
+        rows = [("goal", self.task.goal), ("counts", f"{counts} ({score.said})")]
         drawn = [("start", key) for key in self.start] + [("set", key) for key in self.task.defaults]
         for what, key in drawn:
             value = _value(self.scene, key)

@@ -8,7 +8,6 @@ from typing import Any
 
 from sandbox.page.parts import filled, html
 from sandbox.page.replay import page_of
-from sandbox.sport.amounts import amount
 from sandbox.tasks import Attempt, Session, Shot
 
 
@@ -30,21 +29,10 @@ def session_page(session: Session) -> str:
 
 def _score(session: Session) -> str:
     """The score in words, and whether it passes."""
-    said = worth_text(session, session.total)
+    said = session.task.score.text(session.total)
     if not session.over:
         return f"{said} so far"
-    return f"{said}, passed" if session.passed else f"{said}, not passed"
-
-
-def worth_text(session: Session, worth: float | None) -> str:
-    """What a shot, an attempt or all of them are worth, as text."""
-    if worth is None:
-        return "no score"
-    score = session.task.score
-    if score.total_unit:
-        return amount(worth, score.total_unit)
-    words = {"points": "points", "fewest": "shots"}
-    return f"{worth:g} {words.get(score.how, score.fact.replace('_', ' '))}"
+    return f"{said}: passed" if session.passed else f"{said}: not passed"
 
 
 def _attempt(session: Session, attempt: Attempt) -> str:
@@ -57,7 +45,7 @@ def _attempt(session: Session, attempt: Attempt) -> str:
 def _shot(session: Session, shot: Shot) -> str:
     """One shot: what it was worth and what the player set; its replay in a frame that is filled when it is opened."""
     aim = _listed(shot.values, {control.key: control.unit for control in session.task.controls})
-    head = f"{'✓' if shot.made else '·'} {shot.said} ({worth_text(session, shot.worth)}; {aim})"
+    head = f"{'✓' if shot.made else '·'} {shot.said} ({session.task.score.text(shot.worth)}; {aim})"
     page = escape(page_of(shot.run))
     return (
         f"<details><summary>{html(head)}</summary>\n"

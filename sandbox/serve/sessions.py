@@ -7,7 +7,6 @@ from functools import lru_cache
 from typing import Any
 
 from sandbox.files import json_text
-from sandbox.page.task import worth_text
 from sandbox.picture.path import first_impact, points, time_after
 from sandbox.scene.scene_run import SceneRun
 from sandbox.serve.calls import Ask, Game
@@ -71,7 +70,7 @@ def _keep(key: tuple[str, str], session: Session) -> None:
 
 
 def said_of(task: Task) -> dict[str, Any]:
-    """What a task is, for people."""
+    """A task, in words for people."""
     return {"goal": task.goal, "attempts": task.attempts, "score": task.score.said, "shown": task.shown}
 
 
@@ -80,7 +79,7 @@ def standing(session: Session) -> dict[str, Any]:
     return {
         "attempt": session.attempt.number,
         "attempts": session.task.attempts,
-        "total": worth_text(session, session.total),
+        "total": session.task.score.text(session.total),
         "over": session.over,
         "passed": session.passed,
         "stars": session.stars,

@@ -74,7 +74,7 @@ class _Reader:
         )
 
     def scored(self) -> tuple[Score, tuple[float, float, float], float]:
-        """What counts, and the scores for stars and to pass. Raises RequestError."""
+        """The rule of the score, and the scores for stars and to pass. Raises RequestError."""
         file, score = self.file, self.score(self.file.score)
         first, second, third = (self.number("stars", value, score.total_unit) for value in file.stars)
         passing = self.number("pass", file.passing, score.total_unit)
@@ -191,10 +191,11 @@ class _Reader:
             need = "needs rings, such as [[0.1, 10], [0.5, 5]]" if entry.how == "points" else "has no rings"
             raise self.wrong(f'score.how = "{entry.how}": {need}')
         wanted = tuple(self.wanted("score.wanted", entry.wanted))
-        return Score(name, unit, entry.how, target, tuple(rings), wanted)
+        word = {"points": "points", "fewest": "shots"}.get(entry.how, self.scene.facts[name].label or "made")
+        return Score(name, unit, entry.how, target, tuple(rings), wanted, word=word)
 
     def wanted(self, what: str, table: Mapping[str, Any]) -> Iterator[Wanted]:
-        """What facts must be. Raises RequestError."""
+        """The facts of a table, each with its value or range. Raises RequestError."""
         for name, given in table.items():
             fact = self.fact(what, name)
             unit = self.scene.facts[fact].unit

@@ -1,4 +1,4 @@
-"""What a shot is worth, and what the attempts of a session add up to."""
+"""The worth of a shot, and the score that the attempts of a session add up to."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from sandbox.errors import RequestError
+from sandbox.sport.amounts import amount
 
 
 @dataclass(frozen=True)
@@ -29,7 +30,7 @@ class Wanted:
 
 @dataclass(frozen=True)
 class Score:
-    """How the facts of shots become a score.
+    """The rule by which the facts of shots become a score.
 
     ``how`` is ``sum`` (numbers add up, true counts one, a list its length), ``greatest`` (of a number), ``nearest``
     (the smallest distance of a number from ``target``), ``points`` (by ``rings`` around the target) or ``fewest`` (the
@@ -43,6 +44,7 @@ class Score:
     rings: tuple[tuple[float, float], ...] = ()  # distance from the target, points; the nearest first
     wanted: tuple[Wanted, ...] = ()  # without which a shot counts nothing
     farthest: float = 0.0  # the distance that counts for a shot that has none, and at most
+    word: str = "made"  # that follows a score without a unit, in the plural: pins, points, shots
 
     @property
     def lower_is_better(self) -> bool:
@@ -60,7 +62,7 @@ class Score:
         return tuple(dict.fromkeys((self.fact, *(wanted.fact for wanted in self.wanted))))
 
     def of_shot(self, result: Mapping[str, Any]) -> float | None:
-        """What a shot with these facts is worth; None for a number that it does not have.
+        """The worth of a shot with these facts; None for a number that it does not have.
 
         Of ``fewest`` 1 if it is made, and else 0.
         """
@@ -82,7 +84,7 @@ class Score:
         return float(value)
 
     def of_attempt(self, shots: Sequence[float | None], most: int) -> float | None:
-        """What an attempt with shots of these worths is worth; it has at most so many."""
+        """The worth of an attempt with shots of these worths; it has at most ``most``."""
         if self.how == "fewest":
             return float(len(shots) if shots and shots[-1] else most + 1)
         return self._together(shots)
@@ -104,12 +106,23 @@ class Score:
         return score <= threshold if self.lower_is_better else score >= threshold
 
     def reward(self, worth: float | None) -> float:
-        """What one shot gives a program that learns: more is better."""
+        """The reward of one shot for a program that learns: more is better."""
         if self.how == "nearest":
             return -min(self.farthest if worth is None else worth, self.farthest)
         if self.how == "fewest":
             return -1.0
         return worth or 0.0
+
+    def number(self, score: float) -> str:
+        """A score, or what a part of it is worth, as a number: ``4``, ``1.25 m``."""
+        return amount(score, self.total_unit) if self.total_unit else f"{score:g}"
+
+    def text(self, score: float | None) -> str:
+        """The same in words: ``4 made``, ``26 pins``, ``1.25 m``."""
+        if score is None:
+            return "no score"
+        word = self.word.removesuffix("s") if score == 1.0 else self.word
+        return self.number(score) if self.total_unit else f"{score:g} {word}"
 
     @property
     def said(self) -> str:

@@ -16,12 +16,12 @@ import numpy as np
 
 from sandbox import tasks
 from sandbox.errors import RequestError
+from sandbox.lab.spread.causes import players_spread
 from sandbox.parameters import value_at, walk
 from sandbox.scene import Scene, load
 from sandbox.scene.finding import is_installed
 from sandbox.scene.games import game_names, game_of
 from sandbox.scene.scene_run import SceneRun
-from sandbox.sport.amounts import amount
 from sandbox.sport.match import PLAYERS, Match
 
 #: What the player may set, by key: bounds, in the parameter's unit.
@@ -214,8 +214,8 @@ class AtTask(Contest):
         return self.goal if self.players == 1 else f"{PLAYERS[self.turn]}: {self.goal[0].lower()}{self.goal[1:]}"
 
     def written(self, score: float | None) -> str:
-        """A score in words."""
-        return "-" if score is None else amount(score, self.task.score.total_unit).removesuffix(".0")
+        """A score as a number."""
+        return "-" if score is None else self.task.score.number(score)
 
     @property
     def entries(self) -> Entries:
@@ -247,14 +247,11 @@ class AtTask(Contest):
 
     @property
     def outcome(self) -> list[str]:
-        totals = [session.total for session in self.sessions]
+        totals, score = [session.total for session in self.sessions], self.task.score
         if self.players == 1:
-            passed = (
-                "passed" if self.sessions[0].passed else f"not passed: that takes {self.written(self.task.passing)}"
-            )
-            return [f"{self.written(totals[0])}, {passed}"]
+            passed = "passed" if self.session.passed else f"not passed, which takes {self.written(self.task.passing)}"
+            return [f"{score.text(totals[0])}: {passed}"]
         first, second = totals
-        score = self.task.score
         ahead = [second is None or (first is not None and score.reaches(first, second)),
                  first is None or (second is not None and score.reaches(second, first))]  # fmt: skip
         said = "A draw" if all(ahead) else f"{PLAYERS[ahead.index(True)]} wins"
@@ -294,12 +291,9 @@ class AtMatch(Contest):
         return found
 
     def aimed(self, scene: Scene) -> Scene:
-        known, noisy = {it.key: it for it in walk(scene.parameters)}, {}
-        for spread in scene.controls.spread:
-            value = value_at(scene.parameters, spread.key)
-            sd = value_at(scene.parameters, spread.sd) if spread.sd else spread.sigma(value)
-            noisy[spread.key] = known[spread.key].within(float(self.random.normal(value, sd)))
-        return scene.changed(noisy, "aim")
+        spread = players_spread(scene).items()
+        aimed = {key: known.within(float(self.random.normal(known.value, sd))) for key, (known, sd) in spread}
+        return scene.changed(aimed, "aim")
 
     def would_score(self, run: SceneRun) -> bool:
         after = self.match.after(run.result)

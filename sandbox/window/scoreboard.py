@@ -147,6 +147,6 @@ def _best_lines(contest: Contest, best: BestList, place: int) -> list[str]:
     """The best scores at a task, with the place of this one."""
     if not isinstance(contest, AtTask) or contest.players > 1:
         return []
-    scores = ", ".join(contest.written(each.score) for each in best.of(contest.name))
+    scores = ", ".join(contest.task.score.text(each.score) for each in best.of(contest.name))
     mine = "" if place == 0 or len(best.of(contest.name)) == 1 else f", of which this is number {place}"
     return [f"your best: {scores}{mine}"] if scores else []

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from sandbox.tasks import Score
+from sandbox.tasks import Score, load
 from sandbox.tasks.scoring import Wanted
 
 RINGS = ((0.1, 10.0), (0.5, 5.0))
@@ -67,3 +67,20 @@ def test_a_shot_counts_only_with_the_facts_that_are_wanted():
     assert score.of_shot(good) == 1.0
     for fact, value in (("verdict", "rim"), ("angle", 39.9), ("angle", None), ("potted", ["1"])):
         assert score.of_shot({**good, fact: value}) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("name", "score", "text"),
+    [
+        ("free-throw", 4.0, "4 made"),
+        ("eight-ball", 3.0, "3 made"),
+        ("strikes", 26.0, "26 pins"),
+        ("strikes", 1.0, "1 pin"),
+        ("hold-over", 20.0, "20 points"),
+        ("par-two", 7.0, "7 shots"),
+        ("draw-to-the-button", 0.8, "0.80 m"),
+        ("draw-to-the-button", None, "no score"),
+    ],
+)
+def test_a_score_in_words(name: str, score: float | None, text: str):
+    assert load(name).score.text(score) == text

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from sandbox.tasks import load
-from tests.own_scene import assert_refused
+from tests.own_scene import assert_refused, change
 
 TASK = """
 goal = "Throw it in"
@@ -110,8 +110,7 @@ def test_an_attempt_is_run_from_what_is_drawn_for_it(call, file: Path):
     ],
 )
 def test_what_is_wrong_with_a_task_is_a_line(call, file: Path, before: str, after: str, said: str):
-    assert before in TASK
-    file.write_text(TASK.replace(before, after, 1))
+    change(file, before, after)
     outcome = call("run", file)
     assert_refused(outcome, said)
     assert "mine.toml: " in outcome[2]
@@ -121,7 +120,7 @@ def test_other_requests_that_are_refused(call, file: Path):
     assert_refused(call("run", file, "--attempt", 4), "--attempt 4: mine has 3 attempts")
     assert_refused(call("run", "golf", "--attempt", 2), "--attempt: only a task has attempts, and golf is a scene")
     assert_refused(call("run", "nowhere.toml", "--attempt", 2), "nowhere.toml: cannot be read: no such file")
-    file.write_text(TASK.replace('"made"', '"verdict"', 1))
+    change(file, '"made"', '"verdict"')
     assert_refused(call("run", file), 'score.fact = "verdict": is "')
     assert_refused(call("aim", file, "--vary", "launch.angle=3:4", "--target", "made=true"), "is a task, not a scene")
     assert_refused(call("validate", "free-throw"), "free-throw: is a task, not a scene")

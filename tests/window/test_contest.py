@@ -201,7 +201,7 @@ class TestATask:
             shoot(thrower, **({**IN, "launch__speed": 5.0} if number == 4 else IN))
         contest = referee.contest
         assert (contest.over, contest.stars, contest.session.total) == (True, 2, 4.0)
-        assert {"4, passed", "your best: 4"} <= said(thrower)
+        assert {"4 made: passed", "your best: 4 made"} <= said(thrower)
         kept = json.loads(game.best.file.read_text("utf-8"))["tasks"]["free-throw"]
         assert [(each["score"], each["stars"]) for each in kept] == [(4.0, 2)]
         shown = []
