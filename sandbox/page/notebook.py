@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import tempfile
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -80,10 +80,15 @@ def _drawn_once(draw: Callable[[], Any], path: Path | str | None) -> Image.Image
 
 def page(run: Run, path: Path | str | None) -> str | None:
     """The page that plays the run: written to ``path``, or its text."""
+    return _paged(lambda: page_of(with_scene(run)), path)
+
+
+def _paged(make: Callable[[], str], path: Path | str | None) -> str | None:
+    """A page: written to ``path``, or its text."""
     if path is None:
-        return page_of(with_scene(run))
+        return make()
     _check(path, ".html", ".htm")
-    save(page_of(with_scene(run)), Path(path))
+    save(make(), Path(path))
     return None
 
 
@@ -170,27 +175,37 @@ def aim_html(aim: Aim) -> str:
     """Return the solutions as a table, and all trials as a chart."""
     from sandbox.lab.aim import report
 
-    text = escape("\n".join(report.as_text(aim)))
-    chart = _image(_drawn(lambda path: report.draw(aim, path)))
-    return f'<pre style="font-family: monospace; white-space: pre">{text}</pre>{chart}'
+    return _reported(report.as_text(aim), _drawn(lambda path: report.draw(aim, path)))
+
+
+def _reported(lines: Iterable[str], chart: Image.Image | None) -> str:
+    """A report as text, and its chart."""
+    text = escape("\n".join(lines))
+    return f'<pre style="font-family: monospace; white-space: pre">{text}</pre>{_image(chart)}'
 
 
 def sweep_plot(sweep: Sweep, path: Path | str | None, of: str | None) -> Image.Image | None:
     """The chart of a sweep: written to ``path``, or handed back; ``of`` names the result."""
-    from sandbox.lab.chart import check_chart
     from sandbox.lab.maps import check_plot, draw_sweep
     from sandbox.lab.row_file import cell
 
     check_plot(sweep.plan, of)
     rows = [{name: cell(record.get(name)) for name in sweep.plan.columns} for record in sweep.records]
 
-    def draw(file: Path) -> None:
-        check_chart("--plot", file)
-        draw_sweep(sweep.plan, rows, file, of)
+    return _plotted(lambda file: draw_sweep(sweep.plan, rows, file, of), path, "--plot")
+
+
+def _plotted(draw: Callable[[Path], None], path: Path | str | None, option: str = "plot") -> Image.Image | None:
+    """A chart: written to ``path``, which ``option`` names in errors, or handed back."""
+    from sandbox.lab.chart import check_chart
+
+    def checked(file: Path) -> None:
+        check_chart(option, file)
+        draw(file)
 
     if path is None:
-        return _drawn(draw)
-    draw(Path(path))
+        return _drawn(checked)
+    checked(Path(path))
     return None
 
 
@@ -209,67 +224,41 @@ def _image(image: Image.Image | None) -> str:
 
 def spread_plot(spread: Spread, path: Path | str | None) -> Image.Image | None:
     """Its histograms and causes: written to ``path``, or handed back."""
-    from sandbox.lab.chart import check_chart
     from sandbox.lab.spread.chart import draw
 
-    def drawn(file: Path) -> None:
-        check_chart("plot", file)
-        draw(spread, file)
-
-    if path is None:
-        return _drawn(drawn)
-    drawn(Path(path))
-    return None
+    return _plotted(lambda file: draw(spread, file), path)
 
 
 def spread_page(spread: Spread, path: Path | str | None) -> str | None:
     """Its page: written to ``path``, or its text."""
     from sandbox.page.spread import page_of
 
-    if path is None:
-        return page_of(spread)
-    _check(path, ".html", ".htm")
-    save(page_of(spread), Path(path))
-    return None
+    return _paged(lambda: page_of(spread), path)
 
 
 def fit_plot(fit: Fit, path: Path | str | None) -> Image.Image | None:
     """Its points, path and residuals: written to ``path``, or handed back."""
-    from sandbox.lab.chart import check_chart
     from sandbox.lab.fit.chart import draw
 
-    def drawn(file: Path) -> None:
-        check_chart("plot", file)
-        draw(fit, file)
-
-    if path is None:
-        return _drawn(drawn)
-    drawn(Path(path))
-    return None
+    return _plotted(lambda file: draw(fit, file), path)
 
 
 def fit_page(fit: Fit, path: Path | str | None) -> str | None:
     """Its page: written to ``path``, or its text."""
     from sandbox.page.fit import page_of
 
-    if path is None:
-        return page_of(fit)
-    _check(path, ".html", ".htm")
-    save(page_of(fit), Path(path))
-    return None
+    return _paged(lambda: page_of(fit), path)
 
 
 def fit_html(fit: Fit) -> str:
     """Its report as text, and its picture."""
     from sandbox.lab.fit.report import as_text
 
-    text = escape("\n".join(as_text(fit)))
-    return f'<pre style="font-family: monospace; white-space: pre">{text}</pre>{_image(fit.plot())}'
+    return _reported(as_text(fit), fit.plot())
 
 
 def spread_html(spread: Spread) -> str:
     """Its numbers as text, and its picture."""
     from sandbox.lab.spread.report import as_text
 
-    text = escape("\n".join(as_text(spread)))
-    return f'<pre style="font-family: monospace; white-space: pre">{text}</pre>{_image(spread.plot())}'
+    return _reported(as_text(spread), spread.plot())
