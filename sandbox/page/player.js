@@ -289,20 +289,26 @@ class Player {
 
   /** Another run's ball, with its name beside it. */
   ghost(ghost, t) {
-    const { context, view } = this, { arcs } = ghost.path, until = Math.min(t, arcs[arcs.length - 1][1]);
+    const { view } = this, { arcs } = ghost.path, until = Math.min(t, arcs[arcs.length - 1][1]);
     const [x, y] = ghost.path.state(until), radius = Math.max(3, 6 * view.unit);
     const [px, py] = this.spot(ghost, x + ghost.shift[0], y + ghost.shift[1], radius);
     this.disc(px, py, radius, ghost.light);
+    this.label(ghost.label, px, py - radius - 5 * view.unit, ghost.light);
+  }
+
+  /** A text on a dark label above a place, within the picture. */
+  label(text, x, y, colour) {
+    const { context, view } = this, [width, height] = view.size, within = (value, high) => Math.max(4, Math.min(value, high - 4));
     context.font = `700 ${Math.max(11, 14.5 * view.unit)}px "Sandbox Sans", "Noto Sans", sans-serif`;
-    const wide = context.measureText(ghost.label).width + 12 * view.unit, tall = 22 * view.unit;
-    const left = Math.min(px - wide / 2, view.size[0] - wide - 4), top = py - radius - tall - 5 * view.unit;
+    context.textBaseline = "middle";
+    const wide = context.measureText(text).width + 12 * view.unit, tall = 22 * view.unit;
+    const left = within(x - wide / 2, width - wide), top = within(y - tall, height - tall);
     context.fillStyle = this.data.card;
     context.beginPath();
-    context.roundRect(Math.max(4, left), top, wide, tall, tall / 2);
+    context.roundRect(left, top, wide, tall, tall / 2);
     context.fill();
-    context.fillStyle = ghost.light;
-    context.textBaseline = "middle";
-    context.fillText(ghost.label, Math.max(4, left) + 6 * view.unit, top + tall / 2);
+    context.fillStyle = colour;
+    context.fillText(text, left + 6 * view.unit, top + tall / 2);
   }
 
   // -------------------------------------------------------------------------------------------- arrows
@@ -485,10 +491,15 @@ class Player {
     this.draw();
   }
 
+  /** The place under the pointer, in CSS px of the canvas. */
+  inside(event) {
+    const box = this.canvas.getBoundingClientRect();
+    return [event.clientX - box.left, event.clientY - box.top];
+  }
+
   /** The place under the pointer, in px of the layer. */
   under(event) {
-    const box = this.canvas.getBoundingClientRect();
-    return [(event.clientX - box.left) / this.shown, (event.clientY - box.top) / this.shown];
+    return this.inside(event).map((value) => value / this.shown);
   }
 
   left(event) {

@@ -25,6 +25,7 @@ from sandbox.picture.vectors import FORCE_LENGTH, SHORTEST, VELOCITY_LENGTH, col
 from sandbox.picture.view import View
 from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.amounts import DISPLAY_UNITS, ladder
+from sandbox.sport.readings import words_of
 from sandbox.units import convert
 
 #: The picture that shows until the page's script draws, and where none runs, is at most so large, in px.
@@ -165,6 +166,12 @@ def path_data(view: View[Any], run: SceneRun) -> dict[str, Any]:
         "duration": max([run.duration, *(ghost.run.duration for ghost in view.ghosts)]),
         "told": view.story_end,
     }
+
+
+def told_events(run: SceneRun) -> list[tuple[str, ...]]:
+    """Return the events of a run in words: of each its time, then what happened."""
+    several = len(run.setup.balls) > 1
+    return [words_of(run, event, several) for event in run.events[:MOST_EVENTS]]
 
 
 def force_data(view: View[Any], run: SceneRun) -> dict[str, Any]:

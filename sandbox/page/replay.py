@@ -7,16 +7,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from sandbox.page.parts import css, filled, fonts, html, packed, rows, table
-from sandbox.page.playing import MOST_EVENTS, force_data, layout_data, path_data, place_data
+from sandbox.page.playing import force_data, layout_data, path_data, place_data, told_events
 from sandbox.parameters import Group, walk
-from sandbox.picture.sheet import CARD, DENSITY
+from sandbox.picture.sheet import CARD, drawn_at
 from sandbox.picture.view import View
 from sandbox.scene import Scene
 from sandbox.scene.scene_run import SceneRun
 from sandbox.scene.setup_scene import SetupScene
 from sandbox.scene.writing import differences, source_of
 from sandbox.sport.amounts import exact
-from sandbox.sport.readings import words_of
 from sandbox.text import command_line
 
 #: The picture on a wide screen and on a phone: size in px, and how many times as large letters are drawn on it.
@@ -33,10 +32,9 @@ def page_of(run: SceneRun, ghosts: Mapping[str, SceneRun] | None = None, options
     others = {ghost.label: css(ghost.light) for ghost in view.ghosts}
     labelled = [dict(scene.rows(run)), *(dict(ghost.run.scene.rows(ghost.run)) for ghost in view.ghosts)]
     card = [(label, *(texts.get(label, "–") for texts in labelled)) for label in labelled[0]]
-    several = len(run.setup.balls) > 1
     listed = (
         f'<li><button type="button"><b>{html(t)}</b> <span>{html(" ".join(filter(None, words)))}</span></button></li>'
-        for t, *words in (words_of(run, event, several) for event in run.events[:MOST_EVENTS])
+        for t, *words in told_events(run)
     )
     data = {
         **place_data(view),
@@ -96,9 +94,6 @@ def text_of(value: Any, unit: str | None) -> str:
 def _views(run: SceneRun, ghosts: Mapping[str, SceneRun] | None) -> Iterator[tuple[View[Any], dict[str, Any]]]:
     """The picture in each layout, and what the page needs of it."""
     for size, density in LAYOUTS:
-        token = DENSITY.set(density)
-        try:
+        with drawn_at(density):
             view = run.scene.picture(run, size, ghosts)
             yield view, layout_data(view)
-        finally:
-            DENSITY.reset(token)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from contextvars import ContextVar
 from math import ceil, floor, hypot
 from typing import NamedTuple
@@ -34,6 +35,16 @@ ROWS_FOR_YARDS, ROWS_FOR_LENGTHS = 480, 240
 
 #: Factor by which letters and lines are enlarged: more for a small screen with many px.
 DENSITY: ContextVar[float] = ContextVar("density", default=1.0)
+
+
+@contextmanager
+def drawn_at(density: float) -> Iterator[None]:
+    """Draw pictures with this density."""
+    token = DENSITY.set(density)
+    try:
+        yield
+    finally:
+        DENSITY.reset(token)
 
 
 def rows_of(size: tuple[int, int]) -> int:

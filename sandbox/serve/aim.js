@@ -38,13 +38,22 @@ class Aim extends Player {
     if (this.watched) super.seek(t);
   }
 
+  /** The ends of the path along both axes, as shares of the picture. */
+  get ends() {
+    return this.view.size.map((size, axis) => {
+      const at = this.main.line.map((point) => point[axis] / size);
+      return [Math.min(...at), Math.max(...at)];
+    });
+  }
+
+  /** The size of the path, as a share of the picture. */
+  get extent() {
+    return Math.max(...this.ends.map(([low, high]) => high - low));
+  }
+
   /** True if the whole path is seen, and large enough. */
   get inSight() {
-    const [width, height] = this.view.size, { line } = this.main;
-    const at = (axis) => line.map((point) => point[axis]);
-    const [left, right, top, bottom] = [0, 1].flatMap((axis) => [Math.min(...at(axis)), Math.max(...at(axis))]);
-    const within = left > EDGE * width && right < (1 - EDGE) * width && top > EDGE * height && bottom < (1 - EDGE) * height;
-    return within && Math.max((right - left) / width, (bottom - top) / height) > SMALL * (this.reach || 0);
+    return this.ends.every(([low, high]) => low > EDGE && high < 1 - EDGE) && this.extent > SMALL * (this.reach || 0);
   }
 
   // -------------------------------------------------------------------------------------------- drawing
@@ -124,11 +133,6 @@ class Aim extends Player {
   cancel() {
     this.pull = null;
     this.draw();
-  }
-
-  inside(event) {
-    const box = this.canvas.getBoundingClientRect();
-    return [event.clientX - box.left, event.clientY - box.top];
   }
 
   length({ start, at }) {

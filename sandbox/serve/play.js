@@ -197,14 +197,16 @@ const heard = {
 function show(run, composed = false) {
   const { stage, scene } = state;
   if (!stage) return;
-  const ghosts = state.compared.map((each, i) => ({ ...each, colour: stage.others[i % stage.others.length][0], light: stage.others[i % stage.others.length][0] }));
+  const ghosts = state.compared.map((each, i) => {
+    const colour = stage.others[i % stage.others.length];
+    return { ...each, colour, light: colour };
+  });
   const data = onStage(stage, run, run.hidden ? [] : ghosts);
   if (!player) window.player = player = new Aim(data, hands);
   if (state.shot && composed) player.load(data), player.resized(), player.seek(player.data.duration);
   else if (state.shot) player.watch(data);
   else player.aim(data);
-  const line = player.main.line, spread = (axis) => Math.max(...line.map((p) => p[axis])) - Math.min(...line.map((p) => p[axis]));
-  if (composed) player.reach = Math.max(spread(0) / player.view.size[0], spread(1) / player.view.size[1]);
+  if (composed) player.reach = player.extent;
   const goal = state.lead.predict ? `Predict the ${fact()?.label ?? "result"}, then shoot` : scene.about;
   $("verdict").textContent = run.hidden ? goal : run.verdict;
   standing(run.task);

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import secrets
 from collections import deque
-from collections.abc import Mapping, Sequence
+from collections.abc import Coroutine, Mapping, Sequence
 from dataclasses import dataclass, field
 from time import monotonic
 from typing import Any, NamedTuple
@@ -59,7 +59,7 @@ class Player:
 
 @dataclass(eq=False)
 class Lead:
-    """What the teacher has set."""
+    """The teacher's settings."""
 
     source: str = ""  # the scene for all; "" where everybody chooses
     changes: dict[str, Any] = field(default_factory=dict)
@@ -89,7 +89,7 @@ class Room:
     # Scenes
 
     async def described(self, name: str) -> Mapping[str, Any]:
-        """What the browser needs of a scene; computed once. Raises RequestError."""
+        """Return the description of a scene for the browser; computed once. Raises RequestError."""
         listed = self.scenes.get(name)
         if listed is None:
             raise RequestError("this scene is not played here")
@@ -174,9 +174,7 @@ class Room:
 
     def _replace(self, connection: Connection) -> None:
         """Close the connection of a player who has come back by another."""
-        task = asyncio.create_task(connection.close(LATER, "opened in another window"))
-        self._tasks.add(task)
-        task.add_done_callback(self._tasks.discard)
+        self._follow(connection.close(LATER, "opened in another window"))
 
     def _leave(self, player: Player) -> None:
         player.connection, player.seen = None, monotonic()
@@ -199,9 +197,8 @@ class Room:
         if not again:
             player.tries = []
         player.source, player.changes = name, dict(changes)
-        shown = {key: value for key, value in scene.items() if key != "by_key"}
         if player.connection is not None:
-            player.connection.send("scene", {"source": name, "changes": player.changes, **shown})
+            player.connection.send("scene", _scene_message(name, player.changes, scene))
 
     async def _do(self, player: Player, connection: Connection, message: Any) -> None:
         """Do what a player asks for. Raises RequestError."""
@@ -234,9 +231,18 @@ class Room:
 
     def _compute(self, player: Player, kind: calls.Kind, message: Any, done: Any) -> None:
         """Have something computed for a player, and sent; ``done`` is called with what the server keeps of it."""
-        task = asyncio.create_task(self._computed(player, kind, message, done))
+        self._follow(self._computed(player, kind, message, done))
+
+    def _follow(self, work: Coroutine[Any, Any, None]) -> None:
+        task = asyncio.create_task(work)
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
+
+    def _ask(self, name: str, changes: Mapping[str, Any], message: Any, game: calls.Game) -> calls.Ask:
+        """Return the question for a process that computes; where ``name`` is a scene, without the ``game``."""
+        listed = self.scenes[name]
+        narrow = getattr(message, "narrow", False)
+        return calls.Ask(listed.source, changes, message.n, narrow, self.units, game if listed.is_task else None)
 
     async def _computed(self, player: Player, kind: calls.Kind, message: Any, done: Any) -> None:
         source, changes, tries = player.source, dict(message.changes), player.tries
@@ -245,9 +251,7 @@ class Room:
             changes = {
                 key: value for key, value in changes.items() if key not in (pull.get("speed"), pull.get("angle"))
             }
-        game = calls.Game(self.seed, player.number, tuple(tries)) if self.scenes[source].is_task else None
-        narrow = getattr(message, "narrow", False)
-        ask = calls.Ask(self.scenes[source].source, changes, message.n, narrow, self.units, game)
+        ask = self._ask(source, changes, message, calls.Game(self.seed, player.number, tuple(tries)))
         turn = player.session, kind == "fan"
         reply = await self.lanes.compute(turn, kind, (kind, source), calls.computed, kind, ask)
         connection = player.connection
@@ -266,7 +270,7 @@ class Room:
             done(source, reply["kept"])
 
     def _shot_done(self, player: Player, message: messages.Shoot) -> Any:
-        """What to do when a shot is computed: put it into the teacher's table."""
+        """Return the function that puts a computed shot into the teacher's table."""
         fact = self.lead.predict
 
         def done(source: str, kept: Mapping[str, Any]) -> None:
@@ -306,9 +310,7 @@ class Room:
             case messages.Aim():
                 source = lead.source or self.first
                 await self._checked(source, message.changes)
-                listed = self.scenes[source]
-                game = calls.Game(self.seed, 0) if listed.is_task else None
-                ask = calls.Ask(listed.source, message.changes, message.n, message.narrow, self.units, game)
+                ask = self._ask(source, message.changes, message, calls.Game(self.seed, 0))
                 alike = message.do, source
                 reply = await self.lanes.compute(connection, message.do, alike, calls.computed, message.do, ask)
                 if reply is not None and "error" in reply:
@@ -346,9 +348,7 @@ class Room:
     async def _show(self, teacher: Connection) -> None:
         """Tell a teacher which scene is shown."""
         source = self.lead.source or self.first
-        scene = await self.described(source)
-        shown = {key: value for key, value in scene.items() if key != "by_key"}
-        teacher.send("scene", {"source": source, "changes": self.lead.changes, **shown})
+        teacher.send("scene", _scene_message(source, self.lead.changes, await self.described(source)))
 
     def _tell_teachers(self) -> None:
         """Tell the teachers what has changed: who is there, and all shots."""
@@ -375,3 +375,8 @@ class Room:
              "" if row.predicted is None else row.predicted]
             for row in self.rows
         ]  # fmt: skip
+
+
+def _scene_message(name: str, changes: Mapping[str, Any], scene: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the message that shows a scene with changes: its description, as the browser needs it."""
+    return {"source": name, "changes": changes, **{key: value for key, value in scene.items() if key != "by_key"}}

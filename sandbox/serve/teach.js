@@ -29,21 +29,12 @@ class Board extends Player {
   }
 
   shot({ name, number, last: { line } }) {
-    const { context, view } = this, points = [];
+    const { view } = this, points = [];
     for (let i = 0; i < line.length; i += 2) points.push([...this.spot(this.main, line[i], line[i + 1]), i]);
     if (!points.length) return;
     this.trace(points, 0, Infinity, 3 * view.unit, colourOf(number), 0.9, view.unit);
-    const [x, y] = points[points.length - 1], [width, height] = view.size, size = Math.max(11, 15 * view.unit);
-    context.font = `700 ${size}px "Sandbox Sans", "Noto Sans", sans-serif`;
-    context.textBaseline = "middle";
-    const wide = context.measureText(name).width + 12 * view.unit, tall = 1.5 * size;
-    const left = Math.min(Math.max(4, x - wide / 2), width - wide - 4), top = Math.min(Math.max(4, y - tall - 8 * view.unit), height - tall - 4);
-    context.fillStyle = this.data.card;
-    context.beginPath();
-    context.roundRect(left, top, wide, tall, tall / 2);
-    context.fill();
-    context.fillStyle = "#f4f6f8";
-    context.fillText(name, left + 6 * view.unit, top + tall / 2);
+    const [x, y] = points[points.length - 1];
+    this.label(name, x, y - 8 * view.unit, "#f4f6f8");
     this.disc(x, y, 4 * view.unit, colourOf(number));
   }
 }

@@ -1,4 +1,4 @@
-"""What the server has computed in other processes: scenes are loaded, run and drawn there.
+"""Computing for the server in other processes: scenes are loaded, run and drawn there.
 
 Each function returns a ``Reply`` of Python's own types only, so that nothing of a scene's comes into the server's
 process when it is read; an error is a line in it.
@@ -18,12 +18,12 @@ import numpy as np
 
 from sandbox.errors import RunError, SandboxError
 from sandbox.page.parts import css
-from sandbox.page.playing import MOST_EVENTS, force_data, path_data, path_until, place_data, stage_data
+from sandbox.page.playing import force_data, path_data, path_until, place_data, stage_data, told_events
 from sandbox.page.replay import LAYOUTS
 from sandbox.parameters import Parameter, walk
 from sandbox.picture.energy_chart import bands_of, held_at_the_end
 from sandbox.picture.path import simplify
-from sandbox.picture.sheet import CARD, DENSITY
+from sandbox.picture.sheet import CARD, drawn_at
 from sandbox.picture.view import View
 from sandbox.scene import Scene, load, simulate
 from sandbox.scene.scene_run import SceneRun
@@ -31,7 +31,6 @@ from sandbox.serve import sessions
 from sandbox.serve.calls import Ask, Kind, Reply
 from sandbox.serve.limits import FAN, MEMORY, RESULT
 from sandbox.sport.amounts import shown_in
-from sandbox.sport.readings import words_of
 from sandbox.tasks import Session
 from sandbox.tracebacks import one_line_error
 from sandbox.window.aim import PUSH, Speeds, pull_speeds
@@ -52,7 +51,7 @@ Arguments = ParamSpec("Arguments")
 
 
 def replying(work: Callable[Arguments, Reply]) -> Callable[Arguments, Reply]:
-    """What is raised becomes the error in the reply, in a line."""
+    """Return the function with errors caught: an exception becomes the error in the reply, in a line."""
 
     @wraps(work)
     def safe(*args: Arguments.args, **named: Arguments.kwargs) -> Reply:
@@ -166,7 +165,8 @@ def _setting(parameter: Parameter, sliders: Sequence[str]) -> dict[str, Any]:
 
 
 def _pull(scene: Scene, chosen: Mapping[str, Parameter], is_task: bool) -> dict[str, Any] | None:
-    """What a pull sets: the speed at each share of a full pull, and what a key changes; None without speed or angle."""
+    """Return the effect of a pull: the speed at each share of a full pull, and the steps of keys; None without speed or
+    angle."""
     controls = scene.controls
     speed, angle = chosen.get(controls.speed), chosen.get(controls.angle)
     if speed is None or angle is None:
@@ -193,9 +193,8 @@ def path(ask: Ask) -> Reply:
     with shown_in(ask.units):
         scene, run, view, session = _flown(ask)
         until = sessions.shown_until(session, run, view.ball)
-        if until is not None:
-            return {"message": packed("path", n=ask.n, run=_start(scene, run, view, until) | _standing(session))}
-        return {"message": packed("path", n=ask.n, run=_run_data(scene, run, view) | _standing(session))}
+        data = _run_data(scene, run, view) if until is None else _start(scene, run, view, until)
+        return {"message": packed("path", n=ask.n, run=data | _standing(session))}
 
 
 @replying
@@ -218,20 +217,15 @@ def shot(ask: Ask) -> Reply:
             run = simulate(scene)
             view = scene.picture(run, LAYOUTS[ask.narrow][0])
             sessions.recorded(ask, session, run)
-        several = len(run.setup.balls) > 1
-        more = {
-            **force_data(view, run),
-            "told_events": [list(words_of(run, event, several)) for event in run.events[:MOST_EVENTS]],
-            "energy": _energy(run),
-            **_standing(session),
-        }
+        standing = _standing(session)
+        more = {**force_data(view, run), "told_events": told_events(run), "energy": _energy(run), **standing}
         numbers = {key: run.result[key] for key, fact in scene.facts.items() if fact.label and fact.unit}
         kept = {
             "verdict": scene.verdict(run),
             "scored": Shot(scene, run).scored,
             "facts": {key: value for key, value in numbers.items() if isinstance(value, int | float)},
             "line": _line(view, run.trajectory(view.ball)[:, 1:3], LINE_PIXELS),
-            **_standing(session),
+            **standing,
         }
         return {"message": packed("shot", n=ask.n, run=_run_data(scene, run, view) | more), "kept": rounded(kept)}
 
@@ -240,19 +234,15 @@ def shot(ask: Ask) -> Reply:
 def stage(ask: Ask) -> Reply:
     """The place without the run, as it is seen from where the whole run is in sight; where the run is hidden, that of
     the scene's own shot."""
-    with shown_in(ask.units):
-        size, density = LAYOUTS[ask.narrow]
-        token = DENSITY.set(density)
-        try:
-            session = sessions.session_of(ask)
-            if session is not None and session.task.shown != "all":
-                ask = ask._replace(changes={})
-            scene, _, view, _ = _flown(ask, size)
-            data = place_data(view) | {"view": stage_data(view), "place": _place(scene), "dark": view.on_dark}
-            data["others"] = [[css(colour), css(CARD["text"])] for colour in view.OTHER_TRACES]
-            data["good"] = css(CARD["good"])
-        finally:
-            DENSITY.reset(token)
+    size, density = LAYOUTS[ask.narrow]
+    with shown_in(ask.units), drawn_at(density):
+        session = sessions.session_of(ask)
+        if session is not None and session.task.shown != "all":
+            ask = ask._replace(changes={})
+        scene, _, view, _ = _flown(ask, size)
+        data = place_data(view) | {"view": stage_data(view), "place": _place(scene), "dark": view.on_dark}
+        data["others"] = [css(colour) for colour in view.OTHER_TRACES]
+        data["good"] = css(CARD["good"])
         return {"message": packed("stage", n=ask.n, stage=data)}
 
 
@@ -285,7 +275,7 @@ def _flown(ask: Ask, size: tuple[int, int] | None = None) -> tuple[Scene, SceneR
 
 
 def _standing(session: Session | None) -> dict[str, Any]:
-    """Where a player is in a task, as a part of a message."""
+    """Return the player's standing in a task, as a part of a message."""
     return {} if session is None else {"task": sessions.standing(session)}
 
 
@@ -299,7 +289,7 @@ def _start(scene: Scene, run: SceneRun, view: View[Any], until: float) -> dict[s
 
 
 def _run_data(scene: Scene, run: SceneRun, view: View[Any]) -> dict[str, Any]:
-    """What the page shows of every run."""
+    """Return the part of a run that the page always shows."""
     return {
         **path_data(view, run),
         "verdict": scene.verdict(run),
@@ -346,7 +336,8 @@ def warmed(sources: Sequence[str]) -> Reply:
     """Import what is needed, and run each scene once: the first player does not wait for that."""
     for source in sources:
         scene = _scene(source)
-        path_data(scene.picture(simulate(scene), LAYOUTS[0][0]), simulate(scene))
+        run = simulate(scene)
+        path_data(scene.picture(run, LAYOUTS[0][0]), run)
     return {"kept": {}}
 
 
