@@ -108,7 +108,8 @@ async def aiming(url: str, players: int, rate: float, seconds: float, scene: str
 
 
 def row(what: str, players: list[Player], cpu: float, breaks: bool) -> str:
-    """What the players waited; ``cpu`` is the processor time of the server and its processes in s."""
+    """Return a row of the table: how long players waited; ``cpu`` is the processor time of the server and its
+    processes in s."""
     delays = np.array([delay for player in players for delay in player.delays])
     kilobytes = np.mean([size for player in players for size in player.sizes]) / 1e3
     within = 100 * np.mean(delays <= PROMISED)

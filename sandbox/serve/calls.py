@@ -1,4 +1,4 @@
-"""What the server has called in other processes. It knows these names only: what they need, such as pygame and the
+"""Calls of the server to other processes. It knows these names only: what they need, such as pygame and the
 scenes, is never imported in its own process."""
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ Kind = Literal["path", "hidden", "stage", "fan", "shot"]
 
 
 class Game(NamedTuple):
-    """Where a player is in a task: the seed of its starts, which player he is, and what he set for each shot so far."""
+    """A player's place in a task: the seed of its starts, the player's number, and the values of each shot so far."""
 
     seed: int
     player: int
@@ -19,7 +19,7 @@ class Game(NamedTuple):
 
 
 class Ask(NamedTuple):
-    """What a player asks for: a scene with changes or, with a ``game``, a task with its controls set."""
+    """A player's question: a scene with changes or, with a ``game``, a task with its controls set."""
 
     source: str
     changes: Changes
@@ -30,7 +30,7 @@ class Ask(NamedTuple):
 
 
 class Reply(TypedDict, total=False):
-    """What was computed: a message for the browser, ready to be sent; what the server keeps of it; or an error."""
+    """A result: a message for the browser, ready to be sent, and what the server keeps of it; or an error."""
 
     message: bytes  # JSON, deflated
     kept: dict[str, Any]

@@ -1,4 +1,4 @@
-"""What a browser may say: everything else is refused before anything is done with it."""
+"""Messages of browsers: everything else is refused before anything is done with it."""
 
 from __future__ import annotations
 

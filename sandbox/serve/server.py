@@ -33,7 +33,7 @@ WARMED = 4
 
 
 class Address(NamedTuple):
-    """Where the server is: what players open, and what the teacher opens."""
+    """The server's addresses: that for players, and that for the teacher."""
 
     url: str
     teacher: str
@@ -66,7 +66,7 @@ def scenes_of(names: Sequence[str]) -> dict[str, Listed]:
 
 @dataclass(frozen=True)
 class Options:
-    """How scenes are served: ``jobs`` is the number of processes that compute, None for the usual."""
+    """Options of serving: ``jobs`` is the number of processes that compute, None for the usual."""
 
     port: int | None = None
     share: bool = False

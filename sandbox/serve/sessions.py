@@ -1,4 +1,4 @@
-"""Where a player is in a task, in a process that computes: found again from what he set for each shot."""
+"""Sessions of players in tasks, in a process that computes: found again from the values of each shot."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ def said_of(task: Task) -> dict[str, Any]:
 
 
 def standing(session: Session) -> dict[str, Any]:
-    """Where a player is: the attempt, the score so far, and at the end whether he passed and his stars."""
+    """Return the player's standing: the attempt, the score so far, and at the end the stars and if it is passed."""
     return {
         "attempt": session.attempt.number,
         "attempts": session.task.attempts,

@@ -59,7 +59,7 @@ class Page:
         return self.browser.text("#verdict")[0]
 
     def complaints(self) -> list[Any]:
-        """What the console has, and addresses that are not of this server."""
+        """Return the messages of the console, and addresses that are not of this server."""
         asked = self.browser.run("performance.getEntriesByType('resource').map((entry) => entry.name)")
         own = self.browser.run("location.origin")
         others = [name for name in asked if not name.startswith((own, "data:"))]
