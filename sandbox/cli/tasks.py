@@ -10,6 +10,7 @@ import click
 
 from sandbox.cli.arguments import json_option, say
 from sandbox.errors import RequestError
+from sandbox.text import counted
 
 if TYPE_CHECKING:
     from sandbox.scene import Scene
@@ -36,12 +37,8 @@ def tasks(as_json: bool) -> None:
     if as_json:
         say(json_text([vars(task) for task in found]))
         return
-    rows = [(task.name, f"{task.goal} ({task.scene}, {_attempts(task.attempts)})") for task in found]
+    rows = [(task.name, f"{task.goal} ({task.scene}, {counted(task.attempts, 'attempt')})") for task in found]
     say("\n".join(table(("", ""), rows, "ll", indent="")))
-
-
-def _attempts(count: int) -> str:
-    return f"{count} attempts" if count > 1 else "1 attempt"
 
 
 @dataclass(frozen=True)
@@ -109,6 +106,6 @@ def tried(source: str, changes: dict[str, Any], attempt: int | None, seed: int |
         return None
     task, number, drawn_by = load_task(source), attempt or 1, seed or 0
     if number > task.attempts:
-        raise RequestError(f"--attempt {number}: {task.name} has {task.attempts} attempts")
+        raise RequestError(f"--attempt {number}: {task.name} has {counted(task.attempts, 'attempt')}")
     scene = task.at_start(drawn_by, number).changed(changes, "--set")
     return Tried(task, number, drawn_by, task.drawn_for(drawn_by, number), scene)

@@ -109,6 +109,11 @@ def length_or_below(metres: float | None, least: float) -> str:
     return f"< {length(least)}"
 
 
+def unit_of_length(metres: float) -> tuple[str, float]:
+    """The unit in which a length is shown, and the factor from m to it."""
+    return _unit_for(metres, _LENGTHS)
+
+
 def time(seconds: float | None) -> str:
     """``0.0032`` as ``3.2 ms``."""
     return _scaled(seconds, _TIMES)
@@ -124,7 +129,12 @@ def _scaled(value: float | None, units: Sequence[tuple[float, str, float]]) -> s
         return ""
     if value == 0.0:
         return f"0 {units[-1][1]}"
+    unit, factor = _unit_for(value, units)
+    return f"{significant(value * factor)} {unit}"
+
+
+def _unit_for(value: float, units: Sequence[tuple[float, str, float]]) -> tuple[str, float]:
     for begins, unit, factor in units:
         if abs(value) >= begins:
-            return f"{significant(value * factor)} {unit}"
+            return unit, factor
     raise AssertionError("the smallest unit starts at 0")

@@ -114,12 +114,12 @@ def validate(
 ) -> list[Compared]:
     """Compute the cases of one scene or preset, or all, or those of ``against``. ``changes`` override what the cases
     set."""
-    ours = against is None
-    wanted = (list(cases()) if source is None else _of(source)) if ours else list(against or ())
+    if against is None:
+        against = list(cases()) if source is None else _of(source)
     found: dict[tuple[str, str], SceneRun] = {}
     compared = []
-    for done, case in enumerate(wanted):
-        progress(done, len(wanted))
+    for done, case in enumerate(against):
+        progress(done, len(against))
         key = case.scene, case.set
         if key not in found:
             found[key] = simulate(scene_of(case, changes))

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sandbox.lab.stress import FAILED, HELD, Outcome, as_text
-from sandbox.lab.tables import paragraph, table
+from sandbox.lab.tables import length, paragraph, table, unit_of_length
 
 WORD = st.text("abcdefg-.", min_size=1, max_size=30)
 NUMBER = st.text("0123456789", max_size=7)
@@ -100,3 +100,9 @@ def test_outcomes_of_stress_fit_80_columns():
 def test_a_column_without_text_takes_no_room():
     assert table(("", "", ""), [("24.30 s", "stone", "")], "rll") == ["  24.30 s  stone"]
     assert table(("a", "b"), [], "ll") == ["  a  b"]
+
+
+@pytest.mark.parametrize("metres", [2500.0, 1.0, 0.02, 0.003, 4e-6, 7e-9])
+def test_an_axis_and_a_table_have_the_same_unit_of_length(metres: float):
+    unit, factor = unit_of_length(metres)
+    assert length(metres) == f"{metres * factor:g} {unit}"

@@ -12,7 +12,7 @@ from sandbox.lab.chart import figure
 from sandbox.lab.fit.flown import flown
 from sandbox.lab.fit.report import title, value_rows
 from sandbox.lab.fit.squares import Fit
-from sandbox.lab.tables import length
+from sandbox.lab.tables import length, unit_of_length
 from sandbox.scene.points import Points
 from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.amounts import significant
@@ -22,9 +22,6 @@ _WIDTH, _LOWEST, _HIGHEST, _PANEL = 9.6, 1.6, 4.6, 1.25
 
 #: Samples of a path; how far beyond its points is seen, as a share of their extent, and at least in radii of a ball.
 _SAMPLES, _BEYOND, _ROOM = 800, 0.06, 2.5
-
-#: Units of residuals that are lengths, in m, each used from a reach of the panel as long.
-_LENGTHS = ((1.0, "m"), (0.01, "cm"), (0.001, "mm"), (1e-6, "µm"))
 
 #: Most values under the title, the others are in the report.
 _MOST = 6
@@ -133,8 +130,8 @@ def _residuals(axes: Any, found: Fit, points: Points | None, place: int, colours
     axes.set_title(f"{name}: measured − computed, sd {length(sd) if unit == 'm' else f'{significant(sd)} {unit}'}",
                    loc="left", fontsize=10, fontweight="bold")  # fmt: skip
     axes.locator_params(axis="y", nbins=5)
-    scale, shown = next(((scale, name) for scale, name in _LENGTHS if reach >= scale), _LENGTHS[-1])
     if unit == "m":
-        axes.yaxis.set_major_formatter(lambda value, position: f"{value / scale:g} {shown}" if value else "0")
+        shown, factor = unit_of_length(reach)
+        axes.yaxis.set_major_formatter(lambda value, position: f"{value * factor:g} {shown}" if value else "0")
     else:
         axes.set_ylabel(unit)
