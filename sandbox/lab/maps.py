@@ -305,8 +305,11 @@ def _mark_own(axes: Any, own: Sequence[float], found: ChartData, places: np.ndar
     """Mark the scene file's own shot with a ring or a line."""
     text: dict[str, Any] = {"textcoords": "offset points", "fontsize": 9.5, "bbox": PLATE}
     if len(own) == 1:
+        several = len(axes.get_lines()) > 1
+        if several:
+            axes.margins(y=0.18)  # room above all curves, and the name of the highest point
         axes.axvline(own[0], color=ink, linewidth=1.0, linestyle=(0, (4, 3)))
-        top = not _is_high(found, places, own[0])  # away from the curve
+        top = several or not _is_high(found, places, own[0])  # away from the curve
         place, offset = (own[0], float(top)), (5, -6 if top else 6)
         text |= {"xycoords": ("data", "axes fraction"), "va": "top" if top else "bottom"}
     else:
