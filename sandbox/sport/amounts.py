@@ -145,15 +145,22 @@ def in_both(value: float, unit: str, other: str, digits: int | None = None) -> t
     return first, written(value, unit, DISPLAY_UNITS[unit]) if unit in DISPLAY_UNITS else f"{value:.3g} {unit}"
 
 
+def in_chosen_unit(size: float, unit: str) -> tuple[float, str]:
+    """Return a size of 0 or more and its unit, in the units that were chosen; as it is if none were for its kind."""
+    if units.KIND_OF.get(unit) not in _ladders():
+        return size, unit
+    steps = ladder(unit)
+    smallest = min((step.unit for step in steps), key=lambda name: units.convert(1.0, name, unit))
+    named = next((step.unit for step in steps[:-1] if size >= step.least), smallest)
+    return units.convert(size, unit, named), named
+
+
 def margin(error: float, unit: str, count: bool = False) -> str:
     """An estimated error: ``± 0.4 mm``; "" for a count that stays the same."""
     if count and error == int(error):
         return f"± {error:.0f}" if error else ""
     if units.KIND_OF.get(unit) in _ladders():
-        steps = ladder(unit)
-        smallest = min((step.unit for step in steps), key=lambda name: units.convert(1.0, name, unit))
-        named = next((step.unit for step in steps[:-1] if error >= step.least), smallest)
-        error, unit = units.convert(error, unit, named), named
+        error, unit = in_chosen_unit(error, unit)
     elif unit == "m" and error < 0.1:
         error, unit = error * 1e3, "mm"
     written = f"± {significant(error, 1)}" if error >= 1e-3 else "± less than 0.001"

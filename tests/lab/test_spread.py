@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import numpy as np
@@ -122,10 +123,19 @@ def test_picture_and_page_are_written(throws: Spread, tmp_path: Path):
     assert page.count("<section>") == 4
 
 
+def test_every_column_is_in_the_chosen_units(capsys):
+    """A mean in yd has no standard deviation in m beside it; an ellipse is in one unit."""
+    quick = ["--samples", "16", "--no-causes", "--units", "us"]
+    assert call(["spread", "golf", *quick]) == 0
+    assert re.search(r"carry +\d+ yd +\d+ ft +\d+ yd", capsys.readouterr().out)
+    assert call(["spread", "collisions", "--by", "balls[0].y=0.01", *quick]) == 0
+    assert re.search(r"first +[\d.]+, [\d.]+ ft +[\d.]+ ft +[\d.]+ ft", capsys.readouterr().out)
+
+
 @pytest.mark.parametrize(
     ("arguments", "expected"),
     [
-        (["--by", "launch.sped=1"], "launch.sped"),
+        (["--by", "launch.sped=1"], "--by launch.sped: unknown key; did you mean launch.speed?"),
         (["--by", "launch.speed"], "--by launch.speed: write it as KEY=SD"),
         (["--by", "launch.speed=-1%"], "must be more than 0"),
         (["--by", "launch.speed=1 kg"], 'the standard deviation "1 kg"'),

@@ -10,6 +10,7 @@ from sandbox.errors import RequestError
 from sandbox.sport.amounts import (
     amount,
     converted,
+    in_chosen_unit,
     in_two_units,
     listed,
     margin,
@@ -79,6 +80,8 @@ def test_chosen_units():
         assert [roughly(252.3), roughly(0.2), metres(2.0, 2)] == ["276 yd", "7.9 in", "6.56 ft"]
         assert in_two_units(129.0, "ft") == "423 ft   129.0 m"
         assert margin(0.0004, "m") == "± 0.02 in"
+        assert in_chosen_unit(3.048, "m") == (pytest.approx(10.0), "ft")
+        assert in_chosen_unit(2.0, "deg") == (2.0, "deg")
         assert scale_unit(0.4) == ("ft", 0.3048)
         assert listed([26.81, 4.0], "m/s", 1) == "60.0, 8.9 mph"
     with shown_in("ft, km/h"):

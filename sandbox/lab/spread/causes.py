@@ -15,6 +15,7 @@ from sandbox.errors import RequestError
 from sandbox.lab.axes import Normal, Span, checked, span, unit_of
 from sandbox.parameters import value_at
 from sandbox.scene import Scene
+from sandbox.sport.amounts import significant
 from sandbox.sport.controls import Spread as Practised
 from sandbox.toml import toml_value
 
@@ -53,7 +54,7 @@ class Cause:
         axis, given = self.axis, f" ({self.given})" if self.given else ""
         if isinstance(axis, Span):
             return f"{axis.key} from {axis.low:g} to {axis.high:g} {self.unit}".rstrip()
-        return f"{axis.key} {axis.mean:.4g} ± {axis.sd:.2g} {self.unit}".rstrip() + given
+        return f"{axis.key} {significant(axis.mean, 4)} ± {significant(axis.sd)} {self.unit}".rstrip() + given
 
 
 def cause(scene: Scene, option: str, key: str, given: Any) -> Cause:
@@ -61,10 +62,9 @@ def cause(scene: Scene, option: str, key: str, given: Any) -> Cause:
     value, or evenly over ``"-3:3"``. Raises RequestError."""
     text = given.strip() if isinstance(given, str) else given
     key = next((item.key for item in scene.controls.spread if item.sd and item.sd == key), key)  # it is a deviation
-    try:
-        value = value_at(scene.parameters, key)
-    except Exception:
-        value = checked(scene, option, key, 0.0)  # raises, and says what is wrong with the key
+    if key not in {it.key for it in declared.walk(scene.parameters, entries=True)}:
+        checked(scene, option, key, 0.0)  # raises if there is no such key, and says what is wrong with it
+    value = value_at(scene.parameters, key)
     unit = unit_of(scene, key)
     if not isinstance(value, int | float) or isinstance(value, bool):
         raise RequestError(f"{option} {key}: is {_named(value)}; only a number scatters")

@@ -9,8 +9,9 @@ from sandbox.lab.spread import Indices, Spread
 from sandbox.lab.spread.needs import Need
 from sandbox.lab.spread.statistics import QUANTILES, Ellipse, Numbers, Share
 from sandbox.lab.tables import paragraph, table
-from sandbox.sport.amounts import amount, margin, signed, significant
+from sandbox.sport.amounts import amount, in_chosen_unit, margin, signed, significant
 from sandbox.text import one_line
+from sandbox.units import convert
 
 #: The quantiles of the text, of those that JSON has.
 _SHOWN = (0.05, 0.5, 0.95)
@@ -116,8 +117,9 @@ def value(spread: Spread, fact: str, number: float) -> str:
 
 
 def deviation(spread: Spread, fact: str, sd: float) -> str:
-    """A standard deviation in a fact's unit, to two digits."""
-    return f"{significant(sd)} {spread.scene.units[fact]}".rstrip().replace(" deg", "°")
+    """A standard deviation in a fact's unit or the chosen one, to two digits."""
+    size, unit = in_chosen_unit(sd, spread.scene.units[fact])
+    return f"{significant(size)} {unit}".rstrip().replace(" deg", "°")
 
 
 def percent(share: float) -> str:
@@ -168,10 +170,10 @@ def ellipse_rows(spread: Spread) -> list[tuple[str, ...]]:
     """Name, centre, axes, direction, and the share of the shots that are inside."""
     rows: list[tuple[str, ...]] = []
     for name, it in spread.ellipses.items():
-        x, y = it.center
-        long, short = it.axes
-        rows.append((name, f"{signed(f'{x:.2f}')}, {signed(f'{y:.2f}')} m", f"{significant(long)} m",
-                     f"{significant(short)} m", f"{signed(f'{it.angle:.0f}')}°", percent(it.inside)))  # fmt: skip
+        _, unit = in_chosen_unit(max(it.axes), "m")  # of the whole row
+        x, y, long, short = (convert(each, "m", unit) for each in (*it.center, *it.axes))
+        rows.append((name, f"{signed(f'{x:.2f}')}, {signed(f'{y:.2f}')} {unit}", f"{significant(long)} {unit}",
+                     f"{significant(short)} {unit}", f"{signed(f'{it.angle:.0f}')}°", percent(it.inside)))  # fmt: skip
     return rows
 
 
