@@ -257,6 +257,11 @@ class Parameter(NamedTuple):
     meaning: str
     optional: bool = False  # whether it may be left out
 
+    @property
+    def bounds(self) -> tuple[float, float]:
+        """Lowest and highest value, infinite where there is no bound."""
+        return -math.inf if self.low is None else self.low, math.inf if self.high is None else self.high
+
     def within(self, number: float) -> float:
         """The number, or the bound that it exceeds."""
         assert self.low is not None

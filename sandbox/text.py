@@ -39,6 +39,11 @@ def shortened(text: str, most: int = 80) -> str:
     return text if len(text) <= most else text[: most - 3] + "..."
 
 
+def title_of(name: str) -> str:
+    """``Free throw`` for ``free-throw``."""
+    return name.replace("-", " ").capitalize()
+
+
 def counted(count: int, what: str) -> str:
     """``1 point``, ``40 points``, ``1,000 points``."""
     return f"{count:,} {what}{'s' * (count != 1)}"

@@ -149,8 +149,7 @@ def _normal(scene: Scene, option: str, key: str, body: str) -> Normal:
     if not 0.0 < sd < inf:
         raise RequestError(f"{option} {key}={body}: the standard deviation must be more than 0, and finite")
     known = next((it for it in declared.walk(scene.parameters) if it.key == key.partition("[")[0]), None)
-    low, high = (None, None) if known is None else (known.low, known.high)
-    return Normal(key, mean, sd, (-inf if low is None else low, inf if high is None else high))
+    return Normal(key, mean, sd, (-inf, inf) if known is None else known.bounds)
 
 
 def parse_span(scene: Scene, option: str, text: str) -> Span:

@@ -9,6 +9,7 @@ from typing import Any
 from sandbox.page.parts import filled, html
 from sandbox.page.replay import page_of
 from sandbox.tasks import Attempt, Session, Shot
+from sandbox.text import title_of
 
 
 def session_page(session: Session) -> str:
@@ -17,7 +18,7 @@ def session_page(session: Session) -> str:
     stars = "★" * session.stars + "☆" * (3 - session.stars) if session.over else ""
     return filled(
         "task.html",
-        title=html(task.name.replace("-", " ").capitalize()),
+        title=html(title_of(task.name)),
         goal=html(task.goal),
         score=html(_score(session)),
         stars=stars,

@@ -179,7 +179,7 @@ class SceneOptions(Generic[P]):
         return pygame.Rect((0, 0), self.size)
 
     def position_of(self, name: str, t: float) -> tuple[float, float]:
-        """Where a ball is drawn at time t in s, in m: where it is, or where it ends up after it was caught."""
+        """The place in m at which a ball is drawn at time t in s: its own, or where it ends up once it is caught."""
         return self.run.state(name, t)[:2]
 
     def look_of(self, name: str) -> Look:

@@ -130,8 +130,7 @@ class _Reader:
                     f"{what}.default = {default:g}: must be from {low:g} to {high:g} {known.unit}".rstrip()
                 )
         sd, share = self.noise(f"{what}.noise", entry.noise, known.unit or "")
-        bounds = (-inf if known.low is None else known.low, inf if known.high is None else known.high)
-        return Control(known.key, known.unit or "", known.meaning, low, high, default, sd, share, bounds)
+        return Control(known.key, known.unit or "", known.meaning, low, high, default, sd, share, known.bounds)
 
     def valid(self, what: str, known: declared.Parameter, value: Any) -> Any:
         """A value that the scene takes for a parameter. Raises RequestError."""

@@ -239,7 +239,7 @@ def play(
 
 
 def _contest(source: str | None, changes: Mapping[str, Any], game: str | None, players: int) -> Contest | None:
-    """What is to be played for, if anything. Raises RequestError."""
+    """The contest that is asked for, if any. Raises RequestError."""
     contest: Contest | None = None
     if game is not None:
         if source is None:

@@ -1,4 +1,4 @@
-"""What is played for in the window: a task, alone or by two, or a match by the rules of a game.
+"""Contests in the window: a task, alone or by two, or a match by the rules of a game.
 
 A contest gives the scene of the next shot, what the player may set and how much of the path he sees; it has the noise
 of his aim, and is told what came of each shot. It knows nothing of the window.
@@ -9,7 +9,6 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from math import inf
 from pathlib import Path
 
 import numpy as np
@@ -31,12 +30,12 @@ Entries = list[tuple[str, str]]
 
 
 def source_of(scene: Scene) -> str:
-    """How a scene is named where another one may be opened: by its name, or the folder it is in."""
+    """The name by which a scene can be opened again: its own, or the folder it is in."""
     return scene.title if is_installed(scene.folder) else str(scene.folder)
 
 
 class Contest:
-    """What is played for, shot by shot."""
+    """Something that is played for, shot by shot."""
 
     name = ""  # of the task, or scene and game
     goal = ""  # in one sentence
@@ -59,7 +58,7 @@ class Contest:
 
     @property
     def limits(self) -> Limits | None:
-        """What the player may set; None for everything."""
+        """The parameters that the player may set, with their bounds; None for everything."""
         raise NotImplementedError
 
     @property
@@ -72,14 +71,14 @@ class Contest:
 
     @property
     def missing(self) -> str:
-        """What the player has to do before he shoots, in words."""
+        """An instruction for the player before he may shoot, "" if there is none."""
         return ""
 
     def put(self, place: tuple[float, float]) -> None:
         """Mark a place, in m."""
 
     def aimed(self, scene: Scene) -> Scene:
-        """What becomes of the shot that the player has aimed: with the noise of his aim."""
+        """The scene of the shot that the player has aimed, with the noise of his aim."""
         raise NotImplementedError
 
     def would_score(self, run: SceneRun) -> bool:
@@ -105,12 +104,12 @@ class Contest:
 
     @property
     def headline(self) -> str:
-        """What is to be done now."""
+        """The task at hand, in a sentence."""
         return self.goal
 
     @property
     def stand(self) -> str:
-        """Which attempt it is, or what else is to be known now, in a few words."""
+        """The attempt that it is, or what else the player should know now, in a few words."""
         raise NotImplementedError
 
     @property
@@ -130,7 +129,7 @@ class Contest:
 
     @property
     def best_shots(self) -> Sequence[int]:
-        """Which of the shots were the best, from 0, the best first: three at most."""
+        """The best shots by number, from 0, the best first: three at most."""
         return ()
 
     @property
@@ -140,7 +139,7 @@ class Contest:
 
     @property
     def outcome(self) -> list[str]:
-        """At the end: how it came out, in lines."""
+        """The result at the end, in lines."""
         return [self.said]
 
 
@@ -284,7 +283,7 @@ class AtMatch(Contest):
     def limits(self) -> Limits:
         controls, known = self.base.controls, {it.key: it for it in walk(self.scene.parameters, entries=True)}
         keys = [controls.speed, controls.angle, *(spin.key for spin in controls.spins), *self.match.free]
-        found = {key: (_or(known[key].low, -inf), _or(known[key].high, inf)) for key in keys if key in known}
+        found = {key: known[key].bounds for key in keys if key in known}
         if self.match.room is not None:
             x0, y0, x1, y1 = self.match.room
             found |= dict(zip(self.match.free, ((x0, x1), (y0, y1)), strict=False))
@@ -326,7 +325,3 @@ class AtMatch(Contest):
     @property
     def outcome(self) -> list[str]:
         return [self.match.status, self.match.said]
-
-
-def _or(value: float | None, other: float) -> float:
-    return other if value is None else value

@@ -17,6 +17,7 @@ from sandbox.scene.finding import docstring, installed_folders
 from sandbox.scene.games import game_names, game_of
 from sandbox.tasks import Task, load
 from sandbox.tasks.file import read_task_file
+from sandbox.text import title_of
 from sandbox.window.best import BestList
 from sandbox.window.contest import AtMatch, AtTask, Contest
 from sandbox.window.game import Game
@@ -54,7 +55,7 @@ class Sport(NamedTuple):
     @property
     def title(self) -> str:
         """Its name for people."""
-        return self.name.replace("-", " ").capitalize()
+        return title_of(self.name)
 
 
 @cache
@@ -84,16 +85,16 @@ def entries_of(sport: Sport) -> list[Entry]:
     for name in sport.tasks:
         try:
             file = read_task_file(sport.folder / "tasks" / f"{name}.toml")
-            found.append((file.level, Entry("task", name, "", _title(name), file.goal)))
+            found.append((file.level, Entry("task", name, "", title_of(name), file.goal)))
         except RequestError as error:
-            found.append((99, Entry("task", name, "", _title(name), str(error))))
+            found.append((99, Entry("task", name, "", title_of(name), str(error))))
     entries = [entry for _, entry in sorted(found)]
     for name in game_names(sport.folder):
         try:
             rules = game_of(sport.folder, name)
             entries.append(Entry("game", sport.name, name, f"{rules.title}, for two", rules.goal))
         except RequestError as error:
-            entries.append(Entry("game", sport.name, name, _title(name), str(error)))
+            entries.append(Entry("game", sport.name, name, title_of(name), str(error)))
     entries.append(Entry("predict", sport.name, "", "Predict first", "Mark where it will land, then see"))
     about = docstring(sport.folder / "scene.py")
     return [*entries, Entry("scene", sport.name, "", "Just play", about)]
@@ -113,10 +114,6 @@ def begin(game: Game, entry: Entry) -> None:
         return AtTask(load(entry.source), 2 if entry.kind == "two" else 1)
 
     game.messages.reporting_errors(lambda: game.referee.begin(made()))
-
-
-def _title(name: str) -> str:
-    return name.replace("-", " ").capitalize()
 
 
 class Front(Overlay):
@@ -212,7 +209,7 @@ class Front(Overlay):
             self._tile(sport, place, below)
 
     def _fitting(self, room: pygame.Rect, below: int) -> tuple[int, tuple[int, int]]:
-        """How many tiles are in a row, and the size of their pictures in px."""
+        """The number of tiles in a row, and the size of their pictures in px."""
         gap = self.sheet.gap
         for across in range(1, 12):
             wide = min((room.width - gap + 2 * gap) // across - 2 * gap, round(WIDEST * self.sheet.unit))
@@ -265,7 +262,7 @@ class Front(Overlay):
         return self._images[key]
 
     def _page(self, sport: Sport, room: pygame.Rect) -> None:
-        """What can be played in a sport: the picture, and a row for each."""
+        """The page of a sport: its picture, and a row for each thing that can be played."""
         gap, letters = self.sheet.gap, self.sheet.lettering
         small = letters.height("small")
         wide = min(room.width // 3, TILE[0] * 4 // 3)

@@ -68,7 +68,7 @@ class Referee:
 
     @property
     def said(self) -> str:
-        """What came of the shot that is watched: by the contest of the last one."""
+        """The result of the shot that is watched: of the last one in the words of the contest."""
         playback = self.watching.playback
         if playback is None or self.contest is None or playback.shot in self.shots[-1:]:
             return self.contest.said if self.contest is not None else ""

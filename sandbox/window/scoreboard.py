@@ -1,4 +1,4 @@
-"""What a contest says over the picture: its goal, scores and what came of the last shot; a success that glows; and at
+"""The texts of a contest over the picture: its goal, scores and the last shot's result; a success that glows; and at
 the end the stars, the best scores and what can be done next."""
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from math import cos, pi, sin
 import pygame
 
 from sandbox.picture.palette import Colour, mix, palette
+from sandbox.text import title_of
 from sandbox.window.best import BestList
 from sandbox.window.canvas import Canvas
 from sandbox.window.contest import AtTask, Contest
@@ -47,7 +48,7 @@ def star(sheet: Canvas, centre: tuple[float, float], radius: float, lit: bool) -
          y - (radius if i % 2 == 0 else 0.42 * radius) * cos(i * pi / 5))
         for i in range(10)
     ]  # fmt: skip
-    sheet.painter.polygon(points, CARD["accent"] if lit else mix(CARD["background"], CARD["quiet"], 0.3))
+    sheet.painter.polygon(points, CARD["accent"] if lit else mix(CARD["background"], CARD["quiet"], 0.5))
 
 
 def stars(sheet: Canvas, at: tuple[float, float], radius: float, lit: int) -> None:
@@ -95,7 +96,7 @@ def end_forms(
     lines = [(line, "medium" if i == 0 else "small", "text" if i == 0 else "quiet")
              for i, line in enumerate(contest.outcome)]  # fmt: skip
     lines += [(line, "small", "quiet") for line in _best_lines(contest, best, place)]
-    choices = {name: f"{key}  {what}{_title(contest.following) if name == 'next_preset' else ''}"
+    choices = {name: f"{key}  {what}{title_of(contest.following) if name == 'next_preset' else ''}"
                for name, (key, what) in CHOICES.items() if name != "next_preset" or contest.following}  # fmt: skip
     return [_end_form(sheet, contest.stars, lines, choices, mouse, found, across) for across in (True, False)]
 
@@ -137,10 +138,6 @@ def _end_form(
             left, y = (left + widths[name] + gap, y) if across else (left, y + row + gap)
 
     return Form((wide, tall), draw)
-
-
-def _title(name: str) -> str:
-    return name.replace("-", " ")
 
 
 def _best_lines(contest: Contest, best: BestList, place: int) -> list[str]:

@@ -109,8 +109,7 @@ def _standard_deviation(option: str, key: str, text: Any, value: float, unit: st
 
 def _bounds(scene: Scene, key: str) -> tuple[float, float]:
     known = next((it for it in declared.walk(scene.parameters) if it.key == key.partition("[")[0]), None)
-    low, high = (None, None) if known is None else (known.low, known.high)
-    return -inf if low is None else low, inf if high is None else high
+    return (-inf, inf) if known is None else known.bounds
 
 
 def parse_cause(scene: Scene, option: str, text: str) -> Cause:
