@@ -15,7 +15,7 @@ from sandbox.files import json_text
 from sandbox.serve.limits import BURST, FLOOD, RATE, TOLD, UNREAD
 
 #: Codes with which a connection is closed, as the standard of WebSockets has them.
-REFUSED, TOO_LARGE, LATER = 1008, 1009, 1013
+REFUSED, LATER = 1008, 1013
 
 
 class Bucket:

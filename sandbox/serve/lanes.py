@@ -53,11 +53,6 @@ class Lanes:
         for process in self._processes:
             self._follow(self._warm_up(process))
 
-    async def started(self) -> None:
-        """Wait until all processes are there."""
-        while len(self._idle) + len(self._running) < self.width:
-            await asyncio.sleep(0.01)
-
     async def compute(
         self, turn: Hashable, want: Hashable, alike: Hashable, work: Callable[..., Reply], *args: Any
     ) -> Reply | None:

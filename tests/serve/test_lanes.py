@@ -22,7 +22,8 @@ def run(play: Callable[[Lanes], Awaitable[Any]], width: int) -> Any:
     async def played() -> Any:
         made = Lanes(width)
         try:
-            await made.started()
+            while len(made._idle) < width:  # until all processes are there
+                await asyncio.sleep(0.01)
             return await play(made)
         finally:
             made.close()
