@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from sandbox.lab.fit.flown import flown
+from sandbox.lab.fit.intervals import inverse_of
 from sandbox.lab.fit.squares import Fit
 from sandbox.lab.runs import runs
 from sandbox.parameters import value_at
@@ -57,8 +58,7 @@ def _gain(found: Fit, pair: tuple[str, str], ball: str, times: np.ndarray) -> fl
 
 def _sds(slopes: np.ndarray) -> np.ndarray:
     """Standard errors of the values, for residuals with a standard deviation of 1."""
-    size = np.maximum(np.sqrt((slopes**2).sum(axis=0)), 1e-300)
-    return np.asarray(np.sqrt(np.diag(np.linalg.pinv((slopes / size).T @ (slopes / size), hermitian=True))) / size)
+    return np.asarray(np.sqrt(np.diag(inverse_of(slopes)[0])))
 
 
 def _named(run: SceneRun, ball: str, start: float, end: float) -> str:

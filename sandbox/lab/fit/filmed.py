@@ -60,10 +60,10 @@ class Filmed:
         """Each candidate's number and its run up to a time in s, with the name of each ball that was measured, the
         places of that ball's points in the data, and their positions in the scene in m; nothing of a run that failed.
         """
-        balls = np.array(self.named(scene))
-        of_ball = {str(ball): np.flatnonzero(balls == ball) for ball in dict.fromkeys(balls.tolist())}
+        balls = np.array(self.balls)
+        of_ball = {ball: np.flatnonzero(balls == ball) for ball in dict.fromkeys(self.balls)}
         for candidate, run in enumerate(flown(scene, keys, values, until)):
             if run is not None:
                 measured = self.frame.places(self.positions, values[candidate, len(keys) :].tolist())
                 for ball, points in of_ball.items():
-                    yield candidate, run, ball, points, measured[points]
+                    yield candidate, run, ball or run.setup.balls[0].name, points, measured[points]

@@ -59,7 +59,7 @@ def group_sds(residuals: np.ndarray, slopes: np.ndarray, sds: np.ndarray, groups
     Each group loses as many degrees of freedom as it decides of the values: its part of the trace of the hat matrix.
     """
     unit = slopes / sds[:, None]
-    leverage = np.einsum("ij,jk,ik->i", unit, _inverse(unit)[0], unit)
+    leverage = np.einsum("ij,jk,ik->i", unit, inverse_of(unit)[0], unit)
     found = []
     for group in range(int(groups.max()) + 1):
         own = groups == group
@@ -90,7 +90,7 @@ def errors_of(residuals: np.ndarray, slopes: np.ndarray, sds: np.ndarray, groups
     """
     scaled, unit = residuals / sds, slopes / sds[:, None]
     count, parameters = unit.shape
-    inverse, unknown = _inverse(unit)
+    inverse, unknown = inverse_of(unit)
     psi, bend = loss.weight(scaled) * scaled, loss.bend(scaled)
     mean = max(float(bend.mean()), 0.05)
     correction = (1.0 + parameters / count * float(bend.var()) / mean**2) / mean
@@ -109,7 +109,7 @@ def errors_of(residuals: np.ndarray, slopes: np.ndarray, sds: np.ndarray, groups
     return Errors(np.sum(parts, axis=0) + unknown, np.clip(freedom, 1.0, max(count - parameters, 1)))
 
 
-def _inverse(slopes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def inverse_of(slopes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The inverse of slopes' slopes in directions that have an effect, and the enormous variance of those that have
     none."""
     size = np.sqrt((slopes**2).sum(axis=0))
