@@ -58,7 +58,7 @@ def data_of(scene: Scene, tables: Sequence[tuple[str, Table]], how: Reading) -> 
         raise AssertionError("a table with x and y is a track")
     if len(tables) > 1 or how.free or how.film != Film():
         raise RequestError(
-            f"{first.where}: is a table of launches; what is of films and of several tracks is not for it"
+            f"{first.where}: is a table of launches; options for films and several tracks do not apply to it"
         )
     return launches(scene, first, form, how.where)
 
