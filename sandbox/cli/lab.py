@@ -113,7 +113,7 @@ def aim(
     multiple=True,
     help="Ask how many shots tell a result to within +-WIDTH: carry=1, made=5%; repeatable.",
 )
-@click.option("--no-causes", is_flag=True, help="Leave out which cause makes which share of the variance.")
+@click.option("--no-causes", is_flag=True, help="Leave out how much of the variance each cause accounts for.")
 @units_option
 @click.option("--plot", metavar="F.png", type=Path, help="Draw histograms and causes.")
 @click.option("--page", "--html", "page", metavar="F.html", type=Path, help="Write them as a page for any browser.")
@@ -131,11 +131,11 @@ def spread(
     plot: Path | None,
     page: Path | None,
 ) -> None:
-    """What scatter in gives as scatter out.
+    """Show how results scatter when parameters do.
 
     The same shot many times, each parameter scattering around its value: mean, standard deviation and quantiles of each
-    result, the share of shots that score with its 95 % interval, which cause makes which share of the variance, and how
-    many shots a real test needs.
+    result, the share of shots that score with its 95 % interval, how much of the variance each cause accounts for,
+    and how many shots a real test needs.
 
     \b
     Examples:

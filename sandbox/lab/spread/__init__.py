@@ -1,9 +1,9 @@
-"""What scatter in gives as scatter out: the same shot many times, as a player would hit it.
+"""How scatter in the parameters becomes scatter in the results: the same shot many times, as a player would hit it.
 
 Each cause, a parameter with its standard deviation, is drawn independently of the others, at points of Sobol's
-sequence, which cover the distribution evenly. Sobol's indices (2001, Math. Comput. Simul. 55:271) say which cause makes
-which share of the variance: the first-order index is its share alone, the total one includes what it does together with
-others.
+sequence, which cover the distribution evenly. Sobol's indices (2001, Math. Comput. Simul. 55:271) say how much of
+the variance each cause accounts for: the first-order index is its share alone, the total one includes what it does
+together with others.
 """
 
 from __future__ import annotations
@@ -260,14 +260,16 @@ def spread(
     within: Mapping[str, Any] | None = None,
     progress: Progress = no_progress,
 ) -> Spread:
-    """What scatter in gives as scatter out: ``spread("golf", {"launch.speed": "1%", "launch.angle": 1.0})``.
+    """Compute how scatter in the parameters becomes scatter in the results.
+
+    ``spread("golf", {"launch.speed": "1%", "launch.angle": 1.0})``.
 
     ``by`` gives the standard deviation of each parameter, in its declared unit, with a unit (``"0.5 mph"``), or as a
     share of its value (``"1%"``); the values are normally distributed around the scene's own, within their bounds.
     ``"-3:3"`` is an even distribution. By default the scene's own scatter of a practised player is used.
 
     Of ``samples`` shots come mean, standard deviation, quantiles and shares, in ``numbers``, ``shares`` and ``words``.
-    With ``causes`` as many again, and as many for each parameter, say which of them makes which share of the variance.
+    With ``causes`` as many again, and as many for each parameter, say how much of the variance each accounts for.
     ``facts`` names those to read, by default all. ``within={"carry": 1.0}`` asks how many random shots tell the mean of
     carry to within 1 m in 95 of 100 cases; of a share it is a number below 1. ``sampling`` is ``"sobol"`` or
     ``"random"``. The same ``seed`` gives the same shots. Needs scipy.

@@ -18,7 +18,7 @@ _MOST, _ROWS = 6, 7
 
 def draw(spread: Spread, path: Path) -> None:
     """Histograms of the most important numbers, those of shots that score in another colour; the ellipse of one ball;
-    and which cause makes which share of the variance."""
+    and how much of the variance each cause accounts for."""
     names = [name for name in spread.shown if name in spread.numbers][:_MOST]
     ellipses = list(spread.ellipses.items())[: max(0, _MOST - len(names))]
     has_causes = any(len(by) > 1 for by in spread.causes.values())
