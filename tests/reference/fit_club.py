@@ -15,7 +15,7 @@ from math import atan2, cos, degrees, hypot, inf, pi, radians, sin
 import numpy as np
 from scipy.optimize import least_squares
 
-from sandbox.lab.validate import PUBLISHED
+from sandbox.lab.validate import COUNTED, PUBLISHED
 from sandbox.physics.club import Head, LaunchConditions, strike
 
 MASS, RADIUS, MPH, RPM = 0.04593, 0.021335, 0.44704, pi / 30.0  # kg, m, m/s, rad/s
@@ -88,9 +88,10 @@ def main() -> None:
     print(described("fitted", irons))
     for group in dict.fromkeys(row["group"] for row in rows):
         print(described(group, [row for row in rows if row["group"] == group]))
-    held = [row for row in rows if row["kind"] == "held-out"]
+    held = [row for row in rows if row["kind"] in COUNTED]
     print(described("all held out", held))
     print(described("drivers of them", [row for row in held if row["club"] == "driver"]))
+    print(described("amateurs' drivers", [row for row in rows if row["kind"] == "measured"]))
     print(described("irons of them", [row for row in held if row["club"][-1] in "iW"]))
     print(described("drivers of the optimizers", [r for r in rows if r["kind"] == "model" and r["club"] == "driver"]))
     drivers = [row for row in rows if row["club"] == "driver"]
