@@ -40,8 +40,9 @@ _FAST, _SLOW = (10.0, 10.0), (1.0, 1.0)
 #: Reynolds numbers and spin ratios at which coefficients are compared.
 _FLOWS = tuple((reynolds, spin_ratio) for reynolds in (3e4, 1e5, 3e5) for spin_ratio in (0.05, 0.2))
 
-#: Result numbers shown for each part, and the relative change below which a number counts as the same.
-_SHOWN, _SAME = 2, 1e-6
+#: Result numbers shown for each part; the relative change below which a number counts as the same; and the number, in
+#: its unit, below which it is zero but for rounding.
+_SHOWN, _SAME, _ZERO = 2, 1e-6, 1e-9
 
 #: A saving is shown from this fraction on, and from this multiple of its noise.
 _LEAST_SAVED, _NOISES = 0.01, 2.0
@@ -85,8 +86,8 @@ class Ablated:
             return f"run failed: {self.problem}"
         if self.is_nothing:
             return "nothing: no contact" if self.idle else "nothing"
-        numbers = list((self.results or {}).items())[:_SHOWN]
-        shown = [f"{name} {significant(a, 4)} -> {significant(b, 4)}" for name, (a, b) in numbers]
+        numbers = [(name, *map(_shown, values)) for name, values in (self.results or {}).items()]
+        shown = [f"{name} {one} -> {other}" for name, one, other in numbers if one != other][:_SHOWN]
         if self.verdict[0] != self.verdict[1]:
             shown.append(_changed_words(*self.verdict))
         return ", ".join(shown)
@@ -97,6 +98,10 @@ class Ablated:
         seen = abs(self.saves or 0.0) >= max(_LEAST_SAVED, _NOISES * self.saves_noise)
         saved = "" if self.saves is None else f"{100.0 * self.saves:.0f} %" if seen else "-"
         return [self.part, self.change, *shifts, saved]
+
+
+def _shown(value: float) -> str:
+    return significant(value if abs(value) >= _ZERO else 0.0, 4)
 
 
 def _changed_words(before: str, after: str) -> str:
@@ -164,7 +169,7 @@ def _differences(a: SceneRun, b: SceneRun) -> dict[str, tuple[float, float]]:
     return {
         name: (float(one), float(other))
         for name, (one, other) in both.items()
-        if isinstance(one, int | float) and not isclose(one, other, rel_tol=_SAME)
+        if isinstance(one, int | float) and not isclose(one, other, rel_tol=_SAME, abs_tol=_ZERO)
     }
 
 

@@ -226,6 +226,12 @@ def test_a_changed_verdict_shows_what_is_not_in_both():
     assert row.effect == "potted 6, rest -> scratch, duration"
 
 
+def test_numbers_that_read_the_same_are_no_change():
+    results = {"apex": (3.5e-18, 0.0), "total": (4.03301, 4.03304), "carry": (1.0, -8.9e-16), "height": (1.0, 1.2)}
+    row = Ablated("wind", "added", ("stops", "stops"), 1.0, 1.0, results)
+    assert row.effect == "carry 1 -> 0, height 1 -> 1.2"
+
+
 def test_what_is_seen_on_the_way_is_not_nothing():
     """The ball ends in the same corner of the net, but 1 cm higher it flew."""
     row = parts(ablation(converge(load("soccer/dipping-free-kick"))))["spin decay"]
