@@ -35,7 +35,7 @@ schemas: .venv/ready
 
 pictures: .venv/ready-dev
 	$(BIN)/python docs/pictures/make.py
-	$(BIN)/python docs/pictures/make_browser.py
+	$(BIN)/python -m docs.pictures.make_browser
 
 # Every scene and preset as poster and page: two minutes.
 gallery: .venv/ready

@@ -105,17 +105,20 @@ def check_writable(option: str, folder: Path) -> None:
         raise RequestError(f"{option}: cannot write into {folder}: {reason(error)}") from None
 
 
-def json_ready(value: Any) -> Any:
-    """The value in JSON's types, a dataclass as a table; NaN and infinities become null."""
+def json_ready(value: Any, digits: int | None = None) -> Any:
+    """The value in JSON's types, a dataclass as a table, numbers with at most so many ``digits`` after the point; NaN
+    and infinities become null."""
+    if isinstance(value, float):
+        return None if not isfinite(value) else float(value if digits is None else round(value, digits))
     if is_dataclass(value):
         value = {field.name: getattr(value, field.name) for field in fields(value)}
     if isinstance(value, Mapping):
-        return {str(key): json_ready(item) for key, item in value.items()}
+        return {str(key): json_ready(item, digits) for key, item in value.items()}
     if isinstance(value, list | tuple):
-        return [json_ready(item) for item in value]
-    if hasattr(value, "tolist"):  # numpy's numbers and arrays
-        return json_ready(value.tolist())
-    return None if isinstance(value, float) and not isfinite(value) else value
+        if digits is not None and all(type(item) is float for item in value) and isfinite(sum(value)):
+            return [round(item, digits) for item in value]  # most of a run: coefficients
+        return [json_ready(item, digits) for item in value]
+    return json_ready(value.tolist(), digits) if hasattr(value, "tolist") else value  # numpy's numbers and arrays
 
 
 def json_text(value: Any) -> str:

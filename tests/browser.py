@@ -1,4 +1,4 @@
-"""One headless Chromium for all tests of pages."""
+"""One headless Chromium for all tests of pages; README's picture of a page is made with it, too."""
 
 from __future__ import annotations
 
@@ -12,7 +12,28 @@ import pytest
 PROGRAMS = {"chromium": "chromium", "chromedriver": "chromium-driver"}
 #: For root and for a machine without a network; every page is a local file.
 FLAGS = ("headless", "no-sandbox", "disable-gpu", "disable-quic", "no-first-run", "disable-background-networking",
-         "disable-component-update", "disable-sync", "hide-scrollbars")  # fmt: skip
+         "disable-component-update", "disable-sync", "disable-dev-shm-usage", "hide-scrollbars")  # fmt: skip
+#: So often a browser is tried to be started: on a machine that does much else it may be late.
+TRIES = 3
+
+
+def started(profile: Path) -> Any:
+    """A driver of a new Chromium, which keeps what it writes in a folder."""
+    from selenium import webdriver
+    from selenium.common.exceptions import WebDriverException
+
+    for tries in range(TRIES):
+        options = webdriver.ChromeOptions()
+        options.binary_location = shutil.which("chromium") or ""
+        options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+        for flag in [*FLAGS, f"user-data-dir={profile / str(tries)}"]:
+            options.add_argument(f"--{flag}")
+        try:
+            return webdriver.Chrome(options=options, service=webdriver.ChromeService(shutil.which("chromedriver")))
+        except WebDriverException:
+            if tries == TRIES - 1:
+                raise
+    raise AssertionError
 
 
 class Browser:
@@ -52,17 +73,11 @@ class Browser:
 
 @pytest.fixture(scope="session")
 def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
-    found = {program: shutil.which(program) for program in PROGRAMS}
-    missing = [PROGRAMS[program] for program, path in found.items() if path is None]
+    missing = [package for program, package in PROGRAMS.items() if shutil.which(program) is None]
     if missing:
         pytest.skip(f"pages are tested in a browser: apt-get install {' '.join(missing)}")
-    webdriver = pytest.importorskip("selenium.webdriver", reason="pages are tested with selenium")
-    options = webdriver.ChromeOptions()
-    options.binary_location = found["chromium"]
-    for flag in [*FLAGS, f"user-data-dir={tmp_path_factory.mktemp('chromium')}"]:
-        options.add_argument(f"--{flag}")
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    driver = webdriver.Chrome(options=options, service=webdriver.ChromeService(found["chromedriver"]))
-    driver.set_script_timeout(30)
+    pytest.importorskip("selenium.webdriver", reason="pages are tested with selenium")
+    driver = started(tmp_path_factory.mktemp("chromium"))
+    driver.set_script_timeout(120)
     yield Browser(driver)
     driver.quit()

@@ -1,13 +1,13 @@
-"""README.md's picture of a browser: ``python docs/pictures/make_browser.py``, with Chromium and selenium."""
+"""README.md's picture of a browser: ``python -m docs.pictures.make_browser``, with Chromium and selenium."""
 
 from __future__ import annotations
 
 import base64
 import io
 import json
-import shutil
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 from PIL import Image
@@ -16,27 +16,13 @@ from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.support.wait import WebDriverWait
 
+from tests.browser import started
+
 FILE = Path(__file__).resolve().parent / "browser.jpg"
-SIZE, QUALITY = (1280, 820), 86
+SIZE, QUALITY = (1280, 820), 84
 #: What is compared, from where the pull starts in px from the picture's middle, and the pull.
 LINK, START, PULL = "#basketball?launch.angle=45&launch.speed=7.3", (-250, 60), (-72, 93)
 IDLE = "player && state.stage && Object.values(ask).every((each) => !each.awaited && !each.next)"
-FLAGS = (
-    "headless",
-    "no-sandbox",
-    "disable-gpu",
-    "hide-scrollbars",
-    "disable-background-networking",
-    "disable-component-update",
-)
-
-
-def browser() -> webdriver.Chrome:
-    options = webdriver.ChromeOptions()
-    options.binary_location = shutil.which("chromium") or ""
-    for flag in FLAGS:
-        options.add_argument(f"--{flag}")
-    return webdriver.Chrome(options=options, service=webdriver.ChromeService(shutil.which("chromedriver")))
 
 
 def picture(driver: webdriver.Chrome, url: str) -> Image.Image:
@@ -64,14 +50,15 @@ def main() -> None:
     command = [sys.executable, "-m", "sandbox", "serve", "basketball", "--port", "0", "--json"]
     server = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
     assert server.stdout is not None
-    driver = browser()
-    try:
-        image = picture(driver, json.loads(server.stdout.readline())["url"])
-        image.save(FILE, quality=QUALITY, subsampling=0, optimize=True, progressive=True)
-    finally:
-        driver.quit()
-        server.terminate()
-        server.wait()
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
+        driver = started(Path(profile))
+        try:
+            image = picture(driver, json.loads(server.stdout.readline())["url"])
+            image.save(FILE, quality=QUALITY, subsampling=0, optimize=True, progressive=True)
+        finally:
+            driver.quit()
+            server.terminate()
+            server.wait()
 
 
 if __name__ == "__main__":

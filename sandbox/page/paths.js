@@ -23,6 +23,7 @@ function pixels(picture) {
 async function decode({ views, looks }) {
   const layers = views.map(async (view) => {
     for (const name of ["place", "along", "over"]) if (view[name]) view[name] = await image(view[name]);
+    if (view.lens) view.lens.place = await image(view.lens.place);
   });
   const skins = looks.filter(({ skin }) => skin).map(async (look) => (look.skin = pixels(await image(look.skin))));
   await Promise.all([...layers, ...skins]);
@@ -164,21 +165,18 @@ class Turning {
 
 // ------------------------------------------------------------------------------------------------ balls
 
-/** Draws a ball by looking up its skin, lit from over the left shoulder; the last sprite is kept. */
+/** Draws a ball by looking up its skin, lit from over the left shoulder; the last sprite of each size is kept. */
 class Sprite {
   constructor(look, light) {
     this.look = look;
     this.light = light;
-    this.key = "";
+    this.kept = new Map(); // by size in px
   }
 
   draw(context, x, y, radius, turn) {
-    const scale = context.getTransform().a, side = 2 * Math.ceil(radius * scale + 1), key = `${side} ${turn.flat().map((v) => v.toFixed(3))}`;
-    if (key !== this.key) {
-      this.key = key;
-      this.canvas = this.painted(side, radius * scale, turn);
-    }
-    context.drawImage(this.canvas, x - side / scale / 2, y - side / scale / 2, side / scale, side / scale);
+    const scale = context.getTransform().a, side = 2 * Math.ceil(radius * scale + 1), key = turn.flat().map((v) => v.toFixed(3)).join();
+    if (this.kept.get(side)?.key !== key) this.kept.set(side, { key, canvas: this.painted(side, radius * scale, turn) });
+    context.drawImage(this.kept.get(side).canvas, x - side / scale / 2, y - side / scale / 2, side / scale, side / scale);
   }
 
   painted(side, radius, turn) {

@@ -84,7 +84,10 @@ class Player {
     this.shown = wide / width; // CSS px for one of the view
     this.canvas.width = Math.round(wide * density);
     this.canvas.height = Math.round((wide * density * height) / width);
-    for (const ball of [...this.data.balls, ...this.data.ghosts]) ball.line = this.line(ball);
+    for (const ball of [...this.data.balls, ...this.data.ghosts]) {
+      ball.line = this.line(ball);
+      ball.near = this.view.lens && this.through(this.view.lens, () => this.line(ball));
+    }
     this.heading(wide);
     this.draw();
   }
@@ -120,14 +123,14 @@ class Player {
 
   /** Points [x, y, t] of a path until its end is told, close enough together to look smooth. */
   line(ball) {
-    const [dx, dy] = ball.shift || [0, 0], points = [], { scale, stretch } = this.view;
+    const [dx, dy] = ball.shift || [0, 0], points = [], { scale, stretch } = this.view, { told = this.data.told } = ball;
     for (const [t0, t1, x, y] of ball.path.arcs) {
-      if (t0 > this.data.told) break;
+      if (t0 > told) break;
       let long = 0;
       for (let k = 1; k < x.length; k++) long += Math.hypot(x[k] - x[k - 1], (y[k] - y[k - 1]) * stretch) * scale;
       const pieces = Math.max(1, Math.min(200, Math.ceil(long / 4)));
       for (let i = 0; i <= pieces; i++) {
-        const t = Math.min(this.data.told, t0 + ((t1 - t0) * i) / pieces), u = t1 > t0 ? (t - t0) / (t1 - t0) : 0;
+        const t = Math.min(told, t0 + ((t1 - t0) * i) / pieces), u = t1 > t0 ? (t - t0) / (t1 - t0) : 0;
         points.push([...this.spot(ball, evaluate(x, u) + dx, evaluate(y, u) + dy), t]);
       }
     }
@@ -174,13 +177,54 @@ class Player {
       this.trace(faint < 1 ? [...ball.line.filter((point) => point[2] < t), here] : ball.line, 0, Infinity, width, ball.colour, 1, rim);
     }
     if (faint === 1 && view.along) context.drawImage(view.along, 0, 0);
-    for (const ghost of data.ghosts) this.ghost(ghost, t);
+    for (const ghost of data.ghosts) this.ghost(ghost, whole ? ghost.told : t);
     if (!whole && $("arrows").checked) this.vectors(t);
     for (const ball of balls) this.ball(ball, t);
     context.drawImage(view.over, 0, 0);
+    if (view.lens && (faint < 1 || !view.along)) this.lens(t, faint < 1 ? t : Infinity);
     this.above();
     if (this.pointed) this.point();
     this.now();
+  }
+
+  /** Do something with the camera of a lens. */
+  through(lens, draw) {
+    const { view } = this;
+    this.view = { ...lens, lift: null };
+    const found = draw();
+    this.view = view;
+    return found;
+  }
+
+  /** The part that is seen from near by at time t, with the paths until a time. */
+  lens(t, until) {
+    const { context, data, view: { lens, unit } } = this, { corner: [left, top], size: [wide, high] } = lens;
+    context.save();
+    context.beginPath();
+    context.rect(left, top, wide, high);
+    context.clip();
+    context.drawImage(lens.place, left, top, wide, high);
+    this.through(lens, () => {
+      for (const ball of data.balls) {
+        const [, , x, y] = ball.path.arcs[0], width = (ball === this.main ? 3.4 : 2.2) * unit;
+        const been = ball.near.filter(([, , at]) => at <= until), here = ball.path.state(Math.min(until, data.told));
+        if (ball !== this.main && been.length > 1) this.circle(...this.pixel(x[0], y[0]), ball.radius * lens.scale, ball.colour, 1.5 * unit);
+        this.trace([...been, [...this.spot(ball, ...here), 0]], 0, Infinity, width, ball.colour, 0.8);
+      }
+      for (const ghost of data.ghosts) this.trace(ghost.near, 0, Infinity, 2.4 * unit, ghost.colour, 0.8);
+      for (const ball of data.balls) this.ball(ball, t);
+    });
+    context.restore();
+    Object.assign(context, { lineWidth: Math.max(1, unit), strokeStyle: data.quiet });
+    context.strokeRect(left - 0.5, top - 0.5, wide + 1, high + 1);
+  }
+
+  circle(x, y, radius, colour, width) {
+    const { context } = this;
+    context.beginPath();
+    context.arc(x, y, radius, 0, 2 * Math.PI);
+    Object.assign(context, { lineWidth: width, strokeStyle: colour });
+    context.stroke();
   }
 
   /** What other pages draw on the place under all paths, and over everything. */
@@ -203,10 +247,11 @@ class Player {
   }
 
   ball(ball, t) {
-    if (ball.caught !== null && t >= ball.caught) return;
+    if (ball !== this.main && ball.caught !== null && t >= ball.caught) return; // where the main one ended stays to be seen
     const { context, view, data } = this, [x, y] = ball.path.state(t);
     const radius = Math.max(ball.radius * view.scale, view.least), [px, py] = this.spot(ball, x, y, radius);
-    if (ball.shapes) this.flat(ball, px, py, radius, this.angle(ball, t));
+    if (ball.fall && t >= ball.fall.start) this.fallen(ball, px, py, radius, t);
+    else if (ball.shapes) this.flat(ball, px, py, radius, this.angle(ball, t));
     else this.round(ball, t, x, y, px, py, radius);
     if (data.balls.length === 1 && radius > data.unsaid * ball.radius * view.scale) {
       const reach = ball.shapes && Math.max(...ball.shapes.flatMap(([corners]) => corners.map((corner) => Math.hypot(...corner))));
@@ -240,13 +285,20 @@ class Player {
     return Math.max(0.7, 0.8 * this.view.unit);
   }
 
-  /** What is not round: shapes with corners in radii around (px, py). */
-  flat(ball, px, py, radius, angle) {
+  /** What begins standing, once it falls: from the side, and the longer the more it lies. */
+  fallen(ball, px, py, radius, t) {
+    const { start, towards, takes, shapes } = ball.fall, lies = t >= this.data.told ? 1 : Math.min(1, 0.2 + (t - start) / takes);
+    const angle = towards + this.angle(ball, Math.min(t, ball.caught ?? t)) - this.angle(ball, start);
+    this.flat({ shapes, rimmed: true }, px, py, radius, angle, lies);
+  }
+
+  /** What is not round: shapes with corners in radii around (px, py); `along` shortens them along their own x. */
+  flat({ shapes, rimmed }, px, py, radius, angle, along = 1) {
     const { context, data } = this, c = radius * Math.cos(angle), s = radius * Math.sin(angle);
-    for (const [i, [corners, colour]] of ball.shapes.entries()) {
+    for (const [i, [corners, colour]] of shapes.entries()) {
       context.beginPath();
-      for (const [a, b] of corners) context.lineTo(px + c * a - s * b, py - s * a - c * b);
-      if (ball.rimmed && !i) {
+      for (const [a, b] of corners) context.lineTo(px + c * along * a - s * b, py - s * along * a - c * b);
+      if (rimmed && !i) {
         context.closePath();
         Object.assign(context, { globalAlpha: data.light.rim, lineWidth: 2 * this.rim, lineJoin: "round", strokeStyle: data.rim });
         context.stroke();

@@ -16,6 +16,7 @@ from sandbox.page.parts import css, picture, what_changed
 from sandbox.picture import ball as balls
 from sandbox.picture.above import AboveView
 from sandbox.picture.frames import to_image
+from sandbox.picture.long import LongView
 from sandbox.picture.moving import NOT_WORTH_NOTING, THINNEST
 from sandbox.picture.palette import palette
 from sandbox.picture.path import instants
@@ -58,6 +59,7 @@ def layout_data(view: View[Any]) -> dict[str, Any]:
         "place": picture(Image.fromarray(place)),
         "along": picture(what_changed(paths, along), exact=True),
         "over": picture(what_changed(drawn, over), exact=True),
+        "lens": _lens(view, tall),
     }
 
 
@@ -71,6 +73,11 @@ def stage_data(view: View[Any]) -> dict[str, Any]:
     view.measure(sheet, camera)
     right = sheet.wind(*view.wind, sheet.frame.right, sheet.frame.top).left if any(view.wind) else sheet.frame.right
     over = np.array(to_image(sheet.surface))[:tall]
+    lens = _lens(view, tall, quick=True)
+    if lens is not None:
+        (left, top), (wide, high) = lens["corner"], lens["size"]
+        part = np.s_[top : top + high, left : left + wide]
+        over[part] = place[part]  # what moves there is drawn by the page
     return {
         **_seen_by(view, tall),
         "room": right - 2 * sheet.gap - sheet.frame.left,
@@ -78,6 +85,27 @@ def stage_data(view: View[Any]) -> dict[str, Any]:
         "place": picture(Image.fromarray(place), quick=True),
         "along": None,
         "over": picture(what_changed(place, over), exact=True, quick=True),
+        "lens": lens,
+    }
+
+
+def _lens(view: View[Any], tall: int, quick: bool = False) -> dict[str, Any] | None:
+    """Return the part of a long place that is seen from near by, without what moves, and its camera; in a picture of so
+    many rows, in px. None for other views."""
+    if not isinstance(view, LongView):
+        return None
+    camera, lens = view.near_camera, view.lens
+    high = min(lens.height, tall - lens.top)
+    return {
+        "corner": lens.topleft,
+        "size": (lens.width, high),
+        "place": picture(to_image(view.empty_lens()).crop((0, 0, lens.width, high)), quick=quick),
+        "at": camera.at,
+        "anchor": camera.anchor,
+        "scale": camera.scale,
+        "stretch": 1.0,
+        "unit": view.unit,
+        "least": view.min_radius,
     }
 
 
@@ -123,7 +151,7 @@ def place_data(view: View[Any]) -> dict[str, Any]:
         "unsaid": NOT_WORTH_NOTING,
         "earlier": palette("trace")["earlier"],
         "rim": css(palette("trace")["rim"]),
-        **{name: css(CARD[name]) for name in ("accent", "shadow")},
+        **{name: css(CARD[name]) for name in ("accent", "shadow", "quiet")},
         "card": css(CARD["background"]),
     }
 
@@ -144,6 +172,7 @@ def path_data(view: View[Any], run: SceneRun) -> dict[str, Any]:
                 "rolls": view.rolls(name),
                 "turned": _turned(view, name, run.duration),
                 "caught": run.caught_at(name),
+                "fall": _fall(view, name),
                 "path": _path(run.arcs[name]),
             }
             for name in names
@@ -156,6 +185,7 @@ def path_data(view: View[Any], run: SceneRun) -> dict[str, Any]:
                 "light": css(ghost.light),
                 "shift": ghost.shift,
                 "path": _path(ghost.run.arcs[ghost.view.ball]),
+                "told": ghost.view.story_end,
             }
             for ghost in view.ghosts
         ],
@@ -245,6 +275,12 @@ def _driven(view: View[Any], run: SceneRun) -> dict[str, Any]:
         for each in view.driven
     ]
     return {"step": times[1], "surfaces": surfaces}
+
+
+def _fall(view: View[Any], name: str) -> dict[str, Any] | None:
+    """How a ball falls that begins standing: from when in s, where to, how it looks then; None for others."""
+    fall = view.fall_of(name)
+    return fall and fall._asdict() | {"shapes": [[corners, css(colour)] for corners, colour in fall.shapes]}
 
 
 def _look(look: balls.Look, view: View[Any]) -> dict[str, Any]:

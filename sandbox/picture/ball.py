@@ -137,6 +137,15 @@ class Flat(Silhouette):
         super().__init__(colour, (corners, edge), (inner, colour), *((bar, mark) for bar in bars))  # type: ignore[arg-type]
 
 
+class Fall(NamedTuple):
+    """How a ball that begins standing falls, such as a pin: then it is seen from the side."""
+
+    start: float  # s
+    towards: float  # rad, where its head goes
+    takes: float  # s
+    shapes: Sequence[tuple[np.ndarray, Colour]]  # corners in radii, its head along x
+
+
 def near(points: np.ndarray, angle: float) -> Callable[[np.ndarray], np.ndarray]:
     """Discs around points (unit vectors, shape (n, 3)), within ``angle`` (rad) as seen from the ball's middle."""
     return lambda at: ((at @ points.T).max(axis=-1) > cos(angle)).astype(float)

@@ -16,7 +16,7 @@ import pygame
 from sandbox.picture.above import AboveView
 from sandbox.picture.camera import Box, Camera
 from sandbox.picture.marks import mark_impacts
-from sandbox.picture.painter import Painter
+from sandbox.picture.painter import Painter, blank
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.path import ImpactMark
 from sandbox.picture.places.plan import Ground, drawn
@@ -128,11 +128,9 @@ class LongView(AboveView[P]):
         around = pygame.Rect(lens).inflate(2, 2)
         beam = [part.bottomleft, part.bottomright, around.topright, around.topleft]
         painter.polygon(beam, CARD["quiet"], 0.12)
-        surface = painter.surface.subsurface(lens)
-        local = Camera(near.at, (near.anchor[0] - lens.left, near.anchor[1] - lens.top), near.scale)
-        surface.blit(drawn((Ground(EVERYWHERE, self.ROOM_COLOUR), *self.plan), local, lens.size), (0, 0))
+        local, surface = self._in_lens, painter.surface.subsurface(lens)
+        self._lens_place(surface, t)
         inside = Painter(surface)
-        self.behind(inside, local, t)
         for ball in self.run.setup.balls:
             if (
                 ball.name != self.ball and np.ptp(self.paths[ball.name].points, axis=0).max() > LEAST_WAY
@@ -153,6 +151,24 @@ class LongView(AboveView[P]):
             inside.line(self.traced(local, ghost.points), 2.4 * self.unit, ghost.colour, 0.8)
         self.place_balls(inside, local, t)
         pygame.draw.rect(painter.surface, CARD["quiet"], around, max(1, round(self.unit)))
+
+    @property
+    def _in_lens(self) -> Camera:
+        """The camera of the near part, from the lens' own corner."""
+        near, lens = self.near_camera, self.lens
+        return Camera(near.at, (near.anchor[0] - lens.left, near.anchor[1] - lens.top), near.scale)
+
+    def _lens_place(self, surface: pygame.Surface, t: float) -> None:
+        """Draw the place of the near part on a surface of the lens' size."""
+        plan = (Ground(EVERYWHERE, self.ROOM_COLOUR), *self.plan)
+        surface.blit(drawn(plan, self._in_lens, self.lens.size), (0, 0))
+        self.behind(Painter(surface), self._in_lens, t)
+
+    def empty_lens(self) -> pygame.Surface:
+        """The near part without what moves, for a page that draws that itself."""
+        surface = blank(self.lens.size)
+        self._lens_place(surface, 0.0)
+        return surface
 
     def kept_clear(self, camera: Camera, t: float) -> list[pygame.Rect]:
         """In the strip and in the near part."""

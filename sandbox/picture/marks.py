@@ -89,6 +89,11 @@ def label_mark(
         sheet.painter.line([start, near], max(1.0, 1.3 * unit), CARD["text"], 0.8)
 
 
+def lighter(colour: Colour) -> Colour:
+    """Return the colour of another run as it is on a dark ground."""
+    return mix(colour, CARD["text"], LIGHTER)
+
+
 @dataclass(frozen=True)
 class Ghost:
     """Another run: what it is called, its picture, its colour, and how far it is moved (m) to lie over this one."""
@@ -114,7 +119,7 @@ class Ghost:
     @property
     def light(self) -> Colour:
         """Its colour on a dark ground."""
-        return mix(self.colour, CARD["text"], LIGHTER)
+        return lighter(self.colour)
 
     def colour_on(self, sheet: Sheet) -> Colour:
         """Lighter where the picture's ground is dark."""

@@ -19,7 +19,7 @@ import pygame
 from sandbox.engine.contact.touch import Outline
 from sandbox.errors import RequestError, RunError
 from sandbox.parameters import Group
-from sandbox.picture.ball import SMALLEST, Look, least_radius, seams
+from sandbox.picture.ball import SMALLEST, Fall, Look, least_radius, seams
 from sandbox.picture.camera import Box, Camera
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour, palette
@@ -185,6 +185,10 @@ class SceneOptions(Generic[P]):
     def look_of(self, name: str) -> Look:
         """The look of a ball."""
         return self.LOOK
+
+    def fall_of(self, name: str) -> Fall | None:
+        """How a ball that begins standing falls; None for one that does not."""
+        return None
 
     def colour_of(self, name: str) -> Colour:
         """The colour of the path of a ball, or of anything else that moves."""

@@ -4,7 +4,7 @@
 """
 
 from sandbox.picture.above import AboveView
-from sandbox.picture.ball import Look, Mark, Silhouette, dimples, near, patches, seams, turned
+from sandbox.picture.ball import Fall, Look, Mark, Silhouette, dimples, near, patches, seams, turned
 from sandbox.picture.camera import Area, Box, Camera, Eye
 from sandbox.picture.lettering import Labels, text_mask
 from sandbox.picture.long import LongView
@@ -50,6 +50,7 @@ __all__ = [
     "Colour",
     "Entry",
     "Eye",
+    "Fall",
     "Ground",
     "Hall",
     "Labels",

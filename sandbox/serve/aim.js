@@ -92,11 +92,6 @@ class Aim extends Player {
     }
   }
 
-  /** Names of other runs are at their ends while the shot is aimed. */
-  ghost(ghost, t) {
-    super.ghost(ghost, this.watched ? t : this.data.told);
-  }
-
   // -------------------------------------------------------------------------------------------- by hand
 
   pointer() {

@@ -31,15 +31,16 @@ function drawBars(canvas, good, rest, [low, high]) {
   context.fillText(high, wide, tall);
 }
 
-/** The energy over time by cause, in J, with how much of each is left at the end. */
-function drawEnergy(canvas, legend, { times, bands }) {
+/** The energy over time by cause, in J, with how much of each is left at the end; the chart goes on a little after an
+ *  impact that ends the run, and its end is named where it is. */
+function drawEnergy(canvas, legend, { times, end, bands }) {
   const { context, wide, tall } = sheet(canvas), last = times[times.length - 1] || 1, foot = 18;
   const high = Math.max(1e-9, ...bands.flatMap(({ top }) => top));
   const at = (t, joules) => [(t / last) * wide, (tall - foot) * (1 - joules / high)];
   context.textBaseline = "bottom";
   context.fillText("0 s", 0, tall);
   context.textAlign = "right";
-  context.fillText(amount(last, "s"), wide, tall);
+  context.fillText(amount(end, "s"), at(end, 0)[0], tall);
   for (const { top, foot: below, colour } of bands) {
     context.beginPath();
     times.forEach((t, i) => context.lineTo(...at(t, top[i])));

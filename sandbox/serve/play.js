@@ -198,10 +198,11 @@ function show(run, composed = false) {
   const { stage, scene } = state;
   if (!stage) return;
   const ghosts = state.compared.map((each, i) => {
-    const colour = stage.others[i % stage.others.length];
-    return { ...each, colour, light: colour };
+    const [colour, light] = stage.others[i % stage.others.length];
+    return { ...each, colour, light };
   });
   const data = onStage(stage, run, run.hidden ? [] : ghosts);
+  if (state.shot) data.duration = Math.max(run.duration, ...ghosts.map(({ duration }) => duration));
   if (!player) window.player = player = new Aim(data, hands);
   if (state.shot && composed) player.load(data), player.resized(), player.seek(player.data.duration);
   else if (state.shot) player.watch(data);
@@ -282,7 +283,7 @@ function keep() {
   const said = changedBy(changes, scene).map(([key, text]) => `${labelOf(key).split(" ").slice(1).join(" ") || key} ${text}`);
   const main = run.balls.find(({ name }) => name === run.ball);
   const label = said.length ? said.slice(0, 2).join(", ") + (said.length > 2 ? ", ..." : "") : scene.title;
-  state.compared = [{ label, radius: main.radius, shift: [0, 0], path: main.path, rows: run.rows }, ...state.compared].slice(0, MOST_COMPARED);
+  state.compared = [{ label, radius: main.radius, shift: [0, 0], path: main.path, told: run.told, duration: run.duration, rows: run.rows }, ...state.compared].slice(0, MOST_COMPARED);
   compare();
   show(run);
 }

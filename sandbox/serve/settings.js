@@ -1,7 +1,7 @@
 // The parameters of a scene, each with a slider, a list of words or a switch, made from what the scene declares.
 
-/** A key for people: "launch.speed" is "launch speed", "air.wind[0]" is "air wind x". */
-const labelOf = (key) => key.replace(/\[(\d+)\](?=$)/, (_, i) => ` ${"xyz"[i] ?? i}`).replace(/[._]/g, " ");
+/** A key for people: "launch.speed" is "launch speed", "air.wind[0]" is "air wind x", "mills[0].rate" is "mills 1 rate". */
+const labelOf = (key) => key.replace(/\[(\d+)\](?=$)/, (_, i) => ` ${"xyz"[i] ?? i}`).replace(/\[(\d+)\]/, (_, i) => ` ${Number(i) + 1}`).replace(/[._]/g, " ");
 
 /** A unit for people: "m/s^2" is "m/s²". */
 const unitOf = (unit) => unit.replace("^2", "²").replace("^3", "³");

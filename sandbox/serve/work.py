@@ -11,17 +11,18 @@ import json
 import zlib
 from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache, wraps
-from math import isfinite
 from typing import Any, ParamSpec
 
 import numpy as np
 
 from sandbox.errors import RunError, SandboxError
+from sandbox.files import json_ready
 from sandbox.page.parts import css
 from sandbox.page.playing import force_data, path_data, path_until, place_data, stage_data, told_events
 from sandbox.page.replay import LAYOUTS
 from sandbox.parameters import Parameter, walk
 from sandbox.picture.energy_chart import bands_of, held_at_the_end
+from sandbox.picture.marks import lighter
 from sandbox.picture.path import simplify
 from sandbox.picture.sheet import CARD, drawn_at
 from sandbox.picture.view import View
@@ -38,7 +39,7 @@ from sandbox.window.fan import fan_of
 from sandbox.window.panel import Setting
 from sandbox.window.shots import Shot, scene_without_controls
 
-#: Paths are sent in steps of this many digits after the point: to 1 um.
+#: Runs are sent with so many digits after the point: paths to 1 um.
 DIGITS = 6
 #: A pull has the speeds at so many shares of it.
 PULLS = 101
@@ -88,22 +89,10 @@ def _scene(source: str) -> Scene:
 
 
 def packed(kind: str, **data: Any) -> bytes:
-    """A message for the browser: JSON, deflated."""
-    text = json.dumps({"is": kind, **rounded(data)}, allow_nan=False, ensure_ascii=False, separators=(",", ":"))
+    """A message for the browser: JSON, deflated; a run with its numbers to so many DIGITS."""
+    ready = {key: json_ready(value, DIGITS if key == "run" else None) for key, value in data.items()}
+    text = json.dumps({"is": kind, **ready}, allow_nan=False, ensure_ascii=False, separators=(",", ":"))
     return zlib.compress(text.encode(), 1)
-
-
-def rounded(value: Any, digits: int = DIGITS) -> Any:
-    """The same as JSON's types, numbers to so many digits after the point; NaN and infinities become null."""
-    if isinstance(value, float):
-        return round(value, digits) if isfinite(value) else None
-    if isinstance(value, Mapping):
-        return {str(key): rounded(item, digits) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        if all(type(item) is float for item in value) and isfinite(sum(value)):  # most are: coefficients
-            return [round(item, digits) for item in value]
-        return [rounded(item, digits) for item in value]
-    return rounded(value.tolist(), digits) if hasattr(value, "tolist") else value
 
 
 # ---------------------------------------------------------------------------------------------------------------------
@@ -227,7 +216,8 @@ def shot(ask: Ask) -> Reply:
             "line": _line(view, run.trajectory(view.ball)[:, 1:3], LINE_PIXELS),
             **standing,
         }
-        return {"message": packed("shot", n=ask.n, run=_run_data(scene, run, view) | more), "kept": rounded(kept)}
+        message = packed("shot", n=ask.n, run=_run_data(scene, run, view) | more)
+        return {"message": message, "kept": json_ready(kept, DIGITS)}
 
 
 @replying
@@ -241,7 +231,8 @@ def stage(ask: Ask) -> Reply:
             ask = ask._replace(changes={})
         scene, _, view, _ = _flown(ask, size)
         data = place_data(view) | {"view": stage_data(view), "place": _place(scene), "dark": view.on_dark}
-        data["others"] = [css(colour) for colour in view.OTHER_TRACES]
+        others = [(lighter(colour) if view.on_dark else colour, lighter(colour)) for colour in view.OTHER_TRACES]
+        data["others"] = [tuple(map(css, both)) for both in others]  # on the picture and on the card
         data["good"] = css(CARD["good"])
         return {"message": packed("stage", n=ask.n, stage=data)}
 
@@ -283,7 +274,8 @@ def _start(scene: Scene, run: SceneRun, view: View[Any], until: float) -> dict[s
     """A run until a time in s, without what it comes to."""
     data = path_data(view, run)
     for ball in data["balls"]:
-        ball |= {"path": path_until(run.arcs[ball["name"]], until), "turned": None, "rolls": False, "caught": None}
+        ball |= {"path": path_until(run.arcs[ball["name"]], until), "rolls": False}
+        ball |= dict.fromkeys(("turned", "caught", "fall"))
     data |= {"events": [], "duration": until, "told": until, "verdict": "", "rows": [], "scored": False}
     return data | {"place": _place(scene), "hidden": True}
 
@@ -323,7 +315,7 @@ def _energy(run: SceneRun) -> dict[str, Any] | None:
         return None
     shown = [{"name": band.name, "colour": css(band.colour), "top": _short(band.values), "foot": _short(band.foot)}
              for band in [*bands, *put_in]]  # fmt: skip
-    return {"times": _short(course.times), "bands": shown} if shown else None
+    return {"times": _short(course.times), "end": run.duration, "bands": shown} if shown else None
 
 
 def _short(values: np.ndarray | None) -> list[float]:

@@ -11,7 +11,7 @@ import numpy as np
 from sandbox.picture.painter import Painter, Point
 from sandbox.picture.palette import Colour, palette, scene_colours
 from sandbox.picture.places import Shape, plan
-from sandbox.picture.views import Box, Camera, LongView, Look, Mark, near
+from sandbox.picture.views import Box, Camera, Fall, LongView, Look, Mark, near
 
 from .scene import HEAD, KICKBACK, LANE, PIT, ROW, SPOTS, Parameters
 
@@ -43,6 +43,7 @@ def _side(low: float, high: float) -> np.ndarray:
 
 
 SIDE, RINGS = _side(0.0, 15.0), [_side(*band) for band in BANDS]
+LYING = ((SIDE, COLOURS["pin"]), *((ring, COLOURS["neck"]) for ring in RINGS))
 
 
 class Picture(LongView[Parameters]):
@@ -95,6 +96,9 @@ class Picture(LongView[Parameters]):
             found[name] = float(self.paths[name].samples[tipped, 0]), float(np.arctan2(*away[tipped][::-1]))
         return found
 
+    def fall_of(self, name: str) -> Fall | None:
+        return Fall(*self.falls[name], FALLS, LYING) if name in self.falls else None
+
     def draw_ball(self, painter: Painter, camera: Camera, name: str, t: float, at: Point, radius: float) -> None:
         """A pin that has fallen lies, its head where it was pushed to."""
         start, way = self.falls.get(name, (inf, 0.0))
@@ -111,9 +115,8 @@ class Picture(LongView[Parameters]):
         painter.polygon(put(SIDE, 0.35 * radius), CARD["shadow"], 0.35)
         outline = put(SIDE)
         painter.line([*outline, outline[0]], 2 * max(0.7, 0.8 * self.unit), CARD["shadow"], 0.65)
-        painter.polygon(outline, COLOURS["pin"])
-        for ring in RINGS:
-            painter.polygon(put(ring), COLOURS["neck"])
+        for shape, colour in LYING:
+            painter.polygon(put(shape), colour)
 
     def look_of(self, name: str) -> Look:
         return BALL if name == "ball" else PIN

@@ -81,6 +81,47 @@ def test_every_instant_is_that_of_python(browser, pages, name: str):
     assert browser.complaints() == []
 
 
+def test_what_is_seen_from_near_by_is_played(browser, pages):
+    """In bowling: each ball in its place in the enlarged part, and pins that have fallen seen from the side."""
+    run = run_of("bowling")
+    browser.open(pages("bowling"))
+    view = run.scene.picture(run, LAYOUTS[0][0])
+    for t in (0.0, 0.75 * run.duration):
+        there, fallen = browser.run(
+            """((t) => {
+          const there = {}, fallen = [], { ball, fallen: falls } = player, { lens } = player.view;
+          player.ball = function (each, ...rest) {
+            if (this.view.scale === lens.scale) there[each.name] = this.spot(each, ...each.path.state(t));
+            ball.call(this, each, ...rest);
+          };
+          player.fallen = function (each, ...rest) {
+            if (this.view.scale === lens.scale) fallen.push(each.name);
+            falls.call(this, each, ...rest);
+          };
+          player.seek(t);
+          delete player.ball, delete player.fallen;
+          return [there, fallen];
+        })(arguments[0])""",
+            t,
+        )
+        assert set(there) == set(view.balls)
+        for name, at in there.items():
+            assert at == pytest.approx(view.near_camera.pixel(*run.state(name, t)[:2]), abs=0.01)
+        expected = {name for name, (start, _) in view.falls.items() if start <= t < (run.caught_at(name) or t + 1)}
+        assert set(fallen) == expected
+        assert bool(expected) == (t > 0.0)
+    assert browser.complaints() == []
+
+
+def test_a_longer_run_that_is_compared_is_drawn_to_its_end(browser, pages):
+    """Although this one ends before."""
+    browser.open(pages("golf/headwind", "golf"))
+    longer, shorter = run_of("golf"), run_of("golf/headwind")
+    assert longer.duration > shorter.duration + 1.0
+    assert browser.run("player.data.ghosts[0].line.at(-1)[2]") == pytest.approx(longer.duration)
+    assert browser.run("player.main.line.at(-1)[2]") == pytest.approx(shorter.duration)
+
+
 def test_path_and_rim_are_as_thick_as_on_the_poster(browser, pages):
     name = "collisions/tumbling-box"
     browser.open(pages(name))

@@ -17,6 +17,8 @@ import pytest
 
 from tests.own_scene import COMMAND
 
+PATIENCE = 60.0  # s, on a machine that does much else besides
+
 pytest.importorskip("starlette", reason="serving is tested with the extra serve")
 
 
@@ -40,7 +42,7 @@ def serving(*args: str, cwd: Any = None) -> Iterator[Served]:
     def stop() -> int:
         if process.poll() is None:
             process.send_signal(signal.SIGINT)
-        return process.wait(20)
+        return process.wait(PATIENCE)
 
     try:
         address = json.loads(said or "{}") or pytest.fail(process.stderr.read())
@@ -78,7 +80,7 @@ class Client:
         self.say(do=do, n=self.n, changes=changes or {}, **more)
         return self.n
 
-    def hear(self, kind: str, within: float = 20.0, **wanted: Any) -> dict[str, Any]:
+    def hear(self, kind: str, within: float = PATIENCE, **wanted: Any) -> dict[str, Any]:
         """The next message of a kind, with these entries."""
         end = time.monotonic() + within
         while True:

@@ -19,7 +19,7 @@ from websockets.sync.client import connect
 
 from sandbox.serve import app, connection, limits, messages, room
 from sandbox.serve.connection import Connection
-from tests.serve.conftest import Client, Served, memory
+from tests.serve.conftest import PATIENCE, Client, Served, memory
 
 
 def fetched(url: str, **headers: str) -> tuple[int, Any, bytes]:
@@ -43,7 +43,7 @@ def reason_for_closing(client: Client) -> Any:
     """The code and the reason with which the server closes a connection."""
     while True:
         try:
-            client.next(10)
+            client.next(PATIENCE)
         except ConnectionClosed as closed:
             return closed.rcvd
 
@@ -210,6 +210,7 @@ def test_a_client_that_never_reads_is_disconnected(monkeypatch: pytest.MonkeyPat
     over."""
     monkeypatch.setattr(connection, "UNREAD", 0.3)
     kept: list[int] = []
+    over = asyncio.Event()
 
     class Talkative:
         async def play(self, there: Connection) -> None:
@@ -218,6 +219,7 @@ def test_a_client_that_never_reads_is_disconnected(monkeypatch: pytest.MonkeyPat
                     there.send(kind, b"x" * 500_000)
                 kept.append(len(there._waiting))
                 await asyncio.sleep(0.01)
+            over.set()
 
     async def play() -> None:
         with socket.socket() as listener:
@@ -230,10 +232,8 @@ def test_a_client_that_never_reads_is_disconnected(monkeypatch: pytest.MonkeyPat
             serving = asyncio.create_task(server.serve(sockets=[listener]))
             reader, writer = await asyncio.open_connection(*host.split(":"), limit=1024)
             writer.write(handshake(host, "/players/"))
-            await asyncio.sleep(1.0)
-            before = len(kept)
-            await asyncio.sleep(0.2)
-            assert len(kept) == before > 10  # it is over
+            await asyncio.wait_for(over.wait(), PATIENCE)
+            assert len(kept) > 10
             writer.close()
             server.should_exit = True
             await serving
