@@ -42,6 +42,7 @@ class Course:
     def __init__(
         self, task: str | Task, facts: Sequence[str] | None = None, noise: bool = True, accuracy: str | None = None
     ) -> None:
+        self._made_with = task, facts, noise, accuracy
         self.task = task if isinstance(task, Task) else load_task(task)
         if accuracy is not None:
             self.task = replace(self.task, scene=self.task.scene.changed({"accuracy.level": accuracy}, "accuracy"))
@@ -62,6 +63,9 @@ class Course:
         self._accuracy = resolve(**scene.parameters.accuracy.model_dump())
         self.action_space = spaces.Box(-1.0, 1.0, (len(self.low),), np.float32)
         self.observation_space = self._observation_space()
+
+    def __reduce__(self) -> tuple[type[Course], tuple[Any, ...]]:
+        return type(self), self._made_with  # the rest is made from it, and partly cannot be pickled
 
     def _free(self, scene: Scene) -> tuple[str, ...]:
         """The facts that are final when those of the task are, so that a run need not go on for them."""
@@ -111,9 +115,36 @@ class Course:
         margin = MARGIN * max(high - low) if len(places) > len(self.names) else OPEN
         return low - margin, high + margin
 
-    def controls_of(self, action: Any) -> NDArray[Any]:
-        """The values of the controls, in their units, for actions of shape (..., controls)."""
-        share = 0.5 * (np.clip(np.asarray(action, float), -1.0, 1.0) + 1.0)
+    def drawn(self, random: np.random.Generator, options: Mapping[str, Any] | None = None) -> list[Any]:
+        """Draw the start of an attempt, in the order of the task; ``options={"start": {key: value}}`` sets some of it.
+        Raises RequestError."""
+        drawn = [start.drawn(random) for start in self.task.start]
+        given = (options or {}).get("start", {})
+        places = {start.key: place for place, start in enumerate(self.task.start)} if given else {}
+        for key, value in given.items():
+            if key not in places:
+                raise RequestError(f"options, start: {key} is not drawn; choose from {', '.join(places)}")
+            start = self.task.start[places[key]]
+            if not start.allows(value):
+                raise RequestError(f"options, start: {key} = {value!r}: must be {start.range}")
+            drawn[places[key]] = value
+        return drawn
+
+    def controls_of(self, action: Any, shape: tuple[int, ...] = ()) -> NDArray[Any]:
+        """The values of the controls, in their units, for actions of shape (*shape, controls). Raises RequestError for
+        other shapes, and for what is no number."""
+        try:
+            found = np.asarray(action, float)
+        except (TypeError, ValueError):
+            found = np.array(np.nan)
+        wanted, keys = (*shape, len(self.low)), ", ".join(self.task.defaults)
+        if found.shape != wanted:
+            raise RequestError(
+                f"action: has shape {found.shape}, must have {wanted}: a number from -1 to 1 for each of {keys}"
+            )
+        if np.isnan(found).any():
+            raise RequestError(f"action: has nan, must have a number from -1 to 1 for each of {keys}")
+        share = 0.5 * (np.clip(found, -1.0, 1.0) + 1.0)
         return np.asarray(self.low + share * (self.high - self.low))
 
     def action_of(self, values: Mapping[str, float]) -> NDArray[np.float32]:

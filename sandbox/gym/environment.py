@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import gymnasium
 import numpy as np
+from gymnasium.error import ResetNeeded
 
 from sandbox.errors import RequestError, RunError
 from sandbox.gym.course import Course
@@ -59,6 +60,7 @@ class TaskEnv(gymnasium.Env["NDArray[np.float32]", "NDArray[np.float32]"]):
         self.render_mode, self._size = render_mode, size
         self.action_space: Any = self.course.action_space
         self.observation_space: Any = self.course.observation_space
+        self._begun = False
         self._drawn: list[Any] = []  # what is drawn at the start, in the order of the task
         self._scene: Scene | None = None  # of the next shot of an attempt; None before its first
         self._shots = 0
@@ -67,19 +69,18 @@ class TaskEnv(gymnasium.Env["NDArray[np.float32]", "NDArray[np.float32]"]):
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[NDArray[np.float32], dict[str, Any]]:
-        """Begin an attempt; the same seed draws the same start, and the same noise after it."""
+        """Begin an attempt; the same seed draws the same start, and the same noise after it. Raises RequestError for a
+        start that the task does not draw."""
         super().reset(seed=seed)
-        drawn = self.course.task.drawn(self.np_random)
-        given = (options or {}).get("start", {})
-        unknown = next((key for key in given if key not in drawn), None)
-        if unknown is not None:
-            raise RequestError(f"options, start: {unknown} is not drawn; choose from {', '.join(drawn)}")
-        self._drawn = list({**drawn, **given}.values())
-        self._scene, self._shots, self._run = None, 0, None
+        self._drawn = self.course.drawn(self.np_random, options)
+        self._begun, self._scene, self._shots, self._run = True, None, 0, None
         return self.course.seen(self._drawn, self._scene), {}
 
     def step(self, action: NDArray[np.float32]) -> tuple[NDArray[np.float32], float, bool, bool, dict[str, Any]]:
-        """Play a shot. A run that cannot be completed ends the attempt, and ``info["error"]`` says why."""
+        """Play a shot. A run that cannot be completed ends the attempt, and ``info["error"]`` says why. Raises
+        RequestError for an action that is none."""
+        if not self._begun:
+            raise ResetNeeded("reset the environment before its first step")
         course, task = self.course, self.course.task
         values = dict(zip(task.defaults, course.controls_of(action).tolist(), strict=True))
         aimed = task.aimed(values, self.np_random if course.noise else None)

@@ -6,6 +6,8 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
+from gymnasium.error import ResetNeeded
+from gymnasium.utils.seeding import np_random
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
@@ -23,7 +25,8 @@ if TYPE_CHECKING:
 
 
 class TaskVectorEnv(VectorEnv[Any, Any, Any]):
-    """``num_envs`` attempts at a task, each as in ``TaskEnv``.
+    """``num_envs`` attempts at a task, each as in ``TaskEnv``: with ``reset(seed=7)`` the first has the starts and the
+    noise of a ``TaskEnv`` that was reset with seed 7, the next those of seed 8, and so on.
 
     An attempt that ends begins anew in the same step (``AutoresetMode.SAME_STEP``): ``infos["final_obs"]`` has its last
     observation, and ``infos["final_info"]`` the facts of its last shot, as arrays: those of the score, and those that
@@ -61,23 +64,25 @@ class TaskVectorEnv(VectorEnv[Any, Any, Any]):
         )
         self.action_space = batch_space(self.single_action_space, num_envs)
         self.observation_space = batch_space(self.single_observation_space, num_envs)
+        self._randoms: list[np.random.Generator] = []  # of each attempt
         self._drawn: list[list[Any]] = []
         self._later: list[Scene | None] = []
         self._shots = np.zeros(num_envs, int)
 
     def reset(
-        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+        self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
     ) -> tuple[NDArray[np.float32], dict[str, Any]]:
-        """Begin all attempts."""
-        super().reset(seed=seed)
-        self._drawn = self._drawn_anew(self.num_envs)
+        """Begin all attempts; the seeds of all, or that of the first. ``options`` are those of ``TaskEnv``."""
+        if seed is None:
+            seeds: Sequence[int | None] = [] if self._randoms else [None] * self.num_envs
+        else:
+            seeds = [seed + place for place in range(self.num_envs)] if isinstance(seed, int) else seed
+            if len(seeds) != self.num_envs:
+                raise RequestError(f"seed: {len(seeds)} seeds for {self.num_envs} attempts")
+        self._randoms = [np_random(each)[0] for each in seeds] or self._randoms
+        self._drawn = [self.course.drawn(random, options) for random in self._randoms]
         self._later, self._shots = [None] * self.num_envs, np.zeros(self.num_envs, int)
         return self._observations(range(self.num_envs)), {}
-
-    def _drawn_anew(self, count: int) -> list[list[Any]]:
-        """Draw the starts of so many attempts."""
-        columns = [start.column(self.np_random, count) for start in self.course.task.start]
-        return [list(row) for row in zip(*columns, strict=True)] if columns else [[] for _ in range(count)]
 
     def _observations(self, places: Sequence[int]) -> NDArray[np.float32]:
         """The observations of these attempts, shape (places, ...)."""
@@ -85,19 +90,25 @@ class TaskVectorEnv(VectorEnv[Any, Any, Any]):
 
     def _aimed(self, actions: Any) -> NDArray[Any]:
         """The values that shots have, in the controls' units, with the noise of the aim; shape (attempts, controls)."""
-        values = self.course.controls_of(actions)
+        values = self.course.controls_of(actions, (self.num_envs,))
         if not self.course.noise:
             return values
-        for column, control in enumerate(self.course.task.controls):
-            sd = control.deviation(values[:, column])
-            if np.any(sd > 0.0):
-                values[:, column] = np.clip(self.np_random.normal(values[:, column], sd), *control.bounds)
-        return values
+        controls = self.course.task.controls
+        sd = np.column_stack([control.deviation(values[:, i]) for i, control in enumerate(controls)])
+        noisy, errors = sd > 0.0, np.zeros_like(values)
+        counts = noisy.sum(axis=1).tolist()
+        errors[noisy] = np.concatenate(
+            [random.standard_normal(count) for random, count in zip(self._randoms, counts, strict=True)]
+        )
+        low, high = np.array([control.bounds for control in controls]).T
+        return np.where(noisy, np.clip(values + sd * errors, low, high), values)
 
     def step(
         self, actions: Any
     ) -> tuple[NDArray[np.float32], NDArray[Any], NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
-        """Play a shot of each attempt."""
+        """Play a shot of each attempt. Raises RequestError for actions that are none."""
+        if not self._drawn:
+            raise ResetNeeded("reset the environment before its first step")
         aimed = self._aimed(actions)
         found = self._played(aimed)
         self._shots += 1
@@ -126,8 +137,8 @@ class TaskVectorEnv(VectorEnv[Any, Any, Any]):
         mask = np.zeros(self.num_envs, bool)
         mask[over] = True
         infos["_final_obs"], infos["_final_info"] = mask, mask.copy()
-        for place, drawn in zip(over, self._drawn_anew(len(over)), strict=True):
-            self._drawn[place], self._later[place] = drawn, None
+        for place in over:
+            self._drawn[place], self._later[place] = self.course.drawn(self._randoms[place]), None
         self._shots[over] = 0
 
     def _played(self, aimed: NDArray[Any]) -> list[SceneRun | Exception]:

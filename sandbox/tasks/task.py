@@ -35,11 +35,18 @@ class Start:
             return self.values[int(random.integers(len(self.values)))]
         return float(random.uniform(self.low, self.high))
 
-    def column(self, random: Generator, count: int) -> list[Any]:
-        """The values for so many attempts, drawn at once."""
+    def allows(self, value: Any) -> bool:
+        """True for a value that may be drawn."""
         if self.values:
-            return [self.values[place] for place in random.integers(len(self.values), size=count)]
-        return random.uniform(self.low, self.high, count).tolist()
+            return value in self.values
+        return isinstance(value, int | float) and self.low <= value <= self.high
+
+    @property
+    def range(self) -> str:
+        """What may be drawn, in words, such as ``between 2 and 2.3 m``."""
+        if self.values:
+            return f"one of {', '.join(map(repr, self.values))}"
+        return f"between {self.low:g} and {self.high:g} {self.unit}".rstrip()
 
 
 @dataclass(frozen=True)

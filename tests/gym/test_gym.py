@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import importlib.util
+import pickle
 from pathlib import Path
 
 import gymnasium
 import numpy as np
 import pytest
+from gymnasium.error import ResetNeeded
 from gymnasium.utils.env_checker import check_env
 from gymnasium.vector import AutoresetMode
 
@@ -132,6 +134,81 @@ def test_many_at_once_play_what_each_plays_alone():
     assert (terminations.all(), truncations.any()) == (True, False)
     assert np.stack(infos["final_obs"]).tolist() == observations.tolist()
     assert not (following == observations).any()
+
+
+@pytest.mark.parametrize("name", ["FreeThrow", "ParTwo"])
+def test_the_same_seeds_are_the_same_attempts_as_alone(name: str):
+    """With start, noise and reward, also in those that begin anew."""
+    envs = gymnasium.make_vec(f"sandbox/{name}-v0", 3, "vector_entry_point")
+    alone = [gymnasium.make(f"sandbox/{name}-v0") for _ in range(3)]
+    envs.action_space.seed(0)
+    observations = envs.reset(seed=7)[0]
+    assert observations.tolist() == [env.reset(seed=7 + place)[0].tolist() for place, env in enumerate(alone)]
+    over = 0
+    for _ in range(4):
+        actions = envs.action_space.sample()
+        observations, rewards, terminations, _, _ = envs.step(actions)
+        for place, env in enumerate(alone):
+            observation, reward, terminated, _, _ = env.step(actions[place])
+            over += terminated
+            if terminated:
+                observation = env.reset()[0]
+            assert (rewards[place], terminations[place]) == (pytest.approx(reward), terminated)
+            assert observations[place] == pytest.approx(observation)
+    assert over >= 3
+    assert envs.reset(seed=[9, 8, 7])[0][2].tolist() == alone[0].reset(seed=7)[0].tolist()
+
+
+def test_an_environment_can_be_pickled(diagonal: TaskEnv):
+    diagonal.reset(seed=4)
+    copy = pickle.loads(pickle.dumps(diagonal))
+    action = np.array([0.1, 0.2, 0.3], np.float32)
+    assert [value.tolist() for value in (copy.step(action)[0], copy.reset()[0])] == [
+        value.tolist() for value in (diagonal.step(action)[0], diagonal.reset()[0])
+    ]
+
+
+def test_a_start_can_be_set_for_all_at_once():
+    envs = sandbox.gym.TaskVectorEnv(3, "free-throw")
+    observations, _ = envs.reset(seed=0, options={"start": {"release.height": 2.1}})
+    assert observations == pytest.approx(np.full((3, 1), 2.1))
+
+
+@pytest.mark.parametrize(
+    ("action", "said"),
+    [
+        (
+            [0.0],
+            r"action: has shape \(1,\), must have \(2,\): a number from -1 to 1 for each of launch.speed, launch.ang",
+        ),
+        ([0.0, np.nan], "action: has nan, must have a number from -1 to 1"),
+        (["hard", "high"], r"action: has shape \(\), must have \(2,\)"),
+    ],
+)
+def test_what_is_no_action_is_refused(action: list[object], said: str):
+    env, envs = TaskEnv("free-throw"), sandbox.gym.TaskVectorEnv(2, "free-throw")
+    for each in (env, envs):
+        with pytest.raises(ResetNeeded):
+            each.step(each.action_space.sample())
+        each.reset(seed=0)
+    with pytest.raises(RequestError, match=said):
+        env.step(action)  # type: ignore[arg-type]
+    with pytest.raises(RequestError, match=r"^action: has "):
+        envs.step([action, action])
+
+
+@pytest.mark.parametrize(
+    ("start", "said"),
+    [
+        ({"release.height": 9.0}, "release.height = 9.0: must be between 1.95 and 2.3 m"),
+        ({"release.height": "two"}, "release.height = 'two': must be between 1.95 and 2.3 m"),
+        ({"hoop.height": 3.0}, "hoop.height is not drawn; choose from release.height"),
+    ],
+)
+def test_a_start_that_is_not_drawn_is_refused(start: dict[str, object], said: str):
+    for env in (TaskEnv("free-throw"), sandbox.gym.TaskVectorEnv(2, "free-throw")):
+        with pytest.raises(RequestError, match=said):
+            env.reset(options={"start": start})
 
 
 def test_attempts_of_several_shots_go_on_side_by_side(tmp_path: Path):
