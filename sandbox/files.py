@@ -149,6 +149,20 @@ def read_given(path: Path, most: int) -> bytes:
         raise RequestError(f"{path}: cannot be read: {reason(error)}") from None
 
 
+def lock(file: TextIO) -> bool:
+    """Lock a file for this process, until it is closed or the process ends for any reason; returns whether no other has
+    it."""
+    try:
+        import fcntl
+    except ImportError:  # not a POSIX system: two programs that write are not detected
+        return True
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    return True
+
+
 @contextmanager
 def atomic_write(path: Path) -> Iterator[TextIO]:
     """A text file that appears under its name only when complete; a device such as /dev/stdout is written directly."""

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
 from sandbox.errors import RequestError
-from sandbox.files import json_ready, writing
+from sandbox.files import json_ready, lock, writing
 from sandbox.text import csv_text
 
 if TYPE_CHECKING:
@@ -99,7 +99,7 @@ class RowFile:
         while True:
             with ExitStack() as opened:
                 mark = opened.enter_context(self._mark_path.open("a+", encoding="utf-8", errors="replace"))
-                if not _lock(mark):
+                if not lock(mark):
                     raise RequestError(f"--out {self.path}: another sweep is writing to this file; choose another name")
                 # the other process may have finished and removed its marker just now: then begin again
                 if self._mark_path.exists() and os.path.samestat(os.fstat(mark.fileno()), self._mark_path.stat()):
@@ -183,19 +183,6 @@ class RowFile:
                 f"--out {self.path}: its content would be kept as {self.before}, but that is a file of yours; "
                 "choose another name"
             )
-
-
-def _lock(file: TextIO) -> bool:
-    """Lock a file for this process, until it is closed or the process ends for any reason."""
-    try:
-        import fcntl
-    except ImportError:  # not a POSIX system: two sweeps writing to one file are not detected
-        return True
-    try:
-        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        return False
-    return True
 
 
 def _line(cells: Iterable[str]) -> str:

@@ -4,16 +4,21 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager, suppress
 from datetime import date
 from math import isfinite
 from pathlib import Path
+from time import monotonic, sleep
 from typing import Any, NamedTuple
 
-from sandbox.files import atomic_write, reason
+from sandbox.files import atomic_write, lock, reason
 
 FORMAT, VERSION = "sandbox best list", 1
 #: So many scores are kept of each task.
 MOST = 5
+#: How long another window is waited for, in s.
+PATIENCE = 3.0
 
 
 def usual_file() -> Path:
@@ -32,14 +37,17 @@ class Best(NamedTuple):
 
 class BestList:
     """The best scores by task. A file that is damaged, or of another version, is set aside under another name; what is
-    wrong is in ``problem``, a line for the player, until he was told."""
+    wrong is in ``problem``, a line for the player, until he was told. What cannot be written is written with the next
+    score that can."""
 
     def __init__(self, file: Path | None = None) -> None:
         """Without a file it lasts as long as the window."""
         self.file = file
         self.problem = ""
-        self.tasks: dict[str, list[Best]] = {}
+        self._saved: dict[str, list[Best]] = {}  # in the file, as far as known
+        self._unsaved: list[tuple[str, Best, bool]] = []  # of a task; whether lower is better
         self._read()
+        self.tasks = dict(self._saved)
 
     def of(self, task: str) -> list[Best]:
         """The best scores at a task, the best first."""
@@ -51,13 +59,37 @@ class BestList:
 
     def add(self, task: str, score: float, stars: int, lower_is_better: bool) -> int:
         """Add a score, and write the list; returns its place from 1, or 0 if it is not among the best."""
-        self._read()  # another window may have written meanwhile
-        new = Best(score, stars, date.today().isoformat())
-        before = [best for best in self.of(task) if (best.score <= score if lower_is_better else best.score >= score)]
-        after = self.of(task)[len(before) :]
-        self.tasks[task] = [*before, new, *after][:MOST]
-        self._write()
+        self._unsaved.append((task, Best(score, stars, date.today().isoformat()), lower_is_better))
+        with self._alone():
+            self._read()  # another window may have written meanwhile
+            self.tasks = dict(self._saved)
+            place = 0
+            for each in self._unsaved:
+                place = self._put(*each)
+            self._write()
+        return place
+
+    def _put(self, task: str, new: Best, lower_is_better: bool) -> int:
+        """Put a score where it belongs among those of its task; returns its place."""
+        sign = -1.0 if lower_is_better else 1.0
+        before = [best for best in self.of(task) if sign * best.score >= sign * new.score]
+        self.tasks[task] = [*before, new, *self.of(task)[len(before) :]][:MOST]
         return len(before) + 1 if len(before) < MOST else 0
+
+    @contextmanager
+    def _alone(self) -> Iterator[None]:
+        """Hold off other windows between reading and writing, as far as the system can."""
+        if self.file is None:
+            yield
+            return
+        with ExitStack() as opened:
+            with suppress(OSError):  # writing reports it
+                self.file.parent.mkdir(parents=True, exist_ok=True)
+                mark = opened.enter_context(self.file.with_suffix(".lock").open("a", encoding="utf-8"))
+                end = monotonic() + PATIENCE
+                while not lock(mark) and monotonic() < end:
+                    sleep(0.005)
+            yield
 
     def _read(self) -> None:
         """Read the file, if there is one."""
@@ -74,8 +106,8 @@ class BestList:
             self._set_aside()
             return
         try:
-            self.tasks = _tasks_in(json.loads(text))
-        except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
+            self._saved = _tasks_in(json.loads(text))
+        except (ValueError, TypeError, KeyError, AttributeError, RecursionError, OverflowError):
             self._set_aside()
 
     def _set_aside(self) -> None:
@@ -106,6 +138,8 @@ class BestList:
                 json.dump({"format": FORMAT, "version": VERSION, "tasks": tasks}, file, indent=1)
         except OSError as error:
             self.problem = f"{self.file}: the best list cannot be written: {reason(error)}"
+        else:
+            self._saved, self._unsaved = self.tasks, []
 
 
 def _tasks_in(kept: Any) -> dict[str, list[Best]]:

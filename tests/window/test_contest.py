@@ -7,6 +7,7 @@ from collections.abc import Callable
 from concurrent.futures import wait
 from dataclasses import replace
 from pathlib import Path
+from threading import Thread
 
 import pygame
 import pytest
@@ -417,11 +418,39 @@ class TestTheBestList:
         other.add("b", 2.0, 2, lower_is_better=False)
         assert set(BestList(tmp_path / "best.json").tasks) == {"a", "b"}
 
+    def test_two_windows_that_write_at_once_wait_for_each_other(self, tmp_path, monkeypatch):
+        one, other = BestList(tmp_path / "best.json"), BestList(tmp_path / "best.json")
+        write, meanwhile = one._write, Thread(target=lambda: other.add("b", 2.0, 2, lower_is_better=False))
+
+        def written_later():
+            meanwhile.start()
+            meanwhile.join(0.1)
+            write()
+
+        monkeypatch.setattr(one, "_write", written_later)
+        one.add("a", 1.0, 1, lower_is_better=False)
+        meanwhile.join()
+        assert set(BestList(tmp_path / "best.json").tasks) == {"a", "b"}
+
+    def test_what_cannot_be_written_is_written_with_the_next_score(self, tmp_path):
+        best = BestList(tmp_path / "best.json")
+        best.add("a", 1.0, 1, lower_is_better=False)
+        (tmp_path / "best.json").unlink()
+        (tmp_path / "best.json").mkdir()  # stands for a full disk
+        best._read = lambda: None  # which can be read
+        best.add("a", 2.0, 1, lower_is_better=False)
+        assert "cannot be written" in best.problem
+        (tmp_path / "best.json").rmdir()
+        assert best.add("b", 1.0, 1, lower_is_better=False) == 1
+        assert [each.score for each in BestList(best.file).of("a")] == [2.0, 1.0]
+
     @pytest.mark.parametrize(
         "text",
         [
             "",
             "{",
+            '{"format": "sandbox best list", "version": 1, "tasks": {"a": [{"score": 1%s, "stars": 1, "day": ""}]}}'
+            % (400 * "0"),
             "[1]",
             "\x00",
             '{"format": "sandbox best list", "version": 2, "tasks": {}}',
