@@ -344,6 +344,21 @@ def test_a_force_that_divides_by_nothing_is_the_scenes_own_error():
         simulate(Setup([ball], duration=1.0), resolve())
 
 
+def test_a_force_that_overflows_in_a_trial_step_shortens_it():
+    """A float's ``**`` raises where its ``*`` is inf: both make the same run."""
+    powers = lambda t, p, v, s: (-1e6 * v[0] ** 3, 0.0)  # noqa: E731
+    products = lambda t, p, v, s: (-1e6 * (v[0] * v[0] * v[0]), 0.0)  # noqa: E731
+    made = [
+        simulate(Setup([shot(force, velocity=(1e3, 0.0))], duration=0.01), resolve()) for force in (powers, products)
+    ]
+    assert made[0].state("cue", 0.01)[:4] == pytest.approx(made[1].state("cue", 0.01)[:4], rel=1e-4)
+
+
+def test_a_force_that_always_overflows_keeps_its_traceback():
+    with pytest.raises(OverflowError, match="out of range"):
+        simulate(Setup([shot(lambda t, p, v, s: (1e300 ** (2.0 if t > 0.0 else 1.0), 0.0))], duration=1.0), resolve())
+
+
 def test_points_may_be_given_as_lists_and_arrays():
     post = Surface("post", Circle([2.0, 0.0], 0.1), 0.5, 0.5)
     floor = Surface("floor", Segment(np.array([-9.0, -1.0]), [9.0, -1.0]), 0.5, 0.5)

@@ -60,7 +60,13 @@ class StepControl:
         Returns whether it is accepted, the step in s to try next, after it or in its place, and the state and the
         acceleration at its end.
         """
-        end, last, error = step(t, state, acceleration, h)
+        try:
+            end, last, error = step(t, state, acceleration, h)
+        except OverflowError:  # of ``x ** 2`` in a scene's force, where a step that is too long leads; x * x is inf
+            shorter = AFTER_NONFINITE * h
+            if shorter < shortest(t):
+                raise
+            return False, shorter, state, acceleration
         if error is None:
             too_long = stiff(state, end, acceleration, last, h)
             longer = where(h >= wanted, clip(2.0 * h, 0.0, self._step), wanted)
