@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
+from hypothesis.internal.conjecture import providers
 
 from sandbox.cli import main
 from tests.browser import browser  # noqa: F401
@@ -19,6 +20,8 @@ for ignored, handler in ((signal.SIGINT, signal.default_int_handler), (signal.SI
 
 settings.register_profile("steady", derandomize=True, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("steady")
+# or it also tries numbers that it finds in the modules imported so far: others in each order of the tests
+providers._get_local_constants = lambda: providers._local_constants
 
 
 @pytest.fixture
