@@ -246,7 +246,7 @@ def writing(option: str, path: Path) -> Iterator[None]:
 
 @contextmanager
 def no_empty_folder(path: Path) -> Iterator[None]:
-    """If the work inside fails, remove the empty folders that it made on the way to ``path``."""
+    """Remove the empty folders that the work inside made on the way to ``path``, if it fails."""
     missing = [folder for folder in (path, *path.parents) if not folder.exists()]
     try:
         yield

@@ -21,6 +21,9 @@ MODULES = {
     "engine.path": "engine.paths.path",
     "engine.arc": "engine.paths.arc",
     "engine.acting": "engine.motion.forces_on_ball",
+    "engine.meeting": "engine.contact.manifold",
+    "engine.touch": "engine.contact.touch",
+    "engine.track": "engine.motion.moving_ball",
 }
 
 _ELEMENTWISE = {"least": "minimum", "most": "maximum", "choose": "where"}
@@ -54,6 +57,9 @@ NAMES: dict[str, dict[str, str]] = {
         "stamp": "text_mask",
     },
     "physics.elementwise": _ELEMENTWISE,
+    "picture.lettering": {"stamp": "text_mask"},
+    "picture.path": {"Mark": "ImpactMark"},
+    "picture.views": {"nice": "round_number_above"},
     "sport.facts": _FACTS,
     "sport.readings": _READINGS,
     "sport.amounts": _AMOUNTS,
@@ -82,6 +88,7 @@ FIELDS: dict[str, dict[str, str]] = {
     "Controls": {"strongest": "full_pull_speed", "also": "set_on_pull"},
     "Handle": {"first": "prerequisites"},
     "Spread": {"least": "minimum"},
+    "Check": {"unsettled": "changed_by_nudge"},
 }
 
 #: Options of a scene's picture, by old name.
@@ -122,7 +129,8 @@ class _MovedModules:
     def find_spec(name: str, path: object, target: object = None) -> None:
         now = MODULES.get(name.removeprefix(_PACKAGE))
         if now is not None:
-            raise ModuleNotFoundError(f"{name} is now {now.replace('engine', f'{_PACKAGE}engine')}", name=name)
+            where = now.replace("engine", f"{_PACKAGE}engine")
+            raise ModuleNotFoundError(f"{name} is now {where}; a scene imports from sandbox.kit", name=name)
 
 
 def name_old_modules() -> None:

@@ -99,7 +99,7 @@ def _more(run: SceneRun, ball: Ball, t: float, state: Sequence[float], more: Seq
 
 
 def _gravity(ball: Ball) -> float:
-    """Of a ball, in m/s^2; 0 without its weight."""
+    """Return the gravity that acts on a ball, in m/s^2; 0 without its weight."""
     return float(sum(getattr(force, "gravity", 0.0) for force in ball.forces))
 
 

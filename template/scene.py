@@ -81,7 +81,7 @@ def build(parameters: Parameters) -> Setup:
 
 landing = first_contact_with("floor")  # the ball just before it first comes down
 
-#: Fact(key, label, unit, how): the results of a run, the most important first; None for what did not happen.
+#: Fact(key, label, unit, compute): the results of a run, the most important first; None for what did not happen.
 FACTS = (
     Fact("distance", "distance", "m", fact_from(landing, "x"), final_when="floor"),
     Fact("apex", "apex", "m", apex),

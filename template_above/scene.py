@@ -82,7 +82,7 @@ def _to_cup(run: Run, parameters: Parameters) -> float | None:
     return None if run.caught_at("ball") is not None else dist(stop, cup)
 
 
-# Fact(key, label, unit, how): the card, JSON, pictures, the window and charts are made from this list.
+# Fact(key, label, unit, compute): the card, JSON, pictures, the window and charts are made from this list.
 FACTS = (
     Fact("to_cup", "to the cup", "m", _to_cup),
     Fact("bounces", "bounces", "", lambda run, _: sum(event.kind == "impact" for event in run.events)),

@@ -1,4 +1,4 @@
-"""Which room may import which: ``physics <- engine <- scene <- picture, lab, tasks, workers <- window <- cli``."""
+"""Which package may import which: ``physics <- engine <- scene <- picture, lab, tasks, workers <- window <- cli``."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
 
-#: A module may import from its own room and from rooms of a lower floor. ``display``, ``errors`` and
+#: A module may import from its own package and from packages of a lower floor. ``display``, ``errors`` and
 #: ``renamed`` are open to all.
 FLOORS = {
     "display": 0,
@@ -52,7 +52,7 @@ FLOORS = {
 }
 SHARED_FLOORS = (3, 6)  # single modules, which may import each other
 
-#: Libraries that only some rooms may import; scenes/*/picture.py counts as picture.
+#: Libraries that only some packages may import; scenes/*/picture.py counts as picture.
 OWNERS = {"pymunk": {"engine"}, "pygame": {"picture", "window", "golden"}, "PIL": {"picture", "page", "golden"}}
 
 SCENES = sorted(path.parent.name for path in (ROOT / "scenes").glob("*/scene.py"))
@@ -68,18 +68,18 @@ def imported(tree: ast.AST, package: str) -> Iterator[str]:
             base = package.split(".")[: len(package.split(".")) + 1 - node.level] if node.level else []
             module = ".".join([*base, *([node.module] if node.module else [])])
             yield from (f"{module}.{alias.name}" for alias in node.names)
-        elif isinstance(node, ast.Constant) and str(node.value).startswith("sandbox.") and room(str(node.value)):
+        elif isinstance(node, ast.Constant) and str(node.value).startswith("sandbox.") and package_of(str(node.value)):
             yield str(node.value)  # for import_module
 
 
-def room(module: str) -> str:
+def package_of(module: str) -> str:
     """``"engine"`` for ``sandbox.engine.paths.run``; ``""`` for ``sandbox`` itself."""
     name = [*module.split("."), ""][1]
     return name if name in FLOORS else ""  # sandbox.load is sandbox/__init__.py
 
 
 def broken_rules(source: str, where: str, own: str) -> list[str]:
-    """What a module of the room ``own`` imports or says that it must not."""
+    """What a module of the package ``own`` imports or says that it must not."""
     tree = ast.parse(source)
     broken = []
     for module in imported(tree, f"sandbox.{own}"):
@@ -89,7 +89,7 @@ def broken_rules(source: str, where: str, own: str) -> list[str]:
         if top in ("scenes", "sandbox_scenes", "tests"):
             broken.append(f"{where}: imports {module}")
         if top == "sandbox":
-            other = room(module)
+            other = package_of(module)
             neighbours = FLOORS[own] == FLOORS[other] and (own == other or FLOORS[own] in SHARED_FLOORS)
             if not neighbours and FLOORS[other] >= FLOORS[own]:
                 broken.append(f"{where}: {own} imports {module}")
@@ -105,7 +105,7 @@ def test_modules_look_only_downstairs():
     broken = []
     for path in sorted((ROOT / "sandbox").rglob("*.py")):
         own = path.relative_to(ROOT / "sandbox").with_suffix("").parts[0].replace("__init__", "")
-        assert own in FLOORS, f"{path}: a new room needs its floor in FLOORS"
+        assert own in FLOORS, f"{path}: a new package needs its floor in FLOORS"
         broken += broken_rules(path.read_text("utf-8"), str(path.relative_to(ROOT)), own)
     assert broken == []
 
@@ -255,8 +255,8 @@ def test_no_two_modules_of_the_engine_need_each_other():
 def test_engine_and_physics_run_no_python_from_strings():
     written = [
         f"{path.relative_to(ROOT)}, line {node.lineno}"
-        for room in ("engine", "physics")
-        for path in sorted((ROOT / "sandbox" / room).rglob("*.py"))
+        for package in ("engine", "physics")
+        for path in sorted((ROOT / "sandbox" / package).rglob("*.py"))
         for node in ast.walk(ast.parse(path.read_text("utf-8")))
         if isinstance(node, ast.Name) and node.id in ("exec", "eval", "compile")
     ]

@@ -47,7 +47,7 @@ _EVENTS_OF_A_CLUSTER = 64
 
 
 class Record:
-    """How a run came about: its setup, the changes made on the way, and checkpoints, which a pickled record does
+    """The origin of a run: its setup, the changes made on the way, and checkpoints, which a pickled record does
     without."""
 
     def __init__(self, setup: Setup, accuracy: Accuracy) -> None:
@@ -149,7 +149,7 @@ class LiveSimulation(Simulation):
 
     @property
     def ended(self) -> str:
-        """How the run has ended: "until" or "duration", "rest" while nothing moves, "" while something does."""
+        """How it has ended: "until" or "duration"; "rest" while nothing moves, "" while something does."""
         return self._ended or ("until" if self._over else "" if self._goes_on else "rest")
 
     @property

@@ -164,7 +164,7 @@ def as_text(tried: Sequence[Tried]) -> list[str]:
 
 
 def summary(tried: Sequence[Tried]) -> str:
-    """How many fall, in a sentence."""
+    """Count those that fall, in a sentence."""
     sharp = [one for one in tried if one.has_teeth]
     fifth = sum(not one.not_shown(*FIFTH) for one in sharp)
     without = f"{len(sharp)} of {len(tried)} rows that hold fall without their effect"

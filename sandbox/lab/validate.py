@@ -196,7 +196,7 @@ def as_text(rows: Sequence[Compared], given: str = "published") -> list[str]:
 
 
 def counted(rows: Sequence[Compared]) -> str:
-    """How many of the numbers that were measured, and not fitted, hold: the count of README.md and of the report."""
+    """Count the numbers that hold, of those measured and not fitted: the count of README.md and of the report."""
     return f"{_holding([row for row in rows if row.kind in COUNTED])} measured numbers"
 
 

@@ -12,6 +12,7 @@ import pygame
 
 from sandbox.picture.painter import scratch
 from sandbox.picture.palette import ASSETS, Colour
+from sandbox.renamed import name_old_names
 
 #: Height of the letters in px on a picture of 720 rows, and the least at which they can be read.
 SIZES = {"small": (14.5, 11), "medium": (20, 14), "large": (40, 24)}
@@ -160,3 +161,6 @@ class Labels:
                 if hidden == 0:
                     break
         return best and self.take(best)
+
+
+name_old_names(__name__)

@@ -65,7 +65,7 @@ class Picture(AboveView[Group]):
             sheet.label(name, "small", self._spots(shape, camera, room), COLOURS["surface"])
 
     def _spots(self, shape: Segment | Circle, camera: Camera, room: pygame.FRect) -> list[tuple[float, float, str]]:
-        """Where the name of a surface may stand, beside the part of it that is in sight, in px."""
+        """Return spots for the name of a surface, beside the part of it that is in sight, in px."""
         off = max(shape.radius * camera.scale, THINNEST * self.unit) + 4 * self.unit
         ends = (shape.center, shape.center) if isinstance(shape, Circle) else (shape.a, shape.b)
         a, b = (camera.pixel(*end) for end in ends)

@@ -277,7 +277,7 @@ class View(BallDrawing[P]):
 
     @property
     def caveat(self) -> str:
-        """What is not validated."""
+        """The warning about what is not validated."""
         return self.CAVEAT
 
     def _stretched(self, camera: Camera) -> list[str]:

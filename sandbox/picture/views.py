@@ -39,6 +39,7 @@ from sandbox.picture.places import (
 from sandbox.picture.sheet import Entry, Sheet, SideRows
 from sandbox.picture.side import Length, NetView, Place, SideView
 from sandbox.picture.view import View
+from sandbox.renamed import name_old_names
 from sandbox.sport.amounts import round_number_above
 
 __all__ = [
@@ -100,3 +101,5 @@ __all__ = [
     "turf",
     "turned",
 ]
+
+name_old_names(__name__)

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
 
 from sandbox.errors import RequestError, RunError
+from sandbox.renamed import with_old_fields_named
 from sandbox.scene.scene import Scene, as_scene
 from sandbox.scene.scene_run import SceneRun
 from sandbox.text import shortened
@@ -114,6 +115,7 @@ def simulate_at(
     return SceneRun.of(run, scene, scene.result(run))
 
 
+@with_old_fields_named
 @dataclass(frozen=True)
 class Check:
     """How accurate a result is, according to runs that should agree with it.

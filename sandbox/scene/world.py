@@ -26,7 +26,7 @@ _FORM = "sandbox world 1"
 
 
 class _Saved(NamedTuple):
-    """What a save holds. The scene comes before the record: reading it imports the module that the rest refers to."""
+    """The content of a save. The scene comes before the record, since reading it imports the module of the rest."""
 
     form: str
     scene: Scene | None
@@ -108,7 +108,7 @@ class World:
 
     @property
     def events(self) -> list[Event]:
-        """What has happened in the last step, in order of time; and what ``apply`` has caused before it."""
+        """The events of the last step, in order of time, and those that ``apply`` has caused before it."""
         return list(self._events)
 
     def step(self, dt: float) -> None:

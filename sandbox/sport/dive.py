@@ -23,8 +23,8 @@ class Dive(Group):
     reach: float = quantity(..., "m", 0, 20, "how far he goes at most")
 
     def aside(self, stand: Vector, ball: Vector, velocity: Vector, low: float, high: float) -> float:
-        """How far in m he goes, along y, from where he stands: to where a ball that is seen to have this place and
-        velocity (m, m/s) comes past him, if it went straight; no farther than from ``low`` to ``high`` (m)."""
+        """Return how far in m he goes, along y, from where he stands: to where a ball that is seen to have this place
+        and velocity (m, m/s) comes past him, if it went straight; no farther than from ``low`` to ``high`` (m)."""
         away = stand[0] - ball[0]
         if velocity[0] <= 0.0 or away <= 0.0:
             return 0.0
@@ -41,6 +41,6 @@ class Dive(Group):
 
 
 def place_of(surfaces: Sequence[Surface], name: str, t: float) -> Vector | None:
-    """Where in m the round surface of this name is at time t in s; None if there is none."""
+    """Return the middle in m of the round surface of this name at time t in s; None if there is none."""
     shape = next((surface.at(t).shape for surface in surfaces if surface.name == name), None)
     return shape.center if isinstance(shape, Circle) else None

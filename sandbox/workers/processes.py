@@ -160,7 +160,7 @@ def _started() -> tuple[Any, Connection]:
 
 @contextmanager
 def _starting() -> Iterator[None]:
-    """What processes that are started here inherit."""
+    """Set what processes that are started inside inherit."""
     with _STARTING:
         before = os.environ.get(_SAFE_PATH)
         os.environ[_SAFE_PATH] = "1"

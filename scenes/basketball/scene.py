@@ -148,7 +148,7 @@ class Parameters(Flight):
 
     @property
     def room(self) -> Any:
-        """How far in m the ball's centre may be from the middle of the ring, at its height, without touching it."""
+        """The greatest distance in m of the ball's centre from the middle of the ring, at its height, untouched."""
         return 0.5 * self.hoop.inner_diameter - self.ball.radius
 
     @property
@@ -324,7 +324,7 @@ def on_side(t: float, run: Run, parameters: Parameters) -> bool:
 
 
 def aside_at(t: float, run: Run, parameters: Parameters) -> float:
-    """How far in m the ball is beside the middle of the ring at time t in s, positive to the left.
+    """Return how far in m the ball is beside the middle of the ring at time t in s, positive to the left.
 
     It flies straight on to the side, and the ring is met near its middle. The board leaves it the share 1 / (1 + k) of
     its sideways speed, k its moment of inertia over m r^2: it grips, since that speed is small.

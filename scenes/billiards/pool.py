@@ -28,8 +28,8 @@ def free_place(taken: Collection[Place], wanted: Iterable[Place]) -> Place:
 
 
 def on_long_string(taken: Collection[Place]) -> Place:
-    """Where a ball is spotted: at the foot spot, or as near to it as is free on the line towards the foot rail; or then
-    on the line towards the head."""
+    """Return the place where a ball is spotted: the foot spot, or as near to it as is free on the line towards the foot
+    rail; or then on the line towards the head."""
     foot, room = 0.25 * LENGTH, 0.5 * LENGTH - RADIUS - 1e-3
     steps = [0.001 * step for step in range(round(1000 * (room - foot)))]
     back = [0.001 * step for step in range(round(1000 * (foot + room)))]
@@ -134,7 +134,7 @@ class Pool(Match):
 
 
 def _cushions_after(outcome: Outcome) -> int:
-    """How often balls met a cushion after the cue ball met the first of them; before that only it moves."""
+    """Count how often balls met a cushion after the cue ball met the first of them; before that only it moves."""
     before = 0
     for name in outcome["touches"]:
         if name == outcome["first_contact"]:

@@ -39,7 +39,7 @@ class Box(Moving):
     """Something that is not round; it lies as ``angle`` says."""
 
     shape: Literal["box", "ellipse", "capsule", "pin"] = choice("box", "its outline")
-    angle: float = quantity(0.0, "deg", -360, 360, "how far it is turned, counter-clockwise")
+    angle: float = quantity(0.0, "deg", -360, 360, "its orientation, counter-clockwise")
     width: float = quantity(0.1, "m", 0.001, 20, "along its own x")
     height: float = quantity(0.1, "m", 0.001, 20, "along its own y")
 

@@ -102,7 +102,7 @@ class Picture(AboveView[Parameters]):
             painter.surface.fill(COLOURS["hall"], (left, high, right - left, low - high))
 
     def place_of(self, name: str, t: float) -> Point:
-        """Where someone on the ice is at time t in s, in m."""
+        """Return the place of someone on the ice at time t in s, in m."""
         dives = place_of(self.run.setup.surfaces, name, t)
         if dives is not None:
             return dives

@@ -207,7 +207,7 @@ def _felt(parameters: Parameters) -> Cloth | Strips:
     uphill = felt.ramp_rise / (ramp[1] - ramp[0]) if ramp[1] > ramp[0] else 0.0
 
     def law(x: float) -> Cloth:
-        """What holds at x m along the lane."""
+        """Return the felt at x m along the lane."""
         resistance = stimp_resistance(felt.rough_stimp if rough[0] < x < rough[1] else felt.stimp)
         usual = felt.sliding, resistance, felt.spinning, parameters.gravity
         if not ramp[0] < x < ramp[1] or uphill == 0.0:
@@ -236,7 +236,7 @@ def _to_hole(run: Run, parameters: Parameters) -> float | None:
 
 
 def _hits(run: Run, *names: str) -> int:
-    """How often the ball hit one of these."""
+    """Count how often the ball hit one of these."""
     return sum(event.kind == "impact" and event.partner in names for event in run.events)
 
 

@@ -255,7 +255,7 @@ def strokes(key: str, held: Sequence[Vector], pivot: Vector, sign: float, ends: 
 
 
 def hits(events: Sequence[Event], name: str) -> int:
-    """How often the ball hit things of this name."""
+    """Count how often the ball hit things of this name."""
     return sum(event.kind == "impact" and event.partner == name for event in events)
 
 
@@ -271,7 +271,7 @@ def lost(run: Run, parameters: Parameters) -> bool:
 
 
 def flips(run: Run, parameters: Parameters) -> int:
-    """How many strokes up struck the ball."""
+    """Count the strokes up that struck the ball."""
     it, struck = parameters.flippers, 0
     for name, held in (("left flipper", it.left), ("right flipper", it.right)):
         times = [event.t for event in run.events if event.kind == "impact" and event.partner == name]

@@ -73,7 +73,7 @@ class Picture(AboveView[Parameters]):
         """Nothing moves but the keeper, who is drawn as a person."""
 
     def keeper_at(self, t: float) -> tuple[float, float]:
-        """Where the keeper is at time t in s, in m."""
+        """Return the place of the keeper at time t in s, in m."""
         dives = place_of(self.run.setup.surfaces, "keeper", t)
         if dives is not None:
             return dives

@@ -222,7 +222,7 @@ class PosedObstacle(Obstacle):
 
 
 class Frame:
-    """What moves with a surface along one arc of its motion: its coordinates are those of the surface without it."""
+    """The frame that moves with a surface along one arc of its motion; in it the surface stands still."""
 
     def __init__(self, arc: Arc, about: Vector) -> None:
         self.arc = arc

@@ -86,7 +86,7 @@ class PymunkWorld:
             self.space.add(shape)
 
     def passed(self, start: Vector, end: Vector) -> int | None:
-        """Which surface a point goes through on its straight way, by index, or None."""
+        """Return the index of the surface that a point goes through on its straight way, or None."""
         met = self.space.segment_query_first(start, end, 0.0, _ONLY_SURFACES)
         return None if met is None else self.surface_of[met.shape]
 

@@ -58,7 +58,7 @@ _FAR = 1e3
 
 
 class Unresolved(RunError):
-    """A contact without an end: something presses the balls together, or through each other."""
+    """A contact that does not end: something presses the balls together, or through each other."""
 
 
 class TooDeep(Unresolved):

@@ -17,8 +17,8 @@ from sandbox.physics.checks import check, short
 
 
 class Placing(NamedTuple):
-    """Where a motion has taken its point ``about``, in m, and how far it has turned the surface, in rad; or the rates
-    of these, in m/s and rad/s.
+    """The place in m to which a motion has taken its point ``about``, and the angle in rad by which it has turned the
+    surface; or the rates of these, in m/s and rad/s.
 
     >>> from sandbox import Turning
     >>> Turning((1.0, 0.0), rate=3.0).rates(0.5)
@@ -44,7 +44,7 @@ class Motion(Protocol):
         """The point of the surface that is placed, in m, and about which it turns."""
 
     def place(self, t: float) -> Placing:
-        """Where that point is at time t in s, in m, and how far the surface has turned, in rad."""
+        """Return the place in m of that point at time t in s, and the angle in rad that the surface has turned by."""
 
     def rates(self, t: float) -> Placing:
         """The derivative of ``place``, in m/s and rad/s."""

@@ -18,7 +18,7 @@ CALLED = {"magnus": "lift", "bullet drag": "drag"}
 
 
 class Turned(tuple[Any, Any]):
-    """The position of a body, (x, y) in m, which also says how far it is turned."""
+    """The position of a body, (x, y) in m, with its orientation."""
 
     angle: float  # rad
 

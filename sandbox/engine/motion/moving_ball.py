@@ -177,7 +177,7 @@ class MovingBall:
 
     @property
     def held_by(self) -> Sequence[Obstacle]:
-        """What it is in sustained contact with, and so does not meet."""
+        """The obstacles that it is in sustained contact with, and so does not meet."""
         return () if self.contact is None else (self.contact.obstacle,)
 
     def arrive(self, t: float, state: State) -> None:

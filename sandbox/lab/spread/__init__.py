@@ -99,7 +99,7 @@ class Spread:
 
     @property
     def failures(self) -> int:
-        """How many of them could not be computed."""
+        """The number of them that could not be computed."""
         return sum(place < self.samples for place in self.runs.errors)
 
     def values(self, fact: str) -> np.ndarray:
@@ -138,7 +138,7 @@ class Spread:
 
     @cached_property
     def ellipses(self) -> dict[str, Ellipse]:
-        """Where each ball comes to lie, of those that move in two directions."""
+        """The ellipse in which each ball comes to lie, by name, of those that move in two directions."""
         found = {}
         for name, values in self.runs.facts.items():
             if self.scene.units[name] != "m":  # a velocity is no place
@@ -189,8 +189,8 @@ class Spread:
 
     @cached_property
     def needs(self) -> list[Need]:
-        """How many random shots a certainty needs: what was asked for, or 5 % and 1 % of the share that scores, and a
-        tenth of the standard deviation of the most important number."""
+        """The random shots that each certainty needs: what was asked for, or 5 % and 1 % of the share that scores, and
+        a tenth of the standard deviation of the most important number."""
         asked = [*self.within.items()]
         if not asked:
             scores = self.scene.controls.scores

@@ -190,7 +190,7 @@ class Points:
     pairs: int  # shots of B, and of each cause after it; a power of 2, or 0
 
     def rows(self, matrix: int) -> slice:
-        """Where the shots of B (0), or those of A with the first, second... cause from B are."""
+        """Return the places of the shots of B (0), or of those of A with the first, second... cause from B."""
         start = self.samples + matrix * self.pairs
         return slice(start, start + self.pairs)
 

@@ -1,4 +1,4 @@
-"""How many shots a given certainty needs: what is asked for, and the answer."""
+"""The number of shots that a given certainty needs: what is asked for, and the answer."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from sandbox.text import no_such_result
 
 @dataclass(frozen=True)
 class Need:
-    """How many random shots tell a fact to within +-``within``, in 95 of 100 cases."""
+    """The number of random shots that tell a fact to within +-``within``, in 95 of 100 cases."""
 
     fact: str
     within: float  # a share from 0 to 1, or in the fact's unit

@@ -101,7 +101,7 @@ def title(spread: Spread) -> str:
 
 
 def about(spread: Spread) -> str:
-    """What scatters, and by how much."""
+    """Return the parameters that scatter, each with its scatter, as text."""
     return ", ".join(each.as_text() for each in spread.by)
 
 
@@ -215,7 +215,7 @@ def _cause_lines(spread: Spread) -> list[str]:
 
 
 def need_rows(spread: Spread) -> list[tuple[str, str]]:
-    """How many random shots each certainty needs."""
+    """Return rows of a certainty and the random shots that it needs."""
     return [(f"{name_of(spread, it.fact)} within {_width(spread, it)}", f"{it.shots:,}") for it in spread.needs]
 
 

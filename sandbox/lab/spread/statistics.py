@@ -31,7 +31,7 @@ class Numbers:
 
     @property
     def count(self) -> int:
-        """How many shots have it: it may not happen in all."""
+        """The number of shots that have it: it may not happen in all."""
         return len(self.values)
 
     @property
@@ -141,7 +141,7 @@ def _half_width(share: float, shots: int) -> float:
 
 
 def shots_for_share(share: float, within: float) -> int:
-    """How many random shots tell a share to within +-``within`` in 95 of 100 cases, by Wilson's interval."""
+    """Return the random shots that tell a share to within +-``within`` in 95 of 100 cases, by Wilson's interval."""
     low, high = 0, 1
     while _half_width(share, high) > within:
         low, high = high, 2 * high
@@ -152,8 +152,8 @@ def shots_for_share(share: float, within: float) -> int:
 
 
 def shots_for_mean(sd: float, within: float) -> int:
-    """How many random shots tell a mean to within +-``within`` in 95 of 100 cases: ``(1.96 sd / within)^2``, and at
-    least 2."""
+    """Return the random shots that tell a mean to within +-``within`` in 95 of 100 cases: ``(1.96 sd / within)^2``, and
+    at least 2."""
     return max(2, ceil((Z95 * sd / within) ** 2 * (1.0 - 1e-12)))
 
 
