@@ -128,6 +128,12 @@ def json_text(value: Any) -> str:
     return json.dumps(json_ready(value), allow_nan=False, ensure_ascii=False)
 
 
+def state_folder() -> Path:
+    """The folder in which the program keeps what it remembers from one time to the next; it need not be there yet."""
+    home = os.environ.get("XDG_STATE_HOME") or os.environ.get("LOCALAPPDATA") or Path.home() / ".local" / "state"
+    return Path(home) / "sports-sandbox"
+
+
 def is_given(path: Path) -> bool:
     """True if there is a file of that name. Raises RequestError for a folder, and for a pipe or a device, from which a
     reader might wait for ever: it is not passed over."""

@@ -21,9 +21,10 @@ PACKAGES = ("starlette", "uvicorn", "websockets", "segno")
 @click.option("--port", metavar="N", type=click.IntRange(0, 65535), help="Port; 0 for any.  [default: 8765 if free]")
 @click.option("--share", is_flag=True, help="Let other devices in the network in, not only this computer.")
 @click.option("--jobs", metavar="N", type=click.IntRange(1, 64), help="Processes that compute.  [default: cores + 2]")
+@click.option("--fresh", is_flag=True, help="Make new addresses; by default those of the last 12 hours stay valid.")
 @click.option("--json", "as_json", is_flag=True, help="Print the addresses as one line of JSON.")
 @units_option
-def serve(scenes: tuple[str, ...], port: int | None, share: bool, jobs: int | None, as_json: bool) -> None:
+def serve(scenes: tuple[str, ...], port: int | None, share: bool, jobs: int | None, fresh: bool, as_json: bool) -> None:
     """Play in any browser; with --share on every phone in the room.
 
     All computing is done here. The first address is for players; the second is the teacher's: who is there, one scene
@@ -46,7 +47,7 @@ def serve(scenes: tuple[str, ...], port: int | None, share: bool, jobs: int | No
     from sandbox.serve.server import serve as serve_scenes
     from sandbox.sport.amounts import chosen_units
 
-    serve_scenes(scenes, Options(port, share, chosen_units(), jobs), _json if as_json else _text)
+    serve_scenes(scenes, Options(port, share, chosen_units(), jobs, fresh), _json if as_json else _text)
 
 
 def _json(address: Address) -> None:

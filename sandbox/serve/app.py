@@ -10,7 +10,6 @@ from collections.abc import Collection
 from contextlib import suppress
 from pathlib import Path
 from string import Template
-from typing import NamedTuple
 
 from starlette.applications import Starlette
 from starlette.datastructures import Headers
@@ -22,8 +21,10 @@ from starlette.websockets import WebSocket
 
 from sandbox import resources
 from sandbox.page import templates
-from sandbox.serve.connection import REFUSED, Connection
+from sandbox.serve.connection import REFUSED, Bucket, Connection
+from sandbox.serve.limits import ADDRESSES, REQUEST_BURST, REQUESTS
 from sandbox.serve.room import Room
+from sandbox.serve.tokens import Tokens
 from sandbox.text import csv_text
 
 HERE = Path(__file__).parent
@@ -49,43 +50,50 @@ HEADERS = {
 }
 
 
-class Tokens(NamedTuple):
-    """The tokens that must be in the address, of players and of the teacher, by the names of their pages."""
-
-    play: str
-    teach: str
-
-
 def app_of(room: Room, tokens: Tokens, hosts: Collection[str]) -> ASGIApp:
     """The application. Only requests to ``hosts``, such as ``127.0.0.1:8765``, are answered."""
-    files = _files()
+    site = _Site(room, tokens)
+    routes = [
+        WebSocketRoute("/{token}/talk", site.talk),
+        Route("/{token}/", site.page, methods=["GET"]),
+        Route("/{token}/{name}", site.file, methods=["GET"]),
+    ]
+    return _Guard(Starlette(routes=routes), frozenset(hosts))
 
-    def kind_of(request: Request | WebSocket) -> str | None:
+
+class _Site:
+    """The pages, their files and the WebSocket of one room, for those who have a token."""
+
+    def __init__(self, room: Room, tokens: Tokens) -> None:
+        self.room, self.tokens, self.files = room, tokens, _files()
+
+    def kind_of(self, request: Request | WebSocket) -> str | None:
         """Return the page whose token the address has; None if it has neither."""
-        given = request.path_params["token"].encode()
-        return next(
-            (kind for kind, token in tokens._asdict().items() if hmac.compare_digest(given, token.encode())), None
-        )
+        given, known = request.path_params["token"].encode(), self.tokens._asdict()
+        return next((kind for kind, token in known.items() if hmac.compare_digest(given, token.encode())), None)
 
-    def sent(name: str) -> Response:
-        content, media = files[name]
+    def sent(self, name: str) -> Response:
+        content, media = self.files[name]
         return Response(content, media_type=media)
 
-    async def page(request: Request) -> Response:
-        kind = kind_of(request)
-        return _nothing() if kind is None else sent(f"{kind}.html")
+    async def page(self, request: Request) -> Response:
+        """The page of players or of the teacher."""
+        kind = self.kind_of(request)
+        return _nothing() if kind is None else self.sent(f"{kind}.html")
 
-    async def file(request: Request) -> Response:
-        kind, name = kind_of(request), request.path_params["name"]
+    async def file(self, request: Request) -> Response:
+        """A script, a style or a font; for the teacher the table of shots."""
+        kind, name = self.kind_of(request), request.path_params["name"]
         if kind == "teach" and name == "shots.csv":
-            return Response(_csv(room), media_type="text/csv; charset=utf-8",
+            return Response(_csv(self.room), media_type="text/csv; charset=utf-8",
                             headers={"Content-Disposition": 'attachment; filename="shots.csv"'})  # fmt: skip
-        if kind is None or name not in files or name.endswith(".html"):
+        if kind is None or name not in self.files or name.endswith(".html"):
             return _nothing()
-        return sent(name)
+        return self.sent(name)
 
-    async def talk(socket: WebSocket) -> None:
-        kind = kind_of(socket)
+    async def talk(self, socket: WebSocket) -> None:
+        """Follow the connection of a player or the teacher to its end."""
+        kind = self.kind_of(socket)
         origin, host = socket.headers.get("origin", ""), socket.headers.get("host", "")
         if kind is None or origin != f"http://{host}":
             await socket.close(REFUSED)
@@ -94,38 +102,36 @@ def app_of(room: Room, tokens: Tokens, hosts: Collection[str]) -> ASGIApp:
         connection = Connection(socket)
         writing = asyncio.create_task(connection.write())
         try:
-            await (room.teach(connection) if kind == "teach" else room.play(connection))
+            await (self.room.teach(connection) if kind == "teach" else self.room.play(connection))
         finally:
             connection.is_open = False
             writing.cancel()
             with suppress(asyncio.CancelledError):
                 await writing
 
-    routes = [
-        WebSocketRoute("/{token}/talk", talk),
-        Route("/{token}/", page, methods=["GET"]),
-        Route("/{token}/{name}", file, methods=["GET"]),
-    ]
-    return _Guard(Starlette(routes=routes), frozenset(hosts))
-
 
 class _Guard:
-    """Answers only requests to the known hosts, so that no other site's name can lead here; and sets the headers."""
+    """Answers only requests to the known hosts, so that no other site's name can lead here, and of one address at no
+    more than a rate; and sets the headers."""
 
     def __init__(self, app: ASGIApp, hosts: Collection[str]) -> None:
         self.app, self.hosts = app, hosts
+        self.rates: dict[str, Bucket] = {}  # by address, the latest last
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] not in ("http", "websocket"):
             await self.app(scope, receive, send)
             return
         host = Headers(scope=scope).get("host", "")
+        refused = None if self._may((scope.get("client") or ("",))[0]) else _too_many()
         if host not in self.hosts:
+            refused = _nothing()
+        if refused is not None:
             if scope["type"] == "websocket":
                 await receive()
                 await send({"type": "websocket.close", "code": REFUSED})
             else:
-                await _nothing()(scope, receive, send)
+                await refused(scope, receive, send)
             return
 
         async def with_headers(message: Message) -> None:
@@ -139,6 +145,19 @@ class _Guard:
             await send(message)
 
         await self.app(scope, receive, with_headers)
+
+    def _may(self, address: str) -> bool:
+        """True if a request of this address may be answered now."""
+        rate = self.rates.pop(address) if address in self.rates else Bucket(REQUESTS, REQUEST_BURST)
+        self.rates[address] = rate
+        while len(self.rates) > ADDRESSES:
+            del self.rates[next(iter(self.rates))]
+        return rate.take()
+
+
+def _too_many() -> Response:
+    headers = {"Retry-After": "5", "Connection": "close"}
+    return PlainTextResponse(f"Too many requests: more than {REQUESTS:g} a second.\n", 429, headers)
 
 
 def _nothing() -> Response:

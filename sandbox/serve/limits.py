@@ -31,7 +31,12 @@ MEMORY = 4 << 30
 UNREAD = 10.0
 #: Rows of the teacher's table; the oldest go first.
 ROWS = 2000
+#: The addresses stay valid so long after a start, in s, when the server starts again: a day at school.
+KEPT = 12 * 3600.0
 #: A connection that has not said what it wants after so many s is closed.
 HELLO = 10.0
+#: Requests per second of one address for pages and connections, and how many may come at once: a page takes six, and a
+#: class may share an address. What comes faster is refused. So many addresses are remembered.
+REQUESTS, REQUEST_BURST, ADDRESSES = 40.0, 400, 1000
 #: Connections at once, browsers with several pages included.
 CONNECTIONS = 4 * PLAYERS

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, StringConstraints, TypeAdapter, ValidationError
@@ -10,6 +11,7 @@ from pydantic import BaseModel, ConfigDict, Field, StringConstraints, TypeAdapte
 from sandbox.errors import RequestError
 from sandbox.serve.limits import CHANGES, KEY, NAME, WORD
 from sandbox.text import one_line
+from sandbox.units import parse
 
 Key = Annotated[str, StringConstraints(max_length=KEY)]
 Word = Annotated[str, StringConstraints(max_length=WORD)]
@@ -106,15 +108,40 @@ def read(text: str, teacher: bool = False) -> Any:
     try:
         return (_TEACHER if teacher else _PUPIL).validate_json(text)
     except ValidationError as failure:
-        error = failure.errors(include_url=False, include_input=False, include_context=False)[0]
-        place = ".".join(map(str, error["loc"][1:]))[:KEY]
-        raise RequestError(f"message refused: {place}{': ' if place else ''}{error['msg'].lower()}") from None
+        raise RequestError(f"message refused: {_wrong(failure)}") from None
+
+
+def _wrong(failure: ValidationError) -> str:
+    """What is wrong with a message, in a line: where, and what must be there."""
+    error = failure.errors(include_url=False, include_input=False)[0]
+    if error["type"].startswith("union_tag"):
+        return "what is to be done is not known"
+    _, *where = error["loc"] or [""]
+    if where[:1] == ["changes"] and len(where) > 1:
+        if where[-1] == "[key]":
+            return f"changes: a key has at most {KEY} characters"
+        return f"{one_line(str(where[1]))[:KEY]}: must be a number, a word of at most {WORD} characters, true or false"
+    if error["type"] == "too_long":
+        return f"changes: at most {CHANGES} parameters may be changed"
+    place = ".".join(map(str, where))[:KEY]
+    return f"{place}{': ' if place else ''}{error['msg'].lower()}"
 
 
 def named(name: str) -> str:
     """A name as it is shown: one line, without control characters, at most NAME characters."""
     shown = "".join(letter for letter in " ".join(name.split()) if letter.isprintable())
     return shown[:NAME].strip()
+
+
+def in_units(changes: Mapping[str, Any], declared: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
+    """The changes of a link, in the units of the parameters: "150 mph" is a number of m/s. What is no amount stays."""
+    found = dict(changes)
+    for key, value in changes.items():
+        known = declared.get(key)
+        if isinstance(value, str) and known is not None and known["choices"] is None:
+            with suppress(ValueError):
+                found[key] = parse(value, known["unit"])
+    return found
 
 
 def check(changes: Mapping[str, Any], declared: Mapping[str, Mapping[str, Any]]) -> None:

@@ -1,6 +1,7 @@
 // The page of a player.
 
 const STILL = 150, SETTLED = 350; // ms without a change, after which the place and the fan are asked for again
+const READ = 8000; // ms for which what is told of a link, or was refused, stays to be read
 const MOST_COMPARED = 3;
 
 const state = { source: "", changes: {}, scene: null, stage: null, run: null, lead: {}, compared: [], shot: false, name: "" };
@@ -8,9 +9,15 @@ let player = null, wire, ask, settings, timers = {};
 
 // ------------------------------------------------------------------------------------------------ the address
 
-/** Scene and parameters of a link: #golf?launch.speed=70 */
+/** Scene and parameters of a link: #golf?launch.speed=70, or launch.speed=150 mph; none of one that cannot be read. */
 function linked(hash) {
-  const [source, query] = decodeURI(hash.slice(1)).split(/\?(.*)/s), changes = {};
+  let source = hash.slice(1).split("?")[0];
+  const query = hash.slice(source.length + 2), changes = {};
+  try {
+    source = decodeURIComponent(source);
+  } catch {
+    return { source: "", changes };
+  }
   for (const [key, text] of new URLSearchParams(query || "")) {
     const number = Number(text);
     changes[key] = text === "true" || text === "false" ? text === "true" : text !== "" && Number.isFinite(number) ? number : text;
@@ -20,7 +27,7 @@ function linked(hash) {
 
 function link() {
   const query = new URLSearchParams(state.changes).toString();
-  return `#${encodeURI(state.source)}${query ? `?${query}` : ""}`;
+  return `#${state.source.split("/").map(encodeURIComponent).join("/")}${query ? `?${query}` : ""}`;
 }
 
 // ------------------------------------------------------------------------------------------------ asking
@@ -188,7 +195,14 @@ const heard = {
     player.draw();
   },
   error({ text, n }) {
-    tell(text);
+    if (!state.name && !state.plain) {
+      state.plain = true; // the link cannot be read there
+      wire.send(hello());
+    }
+    if (n === null) {
+      told("refused", text);
+      later("refused", READ, () => told("refused", ""));
+    } else tell(text);
     for (const each of Object.values(ask)) if (n !== null && each.awaited === n) each.answered(n);
   },
 };
@@ -311,12 +325,14 @@ const tell = (text) => told("error", text);
 
 // ------------------------------------------------------------------------------------------------ the page
 
+/** The first message on a line: who it is, and what is played, or what the link asks for. */
+function hello() {
+  const here = state.source ? { source: state.source, changes: state.changes } : state.plain ? {} : linked(location.hash);
+  return { do: "hello", session: sessionStorage.getItem("session") || "", name: state.name || localStorage.getItem("name") || "", ...here };
+}
+
 function begin() {
   settings = new Settings($("sliders"), $("rest"), (key, each) => state.lead.frozen ? settings.show(state.changes) : set({ [key]: each }));
-  const hello = () => {
-    const here = state.source ? { source: state.source, changes: state.changes } : linked(location.hash);
-    return { do: "hello", session: sessionStorage.getItem("session") || "", name: state.name || localStorage.getItem("name") || "", ...here };
-  };
   wire = new Wire(hello, heard);
   ask = Object.fromEntries(["path", "stage", "fan", "shoot"].map((kind) => [kind, new Latest(wire, kind)]));
   $("shoot").addEventListener("click", () => hands.shoot());
@@ -348,7 +364,7 @@ function begin() {
   });
   addEventListener("hashchange", () => {
     const { source, changes } = linked(location.hash);
-    wire.send({ do: "play", source, changes });
+    if (source) wire.send({ do: "play", source, changes });
   });
 }
 

@@ -164,13 +164,22 @@ class Room:
         connection.send("welcome", {"session": player.session, "number": player.number, "name": player.name,
                                     "scenes": self._listed()})  # fmt: skip
         connection.send("lead", self.lead.as_message())
-        try:
-            await self._open(player, asked[0], asked[1], again=asked[0] == player.source)
-        except RequestError as error:  # such as a link of another version
-            connection.tell(str(error))
-            await self._open(player, self.lead.source or self.first, self.lead.changes)
+        await self._open_asked(player, *asked)
         self._tell_teachers()
         return player
+
+    async def _open_asked(self, player: Player, name: str, changes: Mapping[str, Any]) -> None:
+        """Let a player play what a link asks for; where that cannot be, such as in one of another version, the scene
+        itself, or else what is played here."""
+        connection = player.connection
+        default = self.lead.source or self.first, self.lead.changes
+        for source, wanted in ((name, changes), *([(name, {})] if name in self.scenes else []), default):
+            try:
+                await self._open(player, source, wanted, again=source == player.source)
+                return
+            except RequestError as error:
+                if connection is not None:
+                    connection.tell(str(error))
 
     def _replace(self, connection: Connection) -> None:
         """Close the connection of a player who has come back by another."""
@@ -193,10 +202,11 @@ class Room:
     async def _open(self, player: Player, name: str, changes: Mapping[str, Any], again: bool = False) -> None:
         """Let a player play a scene, or a task from its first attempt, unless he plays it ``again``. Raises
         RequestError."""
+        changes = messages.in_units(changes, (await self.described(name))["by_key"])
         scene = await self._checked(name, changes)
         if not again:
             player.tries = []
-        player.source, player.changes = name, dict(changes)
+        player.source, player.changes = name, changes
         if player.connection is not None:
             player.connection.send("scene", _scene_message(name, player.changes, scene))
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import secrets
 import socket
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -16,16 +15,15 @@ from sandbox.errors import RequestError
 from sandbox.files import reason
 from sandbox.scene.finding import first_comment, folder_of, listings, listings_of
 from sandbox.serve import calls
-from sandbox.serve.app import Tokens, app_of
+from sandbox.serve.app import app_of
 from sandbox.serve.lanes import Lanes
 from sandbox.serve.limits import CONNECTIONS, HELLO, MESSAGE, PLAYERS
 from sandbox.serve.room import Listed, Room
+from sandbox.serve.tokens import tokens
 
 LOOPBACK, ALL = "127.0.0.1", "0.0.0.0"
-#: The port that is taken if it is free and no other is asked for: links stay valid when the server starts again.
+#: The port that is taken if it is free and no other is asked for, so that addresses stay the same.
 PORT = 8765
-#: Bytes of a token: 72 bits cannot be guessed, and 12 letters can still be typed.
-TOKEN = 9
 #: At the end open connections are given so long, in s.
 GRACE = 1
 #: Scenes that every process imports before the first player comes.
@@ -66,12 +64,14 @@ def scenes_of(names: Sequence[str]) -> dict[str, Listed]:
 
 @dataclass(frozen=True)
 class Options:
-    """Options of serving: ``jobs`` is the number of processes that compute, None for the usual."""
+    """Options of serving: ``jobs`` is the number of processes that compute, None for the usual; ``fresh`` makes new
+    addresses."""
 
     port: int | None = None
     share: bool = False
     units: str = "si"
     jobs: int | None = None
+    fresh: bool = False
 
 
 def serve(names: Sequence[str], options: Options, ready: Callable[[Address], None]) -> None:
@@ -89,7 +89,7 @@ async def _serve(
     scenes: dict[str, Listed], listener: socket.socket, options: Options, ready: Callable[[Address], None]
 ) -> None:
     share = options.share
-    tokens = Tokens(secrets.token_urlsafe(TOKEN), secrets.token_urlsafe(TOKEN))
+    own = tokens(options.fresh)
     port = listener.getsockname()[1]
     host = _own_address() if share else LOOPBACK
     hosts = {f"{name}:{port}" for name in (LOOPBACK, "localhost", host, *([socket.gethostname()] if share else []))}
@@ -99,15 +99,15 @@ async def _serve(
         await _checked(lanes, scenes)
         room = Room(scenes, lanes, options.units)
         config = uvicorn.Config(
-            app_of(room, tokens, hosts), log_config=None, access_log=False, lifespan="off", http=_Asking,
-            ws="websockets-sansio",
+            app_of(room, own, hosts), log_config=None, log_level="error", access_log=False, lifespan="off",
+            http=_Asking, ws="websockets-sansio",
             ws_max_size=MESSAGE, ws_max_queue=8, ws_per_message_deflate=False, limit_concurrency=CONNECTIONS,
             timeout_graceful_shutdown=GRACE, h11_max_incomplete_event_size=MESSAGE, server_header=False,
             proxy_headers=False,
         )  # fmt: skip
         server = uvicorn.Server(config)
         base = f"http://{host}:{port}"
-        ready(Address(f"{base}/{tokens.play}/", f"{base}/{tokens.teach}/", port, share))
+        ready(Address(f"{base}/{own.play}/", f"{base}/{own.teach}/", port, share))
         await server.serve(sockets=[listener])
         raise KeyboardInterrupt  # only a signal ends it, whether or not this process was started to ignore that
     finally:

@@ -64,14 +64,14 @@ class Settings {
     let slider = null;
     if (span) {
       slider = Object.assign(document.createElement("input"), { type: "range", min: span[0], max: span[1], step: "any", value });
-      slider.setAttribute("aria-label", `${labelOf(key)}${unit ? ` in ${unit}` : ""}`);
+      slider.setAttribute("aria-label", `${labelOf(key)}${unit ? ` in ${unitOf(unit)}` : ""}`);
       slider.addEventListener("input", () => this.take(key, Number(Number(slider.value).toPrecision(4))));
       slider.addEventListener("keydown", (event) => this.step(event, key, span));
       parts.push(slider);
     }
     return { parts, show: (now) => {
       field.value = typed(now);
-      if (slider) [slider.value, slider.ariaValueText] = [now, `${typed(now)} ${unit}`];
+      if (slider) [slider.value, slider.ariaValueText] = [now, `${typed(now)} ${unitOf(unit)}`];
     } };
   }
 

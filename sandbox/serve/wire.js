@@ -15,7 +15,9 @@ class Wire {
     const socket = (this.socket = new WebSocket(`ws://${location.host}${location.pathname}talk`));
     socket.binaryType = "arraybuffer";
     let last = Promise.resolve(); // messages are read one after the other
+    let opened = false;
     socket.onopen = () => {
+      opened = true;
       this.wait = SOONEST;
       this.state(true, "");
       this.send(this.hello());
@@ -29,7 +31,14 @@ class Wire {
       if (FINAL.has(code) || reason.startsWith("opened")) return;
       setTimeout(() => this.connect(), this.wait);
       this.wait = Math.min(2 * this.wait, LATEST);
+      if (!opened) this.ask();
     };
+  }
+
+  /** Say so if there is a server again that does not know this address. */
+  async ask() {
+    const { status } = await fetch(location.pathname, { method: "HEAD" }).catch(() => ({}));
+    if (status === 404 && !this.open) this.state(false, "this address is no longer valid; ask for the new one");
   }
 
   /** Say on the page whether the line is there. */

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import json
-import os
 from contextlib import suppress
 from pathlib import Path
 
-from sandbox.files import atomic_write
+from sandbox.files import atomic_write, state_folder
 
 #: What a first user may try, by the name under which it is remembered.
 HINTS = {
@@ -20,9 +19,8 @@ MOST = 8
 
 
 def usual_place() -> Path:
-    """The folder in which programs keep such things."""
-    home = os.environ.get("XDG_STATE_HOME") or os.environ.get("LOCALAPPDATA") or Path.home() / ".local" / "state"
-    return Path(home) / "sports-sandbox" / "window.json"
+    """The file in which it is kept."""
+    return state_folder() / "window.json"
 
 
 class Memory:

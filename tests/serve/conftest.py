@@ -33,10 +33,11 @@ class Served(NamedTuple):
 
 
 @contextmanager
-def serving(*args: str, cwd: Any = None) -> Iterator[Served]:
-    """A server of its own process, on any port of the loopback."""
-    command = [*COMMAND, "serve", *args, "--port", "0", "--json"]
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=cwd)
+def serving(*args: str, cwd: Any = None, port: int = 0, state: Any = os.devnull) -> Iterator[Served]:
+    """A server of its own process, by default on any port of the loopback and where nothing can be kept."""
+    command = [*COMMAND, "serve", *args, "--port", str(port), "--json"]
+    env = os.environ | {"XDG_STATE_HOME": str(state)}
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=cwd, env=env)
     said = process.stdout.readline()
 
     def stop() -> int:

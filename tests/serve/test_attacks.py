@@ -19,6 +19,7 @@ from websockets.sync.client import connect
 
 from sandbox.serve import app, connection, limits, messages, room
 from sandbox.serve.connection import Connection
+from sandbox.serve.tokens import Tokens
 from tests.serve.conftest import PATIENCE, Client, Served, memory
 
 
@@ -205,6 +206,30 @@ def test_a_flood_is_bounded(served: Served, player):
     assert memory(served.pid) - before < 20e6
 
 
+def test_requests_of_one_address_are_answered_at_a_rate(monkeypatch: pytest.MonkeyPatch):
+    """Those of others are answered meanwhile; and not more addresses are remembered than that."""
+    monkeypatch.setattr(app, "REQUEST_BURST", 3)
+    monkeypatch.setattr(app, "REQUESTS", 1e-9)
+    monkeypatch.setattr(app, "ADDRESSES", 5)
+    guard = app._Guard(app.PlainTextResponse("page"), ["here"])
+    answered: list[int] = []
+
+    async def send(message: Any) -> None:
+        if "status" in message:
+            answered.append(message["status"])
+
+    async def ask(address: str) -> int:
+        headers = [(b"host", b"here")]
+        await guard({"type": "http", "method": "GET", "headers": headers, "client": (address, 1)}, None, send)  # type: ignore[arg-type]
+        return answered[-1]
+
+    assert [asyncio.run(ask("one")) for _ in range(5)] == [200, 200, 200, 429, 429]
+    assert asyncio.run(ask("two")) == 200
+    for number in range(20):
+        asyncio.run(ask(str(number)))
+    assert len(guard.rates) == 5
+
+
 def test_a_client_that_never_reads_is_disconnected(monkeypatch: pytest.MonkeyPatch):
     """Over a real connection: as much as the system's buffers take is sent, the newest of each kind waits, then it is
     over."""
@@ -226,8 +251,7 @@ def test_a_client_that_never_reads_is_disconnected(monkeypatch: pytest.MonkeyPat
             listener.bind(("127.0.0.1", 0))
             listener.listen()
             host = f"127.0.0.1:{listener.getsockname()[1]}"
-            tokens = app.Tokens("players", "teacher")
-            made = app.app_of(Talkative(), tokens, [host])  # type: ignore[arg-type]
+            made = app.app_of(Talkative(), Tokens("players", "teacher"), [host])  # type: ignore[arg-type]
             server = uvicorn.Server(uvicorn.Config(made, log_config=None, lifespan="off", ws="websockets-sansio"))
             serving = asyncio.create_task(server.serve(sockets=[listener]))
             reader, writer = await asyncio.open_connection(*host.split(":"), limit=1024)

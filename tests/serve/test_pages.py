@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -15,7 +16,7 @@ from selenium.webdriver.support.wait import WebDriverWait
 
 import sandbox
 from tests.browser import Browser
-from tests.serve.conftest import Client, Served
+from tests.serve.conftest import Client, Served, serving
 
 PATIENCE = 60  # s, on a machine that does much else besides
 NAME = '<img src=x onerror="x">'  # 23 characters: cut to 20
@@ -175,6 +176,32 @@ def test_sliders_fan_and_link(pages, browser: Browser, served: Served):
     assert browser.run("document.documentElement.scrollWidth") <= 390
     assert browser.run("state.stage.view.size[0]") == 801
     assert other.complaints() == []
+
+
+def test_a_page_comes_back_when_the_server_starts_again(pages, browser: Browser, tmp_path: Path):
+    """At the same address, with what was aimed; and links that cannot be read lead to a scene, and say why."""
+    with serving("basketball", "--jobs", "1", state=tmp_path) as server:
+        page = pages(server.url + "#basketball?launch.speed=9%")
+        page.aimed()
+        assert page.changes() == {}
+        assert "must be a number" in browser.text("#told")[0]
+        page.driver.get("about:blank")
+        page.driver.get(f"{server.url}#basketball?{'&'.join(f'k{n}=1' for n in range(201))}")
+        page.aimed()
+        assert "at most 200 parameters" in browser.text("#told")[0]
+        browser.run("(location.hash = '#basketball?launch.angle=60', 0)")
+        page.until("state.changes['launch.angle'] === 60")
+        page.aimed()
+        assert page.complaints() == []
+        server.stop()
+        page.until("!document.getElementById('state').hidden")
+    with serving("basketball", "--jobs", "1", state=tmp_path, port=server.port) as again:
+        assert again.url == server.url
+        page.until("document.getElementById('state').hidden")
+        page.aimed()
+        assert page.changes() == {"launch.angle": 60}
+        assert page.verdict() == said("basketball", {"launch.angle": 60})
+        browser.driver.get_log("browser")  # of connections that were refused
 
 
 def test_touch_pulls_and_a_lost_connection_comes_back(pages, browser: Browser):

@@ -8,9 +8,11 @@ import json
 import os
 import subprocess
 import sys
+import time
 import urllib.request
 import zlib
 from math import hypot
+from pathlib import Path
 
 import pytest
 
@@ -18,7 +20,7 @@ import sandbox
 from sandbox import tasks
 from sandbox.cli import serve as cli
 from sandbox.page.replay import LAYOUTS
-from sandbox.serve import calls, server, sessions, work
+from sandbox.serve import calls, server, sessions, tokens, work
 from tests.own_scene import DROP, copy_of
 from tests.serve.conftest import Client, serving
 
@@ -68,6 +70,49 @@ def test_a_link_and_a_lost_connection_give_the_state_back(player):
     welcome = again.hear("welcome")
     assert (welcome["session"], welcome["name"]) == (session, "Ann")
     assert again.hear("scene")["changes"] == {"launch.angle": 17.0}
+
+
+@pytest.mark.parametrize(
+    ("source", "changes", "expected", "said"),
+    [
+        ("golf", {"launch.speed": "150 mph", "launch.angle": 15}, {"launch.speed": 67.056, "launch.angle": 15}, ""),
+        ("golf", {"launch.speed": "900 mph"}, {}, "launch.speed: must be a number from 0 to 340 m/s"),
+        ("golf", {"nothing": 1.0}, {}, "nothing: cannot be changed here"),
+        ("free-throw", {"launch.speed": 99}, {}, "launch.speed: must be a number from 4 to 10 m/s"),
+    ],
+)
+def test_a_link_is_read_as_far_as_it_can_be(player, source: str, changes: dict, expected: dict, said: str):
+    """Amounts in any unit; of one that cannot be, the scene as it is, and why."""
+    client = player(source=source, changes=changes)
+    if said:
+        assert client.hear("error")["text"] == said
+    scene = client.hear("scene")
+    assert scene["source"] == source
+    assert scene["changes"] == pytest.approx(expected)
+
+
+def test_the_addresses_stay_for_some_hours(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """Where nobody else can read them, and only for as long as it is said."""
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
+    file = tmp_path / "sports-sandbox" / "serve.json"
+    first = tokens.tokens()
+    assert len(set(first)) == 2
+    assert tokens.tokens() == first
+    assert file.stat().st_mode & 0o777 == 0o600
+    fresh = tokens.tokens(fresh=True)
+    assert not set(fresh) & set(first)
+    assert tokens.tokens() == fresh
+    long_ago = time.time() - tokens.KEPT - 1.0
+    os.utime(file, (long_ago, long_ago))
+    later = tokens.tokens()
+    assert not set(later) & set(fresh)
+    file.chmod(0o644)  # others may have read them
+    assert not set(tokens.tokens()) & set(later)
+    for text in ("", "{}", '{"play": "x", "teach": "x"}', '{"play": "x/../../aaaa", "teach": "bbbbbbbbbbbb"}', "[]"):
+        file.write_text(text, "utf-8")
+        assert all(len(each) == 12 for each in tokens.tokens())
+    monkeypatch.setenv("XDG_STATE_HOME", os.devnull)  # nothing can be kept
+    assert tokens.tokens() != tokens.tokens()
 
 
 def test_the_teacher_leads_freezes_and_sees_the_shots(player):
