@@ -16,7 +16,7 @@ from sandbox import tasks
 from sandbox.errors import RequestError
 from sandbox.page.task import session_page
 from sandbox.scene.finding import installed_folder, installed_folders
-from sandbox.window import commands
+from sandbox.window import commands, keeping
 from sandbox.window.app import play
 from sandbox.window.best import MOST, Best, BestList, usual_file
 from sandbox.window.contest import AtMatch, AtTask
@@ -231,7 +231,7 @@ class TestATask:
         assert thrower.game.notices[-1][0] == "a page is made of a task that is played"
         thrower.view.page_of = session_page
         thrower.key(pygame.K_F8)
-        assert thrower.game.notices[-1][0] == commands.NO_SHOTS
+        assert thrower.game.notices[-1][0] == keeping.NO_SHOTS
         shoot(thrower, launch__speed=5.0)
         thrower.key(pygame.K_F8)
         passes(thrower, lambda: ("wrote out/free-throw-1.html", False) in thrower.game.notices)

@@ -31,6 +31,8 @@ ROWS = (
     {"cards"},
     {"drawing"},
     {"view"},
+    {"keeping"},
+    {"actions"},
     {"commands"},
     {"pointer"},
     {"app"},

@@ -20,7 +20,7 @@ from sandbox.lab.spread.statistics import wilson
 from sandbox.picture.camera import Camera
 from sandbox.picture.lettering import Lettering
 from sandbox.scene import load, simulate
-from sandbox.window import commands
+from sandbox.window import actions, commands
 from sandbox.window.background import HUNG
 from sandbox.window.canvas import Canvas
 from sandbox.window.charts import Charts
@@ -415,7 +415,7 @@ class TestTheTape:
         player.key(pygame.K_UP)
         along, up = np.subtract(player.view.shown.tape.end, end)
         assert along == pytest.approx(up)
-        assert up == pytest.approx(commands.STEP / player.view.stages.latest.camera.scale)
+        assert up == pytest.approx(actions.STEP / player.view.stages.latest.camera.scale)
         player.key(pygame.K_k)
         player.key(pygame.K_LEFT)
         assert player.view.shown.tape.end[0] < start[0]
