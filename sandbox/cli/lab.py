@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -18,6 +18,11 @@ from sandbox.cli.arguments import (
 )
 from sandbox.errors import RequestError, RunError
 from sandbox.files import json_text, writing
+
+if TYPE_CHECKING:
+    from sandbox.lab.plan import Plan
+    from sandbox.lab.spread import Spread
+    from sandbox.scene import Scene
 
 
 @click.command()
@@ -144,7 +149,6 @@ def spread(
       sandbox spread golf --by launch.spin="200 rpm" --by air.wind[0]=-3:3 --of carry --within carry=1
       sandbox spread billiards/nine-ball-break --by cue.speed=3% --samples 256 --page breaks.html
     """
-    from sandbox.files import check_distinct
     from sandbox.lab.spread import check_scipy, report, spread_of
     from sandbox.lab.spread.causes import causes_of, parse_cause
     from sandbox.lab.spread.needs import parse_within
@@ -157,19 +161,31 @@ def spread(
         if name not in chosen.facts:
             raise RequestError(f"--of {name}: {no_such_result(name, list(chosen.facts))}")
     widths = dict(parse_within(chosen, text) for text in within)
+    _check_outputs(plot, page)
+    check_scipy()
+    with bar("spread") as progress:
+        found = spread_of(chosen, causes, of, samples, seed, sampling, not no_causes, widths, progress)
+    _write_outputs(found, plot, page)
+    written = [f"wrote {path}" for path in (plot, page) if path is not None]
+    say(report.as_json(found) if as_json else "\n".join([*report.as_text(found), *written]))
+
+
+def _check_outputs(plot: Path | None, page: Path | None) -> None:
+    """Raise RequestError if the scatter cannot be written there."""
+    from sandbox.files import check_distinct, check_file, check_installed
+
     if plot is not None:
         from sandbox.lab.chart import check_chart
 
         check_chart("--plot", plot)
     if page is not None:
-        from sandbox.files import check_file, check_installed
-
         check_file("--page", page, ".html")
         check_installed("--page", "matplotlib")
     check_distinct({"--plot": plot, "--page": page})
-    check_scipy()
-    with bar("spread") as progress:
-        found = spread_of(chosen, causes, of, samples, seed, sampling, not no_causes, widths, progress)
+
+
+def _write_outputs(found: Spread, plot: Path | None, page: Path | None) -> None:
+    """Write the scatter as picture and page, where they are asked for."""
     if plot is not None:
         from sandbox.lab.spread.chart import draw
 
@@ -181,8 +197,6 @@ def spread(
 
         with writing("--page", page):
             save(page_of(found), page)
-    written = [f"wrote {path}" for path in (plot, page) if path is not None]
-    say(report.as_json(found) if as_json else "\n".join([*report.as_text(found), *written]))
 
 
 @click.command()
@@ -250,24 +264,45 @@ def sweep(
       sandbox sweep golf --points measured-launches.csv --out carry.csv
     """
     from sandbox.files import check_file
-    from sandbox.lab.axes import parse_axis, points_in
-    from sandbox.lab.plan import Plan
-    from sandbox.lab.row_file import rows
     from sandbox.lab.sweep import sweep_to_file, workers, worthwhile_jobs
     from sandbox.progress import bar
 
-    chosen = load(scene, changes)
-    if points is None:
-        if not over:
-            raise RequestError("nothing to sweep over: give --over KEY=LO:HI:N, or --points F.csv")
-        plan = Plan(chosen, tuple(parse_axis(chosen, "--over", text) for text in over), samples or 0, seed or 0, check)
-    else:
+    plan = _plan(load(scene, changes), over, points, samples, seed, check)
+    check_file("--out", out, ".csv")
+    _check_pictures(plan, plot, html, of, family)
+    with workers(worthwhile_jobs(plan) if jobs is None else jobs, scheduler) as pool, bar("sweep") as progress:
+        done = sweep_to_file(plan, out, pool, progress)
+    _draw(plan, out, plot, html, of, family)
+    if str(out) != "/dev/stdout":
+        new = out if done.points > done.resumed else None
+        written = [f"wrote {path}" for path in (new, plot, html) if path is not None]
+        say("\n".join([done.as_text(), *written]))
+    if done.failures == done.points - done.resumed > 0:
+        raise RunError(f"every point failed, the first with: {done.first_error}")
+
+
+def _plan(
+    scene: Scene, over: tuple[str, ...], points: Path | None, samples: int | None, seed: int | None, check: bool
+) -> Plan:
+    """The points of a sweep. Raises RequestError for options that do not go together."""
+    from sandbox.lab.axes import parse_axis, points_in
+    from sandbox.lab.plan import Plan
+
+    if points is not None:
         if over or samples is not None:
             raise RequestError(f"--points {points}: cannot be combined with --over or --samples")
-        plan = Plan(chosen, points_in(chosen, "--points", points), check=check, listed=True)
-    check_file("--out", out, ".csv")
+        plan = Plan(scene, points_in(scene, "--points", points), check=check, listed=True)
+    elif over:
+        plan = Plan(scene, tuple(parse_axis(scene, "--over", text) for text in over), samples or 0, seed or 0, check)
+    else:
+        raise RequestError("nothing to sweep over: give --over KEY=LO:HI:N, or --points F.csv")
     if seed is not None and samples is None:
         raise RequestError(f"--seed {seed}: requires --samples")
+    return plan
+
+
+def _check_pictures(plan: Plan, plot: Path | None, html: Path | None, of: str | None, family: str | None) -> None:
+    """Raise RequestError if a sweep cannot be drawn so."""
     if of is not None and plot is None and html is None:
         raise RequestError(f"--of {of}: requires --plot or --html")
     if family is not None and plot is None:
@@ -279,14 +314,18 @@ def sweep(
         check_chart("--plot", plot)
         check_plot(plan, of, family)
     if html is not None:
-        from sandbox.files import check_installed
+        from sandbox.files import check_file, check_installed
         from sandbox.page import sweep as page
 
         check_file("--html", html, ".html")
         check_installed("--html", "matplotlib")
         page.check_page(plan)
-    with workers(worthwhile_jobs(plan) if jobs is None else jobs, scheduler) as pool, bar("sweep") as progress:
-        done = sweep_to_file(plan, out, pool, progress)
+
+
+def _draw(plan: Plan, out: Path, plot: Path | None, html: Path | None, of: str | None, family: str | None) -> None:
+    """Draw the rows of a sweep as picture and page, where they are asked for."""
+    from sandbox.lab.row_file import rows
+
     if plot is not None:
         from sandbox.lab.maps import draw_sweep
 
@@ -294,15 +333,10 @@ def sweep(
             draw_sweep(plan, rows(out), plot, of, family)
     if html is not None:
         from sandbox.page.parts import save
+        from sandbox.page.sweep import page_of
 
         with writing("--html", html):
-            save(page.page_of(plan, rows(out), of), html)
-    if str(out) != "/dev/stdout":
-        new = out if done.points > done.resumed else None
-        written = [f"wrote {path}" for path in (new, plot, html) if path is not None]
-        say("\n".join([done.as_text(), *written]))
-    if done.failures == done.points - done.resumed > 0:
-        raise RunError(f"every point failed, the first with: {done.first_error}")
+            save(page_of(plan, rows(out), of), html)
 
 
 @click.command()
