@@ -252,15 +252,30 @@ def test_no_two_modules_of_the_engine_need_each_other():
     )
 
 
-def test_engine_and_physics_run_no_python_from_strings():
-    written = [
-        f"{path.relative_to(ROOT)}, line {node.lineno}"
+def is_hard_to_follow(node: ast.AST) -> bool:
+    """True for Python from strings, and for coroutines."""
+    named = isinstance(node, ast.Name) and node.id in ("exec", "eval", "compile")
+    sent = isinstance(node, ast.Attribute) and node.attr == "send"
+    return named or sent or isinstance(node, ast.YieldFrom)
+
+
+def test_engine_and_physics_have_no_written_code_or_coroutines():
+    found = [
+        f"{path.relative_to(ROOT)}, line {getattr(node, 'lineno', 0)}"
         for package in ("engine", "physics")
         for path in sorted((ROOT / "sandbox" / package).rglob("*.py"))
         for node in ast.walk(ast.parse(path.read_text("utf-8")))
-        if isinstance(node, ast.Name) and node.id in ("exec", "eval", "compile")
+        if is_hard_to_follow(node)
     ]
-    assert written == []
+    assert found == []
+    for source in ("exec('x = 1')", "def many():\n    yield from range(3)", "task.send(None)"):
+        assert any(map(is_hard_to_follow, ast.walk(ast.parse(source))))
+
+
+def test_no_module_of_the_engine_has_more_than_400_lines():
+    lines = {path: len(path.read_text("utf-8").splitlines()) for path in (ROOT / "sandbox" / "engine").rglob("*.py")}
+    assert [str(path.relative_to(ROOT)) for path, count in lines.items() if count > 400] == []
+    assert len(lines) > 40
 
 
 def test_names_of_tests_have_at_most_60_characters():
