@@ -61,7 +61,11 @@ def check_folder(option: str, path: Path) -> None:
 
 def check_size(named: str, size: tuple[int, int]) -> None:
     """Raise RequestError if a picture of this size in px, ``named`` like that, would be too small or too large."""
-    if not all(least <= side <= most for least, side, most in zip(SMALLEST, size, LARGEST, strict=True)):
+    try:
+        fits = all(least <= side <= most for least, side, most in zip(SMALLEST, size, LARGEST, strict=True))
+    except (TypeError, ValueError):  # such as one number
+        fits = False
+    if not fits:
         bounds = " and ".join(f"{across}x{up}" for across, up in (SMALLEST, LARGEST))
         raise RequestError(f"{named}: must be between {bounds} px")
 

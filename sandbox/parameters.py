@@ -34,7 +34,7 @@ from sandbox import units
 from sandbox.errors import RequestError
 from sandbox.physics.integrators import INTEGRATORS
 from sandbox.renamed import name_old_names
-from sandbox.text import nearest
+from sandbox.text import check_mapping, nearest
 from sandbox.toml import shown, toml_value
 
 # ---------------------------------------------------------------------------------------------------------------------
@@ -404,6 +404,7 @@ def validate(
 
 def changed(parameters: Schema, changes: Mapping[str, Any], by: str = "override") -> Schema:
     """The parameters with some of them changed, by key. Raises RequestError for an invalid value."""
+    check_mapping("parameters", changes, '{"launch.speed": 70.0}')
     return validate(type(parameters), parameters.model_dump(), "", changes, by)
 
 

@@ -21,7 +21,7 @@ from sandbox.engine.impact.impacts import Hit, Impacts, Outcome
 from sandbox.engine.model.accuracy import Accuracy
 from sandbox.engine.model.event import Event
 from sandbox.engine.model.setup import Setup, Until
-from sandbox.engine.model.setup_errors import failed
+from sandbox.engine.model.setup_errors import UserFunctionError, failed
 from sandbox.engine.motion.event_kind import EventKind
 from sandbox.engine.motion.moving_ball import MovingBall
 from sandbox.engine.motion.on_plane import slowest_hop
@@ -120,7 +120,8 @@ class Simulation:
         """Resolve the contacts at the start, which come first."""
         for index, mover in enumerate(self._movers):
             if mover.version == 0:
-                self._collide(0.0, [index])
+                with self._where(0.0, index):
+                    self._collide(0.0, [index])
 
     def _finish(self, started: float) -> Run:
         """Go on to the end of the run; ``started`` is the clock time of its start."""
@@ -146,7 +147,16 @@ class Simulation:
             if event.kind in _GO_ON and event.t >= self._setup.duration:
                 self._t, self._ended = self._setup.duration, "duration"
             else:
-                self._resolve(event)
+                with self._where(event.t, event.ball):
+                    self._resolve(event)
+
+    @contextmanager
+    def _where(self, t: float, index: int) -> Iterator[None]:
+        """Inside, an error of a function of the scene gets the time in s and the ball."""
+        try:
+            yield
+        except UserFunctionError as error:
+            raise failed(t, self._movers[index].ball.name, str(error)) from None
 
     @property
     def _goes_on(self) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -106,8 +106,10 @@ def _facts(scene: Scene, facts: Sequence[str]) -> tuple[str, ...]:
     """The facts that are asked for. Raises RequestError if the scene does not have one."""
     if isinstance(facts, str):
         raise RequestError(f'facts = {facts!r}: must be a tuple of names; write ("{facts}",)')
+    if not isinstance(facts, Collection):
+        raise RequestError(f"facts = {facts!r:.60}: must be a tuple of names")
     for name in facts:
-        if name not in scene.facts:
+        if not isinstance(name, str) or name not in scene.facts:
             raise RequestError(f"facts, {name!r}: {no_such_result(str(name), list(scene.facts))}")
     return tuple(dict.fromkeys(facts))
 

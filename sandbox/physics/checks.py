@@ -11,14 +11,22 @@ from sandbox.physics.elementwise import everywhere, finite
 #: Most characters of a value in a message.
 _LONGEST = 60
 
+
+def _finite(x: Any) -> bool:
+    """Return True if x is a finite number, or an array of them."""
+    kind = getattr(x, "dtype", None)
+    return (isinstance(x, float | int) if kind is None else kind.kind in "biuf") and finite(x)
+
+
 #: Each rule: a condition on a value, floats or arrays, and what is said where it does not hold.
 _RULES = {
     "positive": (lambda x: everywhere((x > 0.0) & (x < inf)), "must be positive"),
     "not_negative": (lambda x: everywhere((x >= 0.0) & (x < inf)), "must not be negative"),
     "fractions": (lambda x: everywhere((x >= 0.0) & (x <= 1.0)), "must be from 0 to 1"),
-    "finite": (finite, "must be finite"),
+    "finite": (_finite, "must be finite"),
     "lists": (lambda x: isinstance(x, list | tuple), "must be a list: write it in [ ]"),
-    "points": (lambda point: len(point) == 2 and all(map(finite, point)), "must be two finite numbers, (x, y)"),
+    "points": (lambda point: len(point) == 2 and all(map(_finite, point)), "must be two finite numbers, (x, y)"),
+    "names": (lambda x: isinstance(x, str), "must be text"),
 }
 
 

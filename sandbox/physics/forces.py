@@ -14,8 +14,9 @@ from math import pi
 from typing import Any, Protocol
 
 from sandbox.physics.air import DENSITY, VISCOSITY, density_share
+from sandbox.physics.checks import check
 from sandbox.physics.coefficients import Coefficient, Constant, spin_ratio_lift
-from sandbox.physics.elementwise import clip
+from sandbox.physics.elementwise import anywhere, clip
 from sandbox.physics.of_ball import OfBall, on_ball
 
 Wind = Callable[[float, Any], tuple[Any, Any]]
@@ -56,6 +57,7 @@ class Gravity(OfBall):
     _force: tuple[float, float] = _computed()  # N
 
     def __post_init__(self) -> None:
+        check("Gravity", self, finite=["gravity"])
         if self.mass is not None:
             self._weigh(self.mass, self.loss)
 
@@ -97,6 +99,9 @@ class _InAir(OfBall):
     _reynolds_per_speed: float = _computed()
 
     def __post_init__(self) -> None:
+        check(type(self).__name__, self, not_negative=["density"], positive=["viscosity"])
+        if not callable(self.coefficient):
+            check(type(self).__name__, self, finite=["coefficient"])
         law = self.coefficient if callable(self.coefficient) else Constant(self.coefficient)
         object.__setattr__(self, "_law", law)
         if self.radius is not None:
@@ -110,6 +115,10 @@ class _InAir(OfBall):
 
     def on(self, ball: Any) -> Any:
         if self.radius is not None:
+            if not ball.rotates and self.area is None and not anywhere(self.radius == ball.radius):
+                kind, it = type(self).__name__, f"ball {ball.name!r}, {ball.radius} m"
+                remedy = f"leave it out; a coefficient is {kind}(coefficient=...)"
+                raise ValueError(f"{kind}: radius = {self.radius} m is not that of {it}: {remedy}")
             return self
         made = replace(self)
         made._measure(ball.radius)

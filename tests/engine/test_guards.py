@@ -276,6 +276,50 @@ def test_a_law_of_bouncing_that_cannot_be_is_a_named_error(bounce, words):
         simulate(Setup(pair, between_balls=lambda normal, slip: bounce), resolve())
 
 
+@pytest.mark.parametrize(
+    ("fields", "said"),
+    [
+        ({"duration": None}, "duration = None s must be positive and finite"),
+        ({"duration": "3"}, "duration = 3 s must be positive and finite"),
+        ({"surfaces": [1]}, "surfaces: 1 is no Surface"),
+        ({"traps": [1]}, "traps: 1 is no Trap"),
+        ({"bounds": (-1, -1, 1, 1)}, r"bounds = \(-1, -1, 1, 1\) must be a Bounds"),
+        ({"contact": "hertz"}, "contact = 'hertz' must be a ContactModel"),
+        ({"plane": 3.0}, "3.0 is no plane, such as a Cloth"),
+    ],
+)
+def test_what_is_of_another_kind_is_refused_where_it_is_given(fields, said):
+    with pytest.raises(ValueError, match=said):
+        Setup(**{"balls": [Ball("ball", 1.0, 0.1, (0.0, 0.0))], **fields})
+
+
+@pytest.mark.parametrize(
+    ("fields", "said"),
+    [
+        ({"name": None}, "ball: name = None must be text"),
+        ({"position": (0.0, [1])}, "position = .* must be two finite numbers"),
+        ({"position": (0.0, 1j)}, "position = .* must be two finite numbers"),
+        ({"spin": [1]}, "spin = .* must be finite"),
+    ],
+)
+def test_what_is_no_number_of_a_ball_is_refused(fields, said):
+    with pytest.raises(ValueError, match=said):
+        Ball(**{"name": "ball", "mass": 1.0, "radius": 0.1, "position": (0.0, 0.0), **fields})
+
+
+@pytest.mark.parametrize("make", [lambda: Gravity("3"), lambda: Drag(coefficient=None), lambda: Drag(viscosity=0.0)])
+def test_what_is_no_number_of_a_force_is_refused(make):
+    with pytest.raises(ValueError, match=r"^(Gravity|Drag): .* must be (finite|positive)$"):
+        make()
+
+
+def test_an_invalid_bounce_is_said_with_time_and_ball():
+    ground = Surface("ground", Segment((-1.0, 0.0), (1.0, 0.0)), 0.5, 0.5, law=lambda normal, along: None)
+    ball = Ball("ball", 1.0, 0.1, (0.0, 0.2), forces=[Gravity(9.81)])
+    with pytest.raises(RunError, match=r"^t = 0.142784 s, ball 'ball': a ball hit 'ground'"):
+        simulate(Setup([ball], [ground]), resolve())
+
+
 def test_a_run_without_end_is_refused():
     with pytest.raises(ValueError, match="duration = inf s"):
         Setup([shot()], duration=inf)

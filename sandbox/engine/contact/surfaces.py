@@ -12,10 +12,9 @@ from typing import Any
 
 from sandbox.engine.model.ball import Ball
 from sandbox.engine.model.setup import Setup
-from sandbox.engine.model.setup_errors import call_user_function
+from sandbox.engine.model.setup_errors import UserFunctionError, call_user_function
 from sandbox.engine.model.surface import Bounce, BounceLaw, Surface
 from sandbox.engine.model.tolerances import STILL
-from sandbox.errors import RunError
 from sandbox.physics.elementwise import cos, sin, where
 from sandbox.physics.impulse import after_impulse, surface_speeds
 from sandbox.physics.integrators import Acceleration, State
@@ -34,14 +33,14 @@ def bounce_of_balls(setup: Setup, approach: float, slip: float, ball: str, partn
 
 
 def _bounce_by(law: BounceLaw, partner: str, approach: float, along: float) -> Bounce:
-    """The bounce off ``partner`` by a scene's law. Raises RunError if it is invalid: Chipmunk would abort the
+    """The bounce off ``partner`` by a scene's law. Raises UserFunctionError if it is invalid: Chipmunk would abort the
     program."""
     bounce = call_user_function(
         law, f"the law for {partner!r} is called as law(normal_speed, tangential_speed)", approach, along
     )
     # float first: Real alone takes five times as long
     if not isinstance(bounce, Bounce) or not all(isinstance(value, (float, Real)) for value in bounce):
-        raise RunError(
+        raise UserFunctionError(
             f"a ball hit {partner!r}: the scene's law must return a Bounce of numbers, such as "
             f"Bounce(restitution=0.7, friction=0.3), and returned {bounce!r:.60}"
         )
@@ -56,7 +55,7 @@ def _bounce_by(law: BounceLaw, partner: str, approach: float, along: float) -> B
         problem = f"tangential {tangential:g}: must be from 0 to 1"
     else:
         return bounce
-    raise RunError(f"the scene's law for {partner!r} returned {problem}")
+    raise UserFunctionError(f"the scene's law for {partner!r} returned {problem}")
 
 
 def tilted(nx: Any, ny: Any, tilt: Any, along: Any) -> tuple[Any, Any]:

@@ -89,6 +89,7 @@ class Ball:
     def __post_init__(self) -> None:
         positive, points = ("mass", "radius", "inertia_factor"), ("position", "velocity", "rolling_spin")
         lists = ["forces", "torques"]
+        check("ball", self, names=["name"])
         check(f"ball {self.name!r}", self, positive=positive, points=points, finite=["spin"], lists=lists)
         object.__setattr__(self, "inertia", self.inertia_factor * self.mass * self.radius * self.radius)
         for name in lists:

@@ -166,7 +166,7 @@ def _by_ball(name: str, value: Any, present: Collection[str]) -> dict[str, Any]:
 
 
 def _refuse_unknown(name: str, ball: str, present: Collection[str]) -> None:
-    if ball not in present:
+    if not isinstance(ball, str) or ball not in present:
         there = ", ".join(map(repr, present)) or "none"
         raise RequestError(f"{name}: there is no ball {ball!r} at that time; there are {there}")
 

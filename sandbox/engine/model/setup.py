@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import inf, isfinite
+from numbers import Real
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from sandbox.engine.model.ball import Ball
@@ -194,12 +195,7 @@ class Setup:
         check(
             "setup", self, lists=["balls", "surfaces", "traps", "force_regions", "pairs", "planes", "discontinuities"]
         )
-        for ball in self.balls:
-            if not isinstance(ball, Ball):
-                raise ValueError(f"setup: balls: {short(ball)} is no Ball or Body")
-        for surface in self.surfaces:
-            if isinstance(surface, Segment | Circle):
-                raise ValueError(f"setup: surfaces: {short(surface)} is a shape: write Surface(name, shape, ...)")
+        self._check_kinds()
         names = [ball.name for ball in self.balls]
         if not names:
             raise ValueError("a setup needs at least one ball")
@@ -217,10 +213,27 @@ class Setup:
                 raise ValueError(f"surface {cushion!r} has a nose_height: only balls can meet it, no bodies")
         if len(names) > 1 and (losing := next((ball.name for ball in self.balls if ball.loss is not None), None)):
             raise ValueError(f"ball {losing!r} loses mass, so it must be the only ball")
-        if not 0.0 < self.duration < inf:
+        if not isinstance(self.duration, float | Real) or not 0.0 < self.duration < inf:
             raise ValueError(f"duration = {self.duration} s must be positive and finite")
         if isinstance(self.until, Touches) and self.until.what not in self.names:
             raise ValueError(f"until = {self.until}: unknown name; choose from {', '.join(self.names)}")
+
+    def _check_kinds(self) -> None:
+        """Raise ValueError for what is not of the kind that its place needs."""
+        kind: type
+        for name, kind in (("balls", Ball), ("surfaces", Surface), ("traps", Trap), ("force_regions", ForceRegion)):
+            for each in getattr(self, name):
+                if isinstance(each, Segment | Circle) and kind is Surface:
+                    raise ValueError(f"setup: surfaces: {short(each)} is a shape: write Surface(name, shape, ...)")
+                if not isinstance(each, kind):
+                    or_body = " or Body" if kind is Ball else ""
+                    raise ValueError(f"setup: {name}: {short(each)} is no {kind.__name__}{or_body}")
+        for name, kind in (("bounds", Bounds), ("contact", ContactModel)):
+            if not isinstance(getattr(self, name), kind):
+                raise ValueError(f"setup: {name} = {short(getattr(self, name))} must be a {kind.__name__}")
+        for plane in (self.plane, *(law for _, law in self.planes)):
+            if plane is not None and not hasattr(plane, "rolls"):
+                raise ValueError(f"setup: {short(plane)} is no plane, such as a Cloth")
 
     @property
     def names(self) -> list[str]:

@@ -12,15 +12,20 @@ from sandbox.errors import RunError, sys_exit_as_error
 _PACKAGE = Path(__file__).resolve().parents[2]
 
 
+class UserFunctionError(RunError):
+    """A function of the scene, such as a contact law, does not take what it is called with, or returns what it must
+    not."""
+
+
 def call_user_function(function: Callable[..., Any], form: str, *arguments: Any) -> Any:
-    """Return what a function of the scene returns. Raises RunError with the ``form`` in which it is called if it does
-    not take these arguments."""
+    """Return what a function of the scene returns. Raises UserFunctionError with the ``form`` in which it is called if
+    it does not take these arguments."""
     try:
         return function(*arguments)
     except TypeError as error:
         if is_from_inside(error):
             raise
-        raise RunError(f"{form}: {error}") from None
+        raise UserFunctionError(f"{form}: {error}") from None
 
 
 def failed(t: float, ball: str, what: str) -> RunError:

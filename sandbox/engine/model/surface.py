@@ -104,6 +104,7 @@ class Surface:
 
     def __post_init__(self) -> None:
         numbers = ("friction", "rolling_resistance", "lowest_bounce", "kick")
+        check("surface", self, names=["name"])
         check(f"surface {self.name!r}", self, fractions=["restitution"], not_negative=numbers)
         if self.motion is not None and not isinstance(self.motion, Motion):
             raise ValueError(f"surface {self.name!r}: motion = {self.motion!r:.80} must have about, place and rates")
@@ -181,6 +182,7 @@ class Trap:
     fastest: float | None = None  # m/s
 
     def __post_init__(self) -> None:
+        check("trap", self, names=["name"])
         check(f"trap {self.name!r}", self, points=["center"])
         if self.fastest is not None:
             check(f"trap {self.name!r}", self, positive=["fastest"])

@@ -127,15 +127,18 @@ class Run(Drawable):
         path = self._path(ball)
         columns = 6 if self._ball(ball).rotates else 5
         missing = (nan,) * columns
-        rows = [
-            path.at(t).state(t)[:columns] if self._within(path, ball, t, outside) else missing
-            for t in np.asarray(times, dtype=float).ravel().tolist()
-        ]
+        try:
+            asked = np.asarray(times, dtype=float).ravel().tolist()
+        except (TypeError, ValueError):
+            raise RequestError(f"times = {times!r:.60}: must be numbers, in s") from None
+        rows = [path.at(t).state(t)[:columns] if self._within(path, ball, t, outside) else missing for t in asked]
         return np.array(rows, dtype=float).reshape(-1, columns)
 
     def _within(self, path: Path, ball: str, t: float, outside: Outside) -> bool:
         """Return True if the run has the time t, apart from rounding. Raises RequestError if not, unless NaN may do."""
         start, rounding = path[0].t0, ROUNDING_OF_TIME * self.duration
+        if not isinstance(t, int | float) and getattr(t, "ndim", None) != 0:
+            raise RequestError(f"ball {ball!r}, t = {t!r:.60}: must be a number, in s; times go into run.states")
         if start - rounding <= t <= self.duration + rounding:
             return True
         if outside == "nan":
@@ -239,7 +242,7 @@ class Run(Drawable):
         import numpy as np
 
         path = self._path(ball)
-        if not 0.0 < every < inf:
+        if not (isinstance(every, int | float) and 0.0 < every < inf):
             raise RequestError(f"every = {every}: must be more than 0 s, and finite")
         count = int(self.duration / every * (1.0 + 1e-12)) + 1
         times = {min(i * every, self.duration) for i in range(count)}
