@@ -10,6 +10,7 @@ from math import hypot
 from sandbox.engine import simulate
 from sandbox.engine.model.accuracy import LEVELS, Accuracy
 from sandbox.engine.model.setup import Setup
+from sandbox.engine.model.shapes import Vector
 from sandbox.engine.model.tolerances import SKIN
 from sandbox.engine.paths.run import Run
 from sandbox.errors import RequestError
@@ -35,8 +36,6 @@ _BEFORE_THE_END = 0.98
 #: Times at which two runs are compared, in addition to those of the events.
 _LOOKS = 240
 
-Point = tuple[float, float]
-
 
 @dataclass(frozen=True)
 class Reference:
@@ -44,7 +43,7 @@ class Reference:
 
     scene: Scene
     time: float  # s, when positions are compared
-    points: list[Point]  # m
+    points: list[Vector]  # m
     error: float  # m, estimated
     first_touch: float  # s, the first contact of a ball; ``time`` if there is none
     size: float  # m, largest distance of a ball from its start
@@ -98,12 +97,12 @@ def converge(scene: Scene) -> Reference:
     )
 
 
-def apart(a: Sequence[Point], b: Sequence[Point]) -> float:
+def apart(a: Sequence[Vector], b: Sequence[Vector]) -> float:
     """The largest distance between corresponding points of both lists, in m."""
     return max((hypot(p[0] - q[0], p[1] - q[1]) for p, q in zip(a, b, strict=True)), default=0.0)
 
 
-def places(run: Run, t: float) -> list[Point]:
+def places(run: Run, t: float) -> list[Vector]:
     """Positions of the balls at time t, in m; after the end of the run where they are then, at rest or caught."""
     at = min(t, run.duration)
     return [(state[0], state[1]) for state in (run.state(ball.name, at) for ball in run.setup.balls)]

@@ -31,7 +31,7 @@ HIDE_ORDER = (
     frozenset({"-faster", "rate", "faster"}),
     frozenset({"-step", "step"}),
 )
-Place = tuple[int, int]  # px
+Pixel = tuple[int, int]  # px
 GROOVE = mix(CARD["background"], CARD["quiet"], 0.35)
 
 _RIGHT = [(0.22, 0.1), (0.86, 0.5), (0.22, 0.9)]
@@ -87,14 +87,14 @@ class Bar:
         """Places by command."""
         return {name: rect for name, rect in self.places.items() if name not in ("rate", "line", "time")}
 
-    def command_at(self, position: Place) -> str | None:
+    def command_at(self, position: Pixel) -> str | None:
         return next((name for name, rect in self.buttons.items() if rect.collidepoint(position)), None)
 
-    def on_line(self, position: Place) -> bool:
+    def on_line(self, position: Pixel) -> bool:
         """True if a place is on the time line, or near it."""
         return self.line.inflate(16, self.rect.height - 12).collidepoint(position)
 
-    def share(self, position: Place) -> float:
+    def share(self, position: Pixel) -> float:
         """The position of a place along the time line, 0 to 1."""
         return min(1.0, max(0.0, (position[0] - self.line.left) / max(1, self.line.width)))
 
@@ -141,7 +141,7 @@ class Bar:
     # Drawing
 
     def draw(
-        self, sheet: Canvas, title: str, shot: Shot | None, playback: Playback | None, on: Collection[str], mouse: Place
+        self, sheet: Canvas, title: str, shot: Shot | None, playback: Playback | None, on: Collection[str], mouse: Pixel
     ) -> None:
         """Draw it on the window's sheet, for a shot and its clock; ``on`` are the commands whose lists are open."""
         sheet.surface.fill(CARD["background"], self.rect)

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import pygame
 
 from sandbox.picture.camera import Camera
+from sandbox.picture.painter import Point
 from sandbox.picture.palette import palette
 from sandbox.sport.amounts import round_number_above
 from sandbox.window.canvas import Canvas
@@ -28,14 +29,12 @@ WIND, FOOT = 4.0, (42.0, 13.0)
 #: A drag that snaps goes in steps of at least so many px, and otherwise in steps of about so many.
 SNAPS, FINE = 12.0, 0.25
 
-Place = tuple[float, float]
-
 
 class ShownGrip(NamedTuple):
     """A handle in the picture."""
 
     grip: Grip
-    at: Place  # px
+    at: Point  # px
     camera: Camera  # that shows its place
     unit: float  # px on 720 rows
 
@@ -43,7 +42,7 @@ class ShownGrip(NamedTuple):
         """The size of the steps in which it is dragged, in m or m/s."""
         return round_number_above((SNAPS * self.unit if snap else FINE) / self.camera.scale)
 
-    def dragged(self, before: Place, to: Place) -> Place:
+    def dragged(self, before: Point, to: Point) -> Point:
         """The place that it is dragged to, in m or m/s, by a drag between two places in px."""
         (x0, y0), (x, y) = self.camera.world(*before), self.camera.world(*to)
         return self.grip.place[0] + x - x0, self.grip.place[1] + y - y0
@@ -63,14 +62,14 @@ def shown_grips(grips: Sequence[Grip], stage: Stage, sheet: Canvas) -> list[Show
     return found
 
 
-def nearest(found: Sequence[ShownGrip], at: Place) -> ShownGrip | None:
+def nearest(found: Sequence[ShownGrip], at: Point) -> ShownGrip | None:
     """The handle at a place in px."""
     near = min(found, key=lambda shown: dist(shown.at, at), default=None)
     return near if near is not None and dist(near.at, at) <= NEAR * near.unit else None
 
 
 def draw_handles(
-    sheet: Canvas, layout: Layout, found: Sequence[ShownGrip], mouse: Place | None, held: Grip | None, text: str
+    sheet: Canvas, layout: Layout, found: Sequence[ShownGrip], mouse: Point | None, held: Grip | None, text: str
 ) -> None:
     """The handles, those in a list only near the mouse, if it is there; the one that is held, or that the mouse is on,
     with its numbers."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from math import inf
 from typing import Any
 
+from sandbox.engine.model.shapes import Vector
 from sandbox.parameters import Group, value_at
 from sandbox.sport.amounts import amount
 from sandbox.sport.controls import Handle
@@ -14,7 +15,6 @@ from sandbox.window.session import Session
 
 #: What every scene with air has.
 WIND = Handle("air.wind[0]", "air.wind[1]")
-Place = tuple[float, float]  # m, or m/s for the wind
 
 
 @dataclass(frozen=True)
@@ -22,7 +22,7 @@ class Grip:
     """A handle of a scene as it is now."""
 
     keys: tuple[str, str]  # along x and y, "" for none
-    place: Place
+    place: Vector  # m, or m/s for the wind
     name: str  # of what is dragged
     slopes: tuple[float, float]  # how far it moves along x and y per change of the parameters
     values: tuple[float, float]  # of the parameters
@@ -39,7 +39,7 @@ class Grip:
     def is_wind(self) -> bool:
         return self.keys == (WIND.x, WIND.y)
 
-    def changes(self, place: Place, step: float) -> dict[str, Any]:
+    def changes(self, place: Vector, step: float) -> dict[str, Any]:
         """The changes that move it to a place, or near it, in whole steps."""
         found = {}
         axes = zip(self.keys, self.values, place, self.place, self.slopes, self.bounds, strict=True)
@@ -94,7 +94,7 @@ def _entries(handle: Handle, parameters: Group) -> Iterator[tuple[str, str]]:
 
 
 def _slopes(
-    handle: Handle, keys: tuple[str, str], values: Sequence[float], place: Place, session: Session
+    handle: Handle, keys: tuple[str, str], values: Sequence[float], place: Vector, session: Session
 ) -> tuple[float, float]:
     """The distance that the handle moves per change of its parameters; 0 where that cannot be told."""
     if handle.at is None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from math import dist
 
+from sandbox.engine.model.shapes import Vector
 from sandbox.picture.path import first_impact
 from sandbox.scene import Scene
 from sandbox.scene.scene_run import SceneRun
@@ -11,7 +12,6 @@ from sandbox.sport.amounts import metres
 from sandbox.window.contest import Contest, Entries
 from sandbox.window.shots import Shot
 
-Place = tuple[float, float]  # m
 #: A prediction is good if it is off by no more than this share of the way.
 GOOD = 0.05
 #: So many of the last errors are shown.
@@ -37,7 +37,7 @@ class Prediction(Contest):
     def limits(self) -> None:
         return None
 
-    def put(self, place: Place) -> None:
+    def put(self, place: Vector) -> None:
         self.mark, self.landed, self.fresh = (float(place[0]), float(place[1])), None, True
 
     @property

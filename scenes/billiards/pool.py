@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from math import atan2, degrees, dist, hypot
 from typing import Any, ClassVar, TypeVar
 
+from sandbox.kit import Vector
 from sandbox.sport.match import Match, Outcome, named
 
 #: The table (9 ft, between the noses) and the balls, in m; the balls that must reach a cushion in a break.
@@ -18,16 +19,15 @@ LENGTH, WIDTH, RADIUS, DRIVEN = 2.54, 1.27, 0.028575, 4
 #: Of a stroke after the break, before the player aims, in m/s.
 SPEED = 2.5
 CUE = "cue"
-Place = tuple[float, float]
 Same = TypeVar("Same", bound="Pool")
 
 
-def free_place(taken: Collection[Place], wanted: Iterable[Place]) -> Place:
+def free_place(taken: Collection[Vector], wanted: Iterable[Vector]) -> Vector:
     """The first of some places (m) at which a ball touches no other."""
     return next(at for at in wanted if all(hypot(at[0] - x, at[1] - y) > 2.0 * RADIUS for x, y in taken))
 
 
-def on_long_string(taken: Collection[Place]) -> Place:
+def on_long_string(taken: Collection[Vector]) -> Vector:
     """Return the place where a ball is spotted: the foot spot, or as near to it as is free on the line towards the foot
     rail; or then on the line towards the head."""
     foot, room = 0.25 * LENGTH, 0.5 * LENGTH - RADIUS - 1e-3
@@ -36,7 +36,7 @@ def on_long_string(taken: Collection[Place]) -> Place:
     return free_place(taken, [*((foot + step, 0.0) for step in steps), *((foot - step, 0.0) for step in back)])
 
 
-def behind_head_string(taken: Collection[Place]) -> Place:
+def behind_head_string(taken: Collection[Vector]) -> Vector:
     """A place for the cue ball in hand: at the head spot, or beside it."""
     steps = sorted((0.02 * step for step in range(-25, 26)), key=abs)
     return free_place(taken, [(-0.25 * LENGTH, step) for step in steps])
@@ -53,7 +53,7 @@ class Pool(Match):
         *("first_contact", "potted", "scratch", "rails", "touches", "driven", "positions"),
     )
 
-    balls: Mapping[str, Place] | None = None  # m
+    balls: Mapping[str, Vector] | None = None  # m
     in_hand: bool = True  # the player may place the cue ball
     behind: bool = True  # but only behind the head string
     fouls: tuple[int, int] = (0, 0)  # of each, one after the other without a legal shot between
@@ -81,7 +81,7 @@ class Pool(Match):
             return "no ball reaches a cushion"
         return ""
 
-    def table_after(self, outcome: Outcome, spotted: Collection[str] = ()) -> dict[str, Place]:
+    def table_after(self, outcome: Outcome, spotted: Collection[str] = ()) -> dict[str, Vector]:
         """The balls after a shot, in m, the cue ball first; of those potted some are spotted."""
         balls = {name: (x, y) for name, (x, y) in outcome["positions"].items()}
         for name in spotted:

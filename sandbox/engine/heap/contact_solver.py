@@ -41,7 +41,7 @@ class SolverBody(NamedTuple):
     brake: float  # N m s, the largest impulse of rolling resistance
 
 
-class Point(NamedTuple):
+class ContactPoint(NamedTuple):
     """A point of contact. The unit normal points from the first body to the second, or to what is fixed."""
 
     first: int  # index of a body
@@ -58,7 +58,7 @@ Motions = list[list[float]]
 class Contacts:
     """The contacts of some bodies that touch one another, directly or through others."""
 
-    def __init__(self, bodies: Sequence[SolverBody], points: Sequence[Point]) -> None:
+    def __init__(self, bodies: Sequence[SolverBody], points: Sequence[ContactPoint]) -> None:
         self._count = len(points)
         self._brakes = np.array([body.brake for body in bodies])
         self._friction = np.array([point.friction for point in points])

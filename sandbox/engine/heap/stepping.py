@@ -223,7 +223,7 @@ class Stepper:
     def _contacts(self, members: Sequence[Member], touches: Sequence[Touch]) -> Contacts:
         """The contacts of a group."""
         # here, not above: it brings numpy, which balls that are alike do not need
-        from sandbox.engine.heap.contact_solver import Contacts, Point, SolverBody
+        from sandbox.engine.heap.contact_solver import ContactPoint, Contacts, SolverBody
 
         number = {member.index: place for place, member in enumerate(members)}
         bodies = [
@@ -240,7 +240,7 @@ class Stepper:
         for touch in touches:
             second = None if touch.second is None else number[touch.second.index]
             for point, _ in touch.points:
-                points.append(Point(number[touch.first.index], second, point, touch.normal, touch.friction))
+                points.append(ContactPoint(number[touch.first.index], second, point, touch.normal, touch.friction))
         return Contacts(bodies, points)
 
     # ------------------------------------------------------------------ callbacks

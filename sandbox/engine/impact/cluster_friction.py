@@ -17,6 +17,7 @@ import numpy as np
 
 from sandbox.engine.impact.cluster_forces import ClusterForces
 from sandbox.engine.impact.cluster_parts import Link
+from sandbox.engine.model.tolerances import TINY
 
 #: Most iterations, and the change of a slip relative to the fastest speed at which they stop; after some iterations it
 #: is clear whether the interval has a kink.
@@ -99,7 +100,7 @@ class ClusterFriction:
             else:
                 total += impulse
                 slip = slip + _slips_by(mobility, impulse)
-                used = impulse / np.maximum(part, 1e-300)
+                used = impulse / np.maximum(part, TINY)
         self._used[acting] = used
         return motion + self._changes(acting, normal, total)
 
@@ -168,7 +169,7 @@ def _impulses(
             limit = pressed * coefficients(middle)
         holds, slides = impulse - end * step, impulse - middle * step
         held = np.abs(holds) <= limit
-        wanted = slides * (limit / np.maximum(np.abs(slides), 1e-300))
+        wanted = slides * (limit / np.maximum(np.abs(slides), TINY))
         np.copyto(wanted, holds, where=held)
         change, impulse = wanted - impulse, wanted
         end += _slips_by(mobility, change)

@@ -36,7 +36,7 @@ class Phase(Enum):
 
 
 class ArcContact(Protocol):
-    """The contact of a ball along an arc."""
+    """The contact of a ball along an arc: a SustainedContact or one on a point, InCluster, InHeap, or SetByHand."""
 
     @property
     def phase(self) -> Phase:
