@@ -348,19 +348,25 @@ class Player {
     this.label(ghost.label, px, py - radius - 5 * view.unit, ghost.light);
   }
 
-  /** A text on a dark label above a place, within the picture. */
-  label(text, x, y, colour) {
+  /** A text, after a dot of its own colour if it has one, on a dark label above a place, within the picture and clear of
+   *  the labels that are `taken`. */
+  label(text, x, y, colour, taken = [], dot = "") {
     const { context, view } = this, [width, height] = view.size, within = (value, high) => Math.max(4, Math.min(value, high - 4));
     context.font = `700 ${Math.max(11, 14.5 * view.unit)}px "Sandbox Sans", "Noto Sans", sans-serif`;
     context.textBaseline = "middle";
-    const wide = context.measureText(text).width + 12 * view.unit, tall = 22 * view.unit;
-    const left = within(x - wide / 2, width - wide), top = within(y - tall, height - tall);
+    const start = (dot ? 18 : 6) * view.unit, wide = context.measureText(text).width + start + 6 * view.unit, tall = 22 * view.unit;
+    const left = within(x - wide / 2, width - wide);
+    let top = within(y - tall, height - tall);
+    const covered = () => taken.some((each) => Math.abs(top - each.top) < tall && left < each.left + each.wide && each.left < left + wide);
+    while (top > 4 && covered()) top -= 2 * view.unit;
+    taken.push({ left, top, wide });
     context.fillStyle = this.data.card;
     context.beginPath();
     context.roundRect(left, top, wide, tall, tall / 2);
     context.fill();
     context.fillStyle = colour;
-    context.fillText(text, left + 6 * view.unit, top + tall / 2);
+    context.fillText(text, left + start, top + tall / 2);
+    if (dot) this.disc(left + 10 * view.unit, top + tall / 2, 4 * view.unit, dot);
   }
 
   // -------------------------------------------------------------------------------------------- arrows

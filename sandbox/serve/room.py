@@ -224,7 +224,7 @@ class Room:
                 self._tell_teachers()
             case messages.Aim() | messages.Shoot():
                 await self._checked(player.source, message.changes)
-                if self.lead.frozen and not (isinstance(message, messages.Aim) and message.do == "stage"):
+                if self.lead.frozen and not self._only_shows(player, message):
                     raise RequestError("the teacher has stopped the game for a moment")
                 player.changes = dict(message.changes)
                 if isinstance(message, messages.Shoot):
@@ -238,6 +238,11 @@ class Room:
                     self._compute(player, "hidden", message, None)
             case _:
                 raise RequestError("message refused: hello was said already")
+
+    def _only_shows(self, player: Player, message: Any) -> bool:
+        """True for a question that changes nothing, such as that of a page which was opened again."""
+        aims = isinstance(message, messages.Aim)
+        return aims and (message.do == "stage" or (message.do == "path" and message.changes == player.changes))
 
     def _compute(self, player: Player, kind: calls.Kind, message: Any, done: Any) -> None:
         """Have something computed for a player, and sent; ``done`` is called with what the server keeps of it."""

@@ -25,18 +25,44 @@ class Board extends Player {
     for (const ball of this.data.balls) this.ball(ball, 0);
     context.drawImage(this.view.over, 0, 0);
     const shots = state.room.players.filter(({ last }) => last && last.source === state.source);
-    for (const each of shots) this.shot(each);
+    const ends = shots.map((each) => [each, this.shot(each)]).filter(([, end]) => end).sort(([, a], [, b]) => b[1] - a[1]);
+    this.taken = []; // by names
+    for (const [{ name, number }, [x, y]] of ends) {
+      this.label(name, x, y - 8 * this.view.unit, "#f4f6f8", this.taken, colourOf(number));
+      this.disc(x, y, 4 * this.view.unit, colourOf(number));
+    }
   }
 
-  shot({ name, number, last: { line } }) {
-    const { view } = this, points = [];
-    for (let i = 0; i < line.length; i += 2) points.push([...this.spot(this.main, line[i], line[i + 1]), i]);
-    if (!points.length) return;
-    this.trace(points, 0, Infinity, 3 * view.unit, colourOf(number), 0.9, view.unit);
-    const [x, y] = points[points.length - 1];
-    this.label(name, x, y - 8 * view.unit, "#f4f6f8");
-    this.disc(x, y, 4 * view.unit, colourOf(number));
+  /** Draw the path of a shot; returns where it ends, if it has one. */
+  shot({ number, last: { line } }) {
+    const points = this.places(line);
+    this.trace(points, 0, Infinity, 3 * this.view.unit, colourOf(number), 0.9, this.view.unit);
+    return points[points.length - 1];
   }
+
+  places(line) {
+    const points = [];
+    for (let i = 0; i < line.length; i += 2) points.push([...this.spot(this.main, line[i], line[i + 1]), i]);
+    return points;
+  }
+
+  /** How far a line leaves the picture, as a share of it. */
+  beyond(line) {
+    return Math.max(0, ...this.places(line).flatMap((at) => this.view.size.map((size, axis) => Math.max(-at[axis], at[axis] - size) / size)));
+  }
+}
+
+/** Ask for the place as it is seen from where a shot is in sight with speed and angle of the one that leaves it the most. */
+function askStage() {
+  if (!state.scene) return;
+  const shots = board ? state.room.players.filter(({ last }) => last?.source === state.source) : [];
+  const [most, far] = shots.map((each) => [board.beyond(each.last.line), each]).sort(([a], [b]) => b - a)[0] ?? [0];
+  const row = most > 0 ? state.room.rows.findLast((each) => each.player === far.number && each.scene === state.source) : null;
+  const { speed, angle } = state.scene.pull ?? {}, set = Object.entries(row?.changes ?? {}).filter(([key]) => key === speed || key === angle);
+  if (row) state.seen = { ...state.changes, ...Object.fromEntries(set) };
+  const asked = JSON.stringify([state.source, state.seen, narrow()]);
+  if (asked !== state.asked) ask.stage.ask({ changes: state.seen, narrow: narrow() });
+  state.asked = asked;
 }
 
 const heard = {
@@ -54,7 +80,8 @@ const heard = {
     $("predict").replaceChildren(...options([new Option("nothing", "")]));
     for (const each of Object.values(ask)) each.forget();
     ask.path.ask({ changes: state.changes });
-    ask.stage.ask({ changes: state.changes, narrow: narrow() });
+    [state.seen, state.asked] = [state.changes, ""];
+    askStage();
   },
   async stage({ n, stage }) {
     if (!ask.stage.answered(n)) return;
@@ -71,6 +98,7 @@ const heard = {
   room(room) {
     state.room = room;
     shown();
+    askStage();
   },
   error({ text }) {
     $("told").textContent = text;
@@ -154,6 +182,7 @@ function begin() {
   $("predict").addEventListener("change", () => wire.send({ do: "predict", fact: $("predict").value }));
   $("clear").addEventListener("click", () => wire.send({ do: "clear" }));
   $("fact").addEventListener("change", () => table(state.room.rows));
+  addEventListener("resize", () => (shown(), state.scene && askStage()));
 }
 
 begin();

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import combinations
 from pathlib import Path
 from typing import Any
 
@@ -259,6 +260,11 @@ def test_a_teacher_and_two_pupils(pages, browser: Browser, served: Served):
     other.hear("shot", n=other.ask("shoot", {"launch.angle": 30.0}, predicted=200.0))
     teacher.at()
     teacher.until("document.querySelectorAll('#shots tbody tr').length >= 2")
+    teacher.until("state.room.players.filter(({ last }) => last).length >= 2 && !ask.stage.awaited")
+    teacher.until("state.room.players.every(({ last }) => !last || board.beyond(last.line) < 0.02)")  # all are in sight
+    names = browser.run("board.taken.map(({ left, top, wide }) => [left, left + wide, top])")
+    assert len(names) >= 2
+    assert all(a[1] <= b[0] or b[1] <= a[0] or abs(a[2] - b[2]) > 10 for a, b in combinations(names, 2))
     carry = sandbox.simulate("golf").result["carry"]
     rows = [row for row in browser.text("#shots tbody tr") if NAME[:20] in row]
     assert rows

@@ -147,6 +147,9 @@ def test_the_teacher_leads_freezes_and_sees_the_shots(player):
     ann.hear("lead", frozen=True)
     n = ann.ask("shoot")
     assert "stopped the game" in ann.hear("error")["text"]
+    assert ann.hear("path", n=ann.ask("path", {"launch.angle": 25.0}))  # such as that of a page which was opened again
+    n = ann.ask("path", {"launch.angle": 26.0})
+    assert "stopped the game" in ann.hear("error", n=None)["text"]
     teacher.say(do="freeze", on=False)
     teacher.say(do="lead", source="")
     teacher.say(do="clear")
