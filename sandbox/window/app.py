@@ -249,7 +249,7 @@ def _contest(source: str | None, changes: Mapping[str, Any], game: str | None, p
     elif source is not None and installed_folder(source) is None and is_task(source):
         contest = AtTask(load_task(source), players)
     if contest is None and players > 1:
-        raise RequestError("--two: goes with a task; a game of a scene for two is --game NAME")
+        raise RequestError("--two: requires a task; a game of a scene for two is --game NAME")
     if contest is not None and changes:
         raise RequestError(f"--set: does not go with {contest.name}, which says itself what it begins with")
     return contest

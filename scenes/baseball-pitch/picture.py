@@ -4,10 +4,20 @@ from __future__ import annotations
 
 from functools import cached_property
 
-from sandbox.picture.palette import palette
-from sandbox.picture.places import Landscape, Person, Post, Shape, Thing, turf
-from sandbox.picture.views import Box, Length, Place, SideView
-from sandbox.sport.amounts import metres
+from sandbox.kit import (
+    Box,
+    Landscape,
+    Length,
+    Person,
+    Place,
+    Post,
+    Shape,
+    SideView,
+    Thing,
+    metres,
+    palette,
+    turf,
+)
 
 from ..baseball.picture import COLOURS, FIELD
 from ..baseball.picture import Picture as FlyBall

@@ -10,19 +10,32 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from sandbox.engine.model.setup import Setup
-from sandbox.engine.model.surface import Segment, Surface
-from sandbox.engine.paths.run import Event, Run
-from sandbox.parameters import Group, group, quantity
-from sandbox.physics.elementwise import cos
-from sandbox.scene.scene_run import SceneRun
+from sandbox.kit import (
+    BALL_SPEED,
+    DEGREE,
+    ENDED,
+    LAUNCH_ANGLE,
+    LAUNCH_SPIN,
+    Controls,
+    Event,
+    Fact,
+    Group,
+    Handle,
+    Run,
+    SceneRun,
+    Segment,
+    Setup,
+    Spin,
+    Surface,
+    cos,
+    fact_from,
+    group,
+    level,
+    passing_at,
+    quantity,
+    roughly,
+)
 from sandbox.sport import flight
-from sandbox.sport.amounts import roughly
-from sandbox.sport.controls import Controls, Handle, Spin
-from sandbox.sport.facts import ENDED, Fact
-from sandbox.sport.flight import DEGREE
-from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, LAUNCH_SPIN, fact_from, passing_at
-from sandbox.sport.solids import level
 
 from ..baseball.scene import BaseballFlight
 

@@ -4,11 +4,24 @@ from __future__ import annotations
 
 from functools import cached_property
 
-from sandbox.picture.palette import scene_colours
-from sandbox.picture.places import Landscape, Person, Post, Shape, turf
-from sandbox.picture.views import Box, Camera, Length, Look, Place, Sheet, SideView, seams
-from sandbox.sport.amounts import in_two_units
-from sandbox.sport.readings import passing
+from sandbox.kit import (
+    Box,
+    Camera,
+    Landscape,
+    Length,
+    Look,
+    Person,
+    Place,
+    Post,
+    Shape,
+    Sheet,
+    SideView,
+    in_two_units,
+    passing,
+    scene_colours,
+    seams,
+    turf,
+)
 
 from .scene import Parameters
 

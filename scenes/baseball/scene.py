@@ -13,32 +13,45 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Literal
 
-from sandbox.engine.model.ball import SOLID_SPHERE
-from sandbox.engine.model.setup import Setup, Touches
-from sandbox.engine.model.surface import Surface
-from sandbox.engine.paths.run import Run
-from sandbox.parameters import Group, choice, group, quantity
-from sandbox.physics.coefficients import BASEBALL_LIFT, Coefficient, NathanDrag, pitch_fit_drag
-from sandbox.physics.elementwise import where
-from sandbox.scene.scene_run import SceneRun
-from sandbox.sport import flight
-from sandbox.sport.air import Air, Model, Weather
-from sandbox.sport.amounts import roughly
-from sandbox.sport.controls import Controls, Handle, Spin
-from sandbox.sport.facts import ENDED, Fact
-from sandbox.sport.flight import RPM, Flight, Release, Sphere
-from sandbox.sport.readings import (
+from sandbox.kit import (
     APEX,
     BALL_SPEED,
     DISTANCE,
+    ENDED,
     FLIGHT_TIME,
     LANDING_ANGLE,
     LAUNCH_ANGLE,
     LAUNCH_SPIN,
+    RPM,
+    SOLID_SPHERE,
+    Air,
+    Coefficient,
+    Controls,
+    Fact,
+    Flight,
+    Group,
+    Handle,
+    Release,
+    Run,
+    SceneRun,
+    Setup,
+    Sphere,
+    Spin,
+    Surface,
+    Touches,
+    Weather,
+    choice,
     fact_from,
+    group,
+    level,
     passing_at,
+    quantity,
+    roughly,
+    where,
 )
-from sandbox.sport.solids import level
+from sandbox.physics.coefficients import BASEBALL_LIFT, NathanDrag, pitch_fit_drag
+from sandbox.sport import flight
+from sandbox.sport.air import Model
 from sandbox.sport.swing import Bat, struck_by
 
 

@@ -8,10 +8,22 @@ from math import cos, inf, sin
 
 import numpy as np
 
-from sandbox.picture.painter import Painter, Point
-from sandbox.picture.palette import Colour, palette, scene_colours
-from sandbox.picture.places import Shape, plan
-from sandbox.picture.views import Box, Camera, Fall, LongView, Look, Mark, near
+from sandbox.kit import (
+    Box,
+    Camera,
+    Colour,
+    Fall,
+    LongView,
+    Look,
+    Mark,
+    Painter,
+    Shape,
+    near,
+    palette,
+    plan,
+    scene_colours,
+)
+from sandbox.picture.painter import Point
 
 from .scene import HEAD, KICKBACK, LANE, PIT, ROW, SPOTS, Parameters
 

@@ -9,20 +9,33 @@ from __future__ import annotations
 
 from math import cos, dist, sin
 
-from sandbox.engine.model.ball import Ball
-from sandbox.engine.model.setup import Setup
-from sandbox.engine.model.surface import Segment, Surface
-from sandbox.engine.paths.run import Run
-from sandbox.errors import RequestError
-from sandbox.parameters import Group, group, groups, quantity, text
-from sandbox.physics.cloth import Cloth
-from sandbox.physics.ice import Glide
-from sandbox.physics.plane import Strips
-from sandbox.scene.scene_run import SceneRun
-from sandbox.sport.controls import Controls, Handle, Spin, Spread
-from sandbox.sport.facts import ENDED, Fact
-from sandbox.sport.flight import DEGREE
-from sandbox.sport.readings import Moment, before, fact_from
+from sandbox.kit import (
+    DEGREE,
+    ENDED,
+    Ball,
+    Cloth,
+    Controls,
+    Fact,
+    Glide,
+    Group,
+    Handle,
+    Moment,
+    RequestError,
+    Run,
+    SceneRun,
+    Segment,
+    Setup,
+    Spin,
+    Spread,
+    Strips,
+    Surface,
+    before,
+    fact_from,
+    group,
+    groups,
+    quantity,
+    text,
+)
 from sandbox.sport.sliding import Slide, Sliding, SlidingDisc, beside, beyond, collisions_of, end_of, removed_by
 
 #: USBC: from the foul line to the head pin, between pins and between their rows; from the head pin to the pit; half the

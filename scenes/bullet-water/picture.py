@@ -6,10 +6,24 @@ from dataclasses import replace
 from functools import cached_property
 from math import cos, radians, sin
 
-from sandbox.picture.palette import scene_colours
-from sandbox.picture.places import Ground, Landscape, Post, Stripes
-from sandbox.picture.views import Box, Camera, Entry, Eye, Look, Place, Sheet, SideView, round_number_above
-from sandbox.sport.amounts import amount, metres
+from sandbox.kit import (
+    Box,
+    Camera,
+    Entry,
+    Eye,
+    Ground,
+    Landscape,
+    Look,
+    Place,
+    Post,
+    Sheet,
+    SideView,
+    Stripes,
+    amount,
+    metres,
+    round_number_above,
+    scene_colours,
+)
 
 from .scene import Parameters, entry, halving, harmless
 

@@ -12,19 +12,34 @@ from __future__ import annotations
 from bisect import bisect_left
 from math import dist, log, pi
 
-from sandbox.engine.model.ball import Ball, Force
-from sandbox.engine.model.setup import ForceRegion, Setup
-from sandbox.engine.paths.run import Run
-from sandbox.parameters import Group, SceneParameters, group, quantity
-from sandbox.physics.coefficients import Constant
-from sandbox.physics.forces import Drag, Gravity, Inside
-from sandbox.scene.scene_run import SceneRun
-from sandbox.sport.air import Weather
-from sandbox.sport.amounts import metres
-from sandbox.sport.controls import Controls, Handle, Spread
-from sandbox.sport.facts import ENDED, Fact, cached_per_run
-from sandbox.sport.flight import Directed
-from sandbox.sport.readings import LAUNCH_ANGLE, Moment, fact_from
+from sandbox.kit import (
+    ENDED,
+    LAUNCH_ANGLE,
+    Ball,
+    Constant,
+    Controls,
+    Directed,
+    Drag,
+    Fact,
+    Force,
+    ForceRegion,
+    Gravity,
+    Group,
+    Handle,
+    Inside,
+    Moment,
+    Run,
+    SceneParameters,
+    SceneRun,
+    Setup,
+    Spread,
+    Weather,
+    cached_per_run,
+    fact_from,
+    group,
+    metres,
+    quantity,
+)
 
 from ..bullet.scene import MUZZLE_SPEED, Bullet
 

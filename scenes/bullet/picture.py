@@ -9,12 +9,25 @@ from typing import ClassVar
 
 import numpy as np
 
-from sandbox.picture.palette import scene_colours
-from sandbox.picture.places import Landscape, Post, Thing, turf
+from sandbox.kit import (
+    Box,
+    Camera,
+    Entry,
+    Eye,
+    Landscape,
+    Look,
+    Painter,
+    Place,
+    Post,
+    Sheet,
+    SideView,
+    Thing,
+    amount,
+    scene_colours,
+    turf,
+)
 from sandbox.picture.places.things import pose_of
 from sandbox.picture.sheet import ROWS_FOR_LENGTHS, YARD
-from sandbox.picture.views import Box, Camera, Entry, Eye, Look, Painter, Place, Sheet, SideView
-from sandbox.sport.amounts import amount
 
 from .scene import Parameters, table
 

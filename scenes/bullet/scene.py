@@ -15,22 +15,43 @@ from typing import Literal
 
 from sandbox.engine import simulate
 from sandbox.engine.model.accuracy import LEVELS
-from sandbox.engine.model.ball import Ball, Force
-from sandbox.engine.model.setup import Setup, Touches
-from sandbox.engine.model.surface import Segment, Surface
-from sandbox.engine.paths.run import Run
-from sandbox.errors import RequestError
-from sandbox.parameters import Group, SceneParameters, choice, group, quantity
+from sandbox.kit import (
+    BALL_SPEED,
+    DEGREE,
+    ENDED,
+    LAUNCH_ANGLE,
+    Ball,
+    Controls,
+    Directed,
+    Fact,
+    Force,
+    Gravity,
+    Group,
+    Handle,
+    Moment,
+    RequestError,
+    Run,
+    SceneParameters,
+    SceneRun,
+    Segment,
+    Setup,
+    Spread,
+    Surface,
+    Touches,
+    Weather,
+    amount,
+    apex,
+    choice,
+    cos,
+    fact_from,
+    group,
+    metres,
+    passing,
+    quantity,
+    sin,
+    wind_in,
+)
 from sandbox.physics.ballistics import BulletDrag, speed_of_sound
-from sandbox.physics.elementwise import cos, sin
-from sandbox.physics.forces import Gravity
-from sandbox.scene.scene_run import SceneRun
-from sandbox.sport.air import Weather, wind_in
-from sandbox.sport.amounts import amount, metres
-from sandbox.sport.controls import Controls, Handle, Spread
-from sandbox.sport.facts import ENDED, Fact
-from sandbox.sport.flight import DEGREE, Directed
-from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, Moment, apex, fact_from, passing
 
 MUZZLE_SPEED = replace(BALL_SPEED, label="muzzle speed")
 HUNDRED_YARDS = 91.44  # m

@@ -9,10 +9,21 @@ from typing import Literal, NamedTuple
 
 from sandbox.engine.contact.manifold import ContactManifold, meeting, surface_met
 from sandbox.engine.contact.touch import Obstacle
-from sandbox.engine.model.ball import Body, Force
-from sandbox.engine.model.shapes import Ellipse, Polygon, Shape, Vector, box, capsule
-from sandbox.engine.paths.run import Run
-from sandbox.parameters import Group, choice, quantity, text
+from sandbox.engine.model.shapes import Shape
+from sandbox.kit import (
+    Body,
+    Ellipse,
+    Force,
+    Group,
+    Polygon,
+    Run,
+    Vector,
+    box,
+    capsule,
+    choice,
+    quantity,
+    text,
+)
 
 #: Heights above the lane and diameters of a bowling pin, as shares of its height of 15 in (USBC); the neck is filled.
 PIN = ((0.0, 0.150), (0.05, 0.1885), (0.15, 0.2604), (0.225, 0.3007), (0.3, 0.3177), (0.9, 0.1698), (0.98, 0.093))

@@ -11,13 +11,25 @@ from math import cos, sin
 import numpy as np
 import pygame
 
-from sandbox.engine.model.ball import Body
-from sandbox.engine.model.surface import Segment
-from sandbox.picture.palette import Colour, palette, scene_colours
+from sandbox.kit import (
+    AboveView,
+    Area,
+    Body,
+    Camera,
+    Colour,
+    Look,
+    Mark,
+    Painter,
+    Segment,
+    Sheet,
+    near,
+    palette,
+    round_number_above,
+    scene_colours,
+    signed,
+)
 from sandbox.picture.places.plan import Plan
 from sandbox.picture.places.things import unit_of
-from sandbox.picture.views import AboveView, Area, Camera, Look, Mark, Painter, Sheet, near, round_number_above
-from sandbox.sport.amounts import signed
 
 from .boxes import TOUCH, strip
 from .scene import AMOUNTS, Blow, Parameters, blow, hangs, shares

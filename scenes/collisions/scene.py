@@ -15,22 +15,37 @@ from math import cos, hypot, inf, pi, sin, sqrt
 from typing import Any, Literal, NamedTuple
 
 from sandbox.engine.contact.manifold import ContactManifold, meeting
-from sandbox.engine.model.ball import Ball, Force, kinetic
-from sandbox.engine.model.setup import ContactModel, Setup
-from sandbox.engine.model.shapes import Vector
-from sandbox.engine.paths.run import Run
-from sandbox.errors import RequestError
-from sandbox.parameters import SceneParameters, choice, group, groups, quantity, text
-from sandbox.physics.coefficients import Constant
-from sandbox.physics.forces import Drag, Gravity
-from sandbox.physics.integrators import State
-from sandbox.scene.scene_run import SceneRun
-from sandbox.sport.air import Air, wind_in
-from sandbox.sport.controls import Controls, Handle
-from sandbox.sport.facts import ENDED, Fact, cached_per_run
-from sandbox.sport.flight import Directed
-from sandbox.sport.readings import fact_from
-from sandbox.sport.solids import Solid
+from sandbox.engine.model.ball import kinetic
+from sandbox.kit import (
+    ENDED,
+    Air,
+    Ball,
+    Constant,
+    ContactModel,
+    Controls,
+    Directed,
+    Drag,
+    Fact,
+    Force,
+    Gravity,
+    Handle,
+    RequestError,
+    Run,
+    SceneParameters,
+    SceneRun,
+    Setup,
+    Solid,
+    State,
+    Vector,
+    cached_per_run,
+    choice,
+    fact_from,
+    group,
+    groups,
+    quantity,
+    text,
+    wind_in,
+)
 
 from .boxes import TOUCH, Box, Moving, body_of
 

@@ -6,9 +6,18 @@ from functools import cached_property
 
 import numpy as np
 
-from sandbox.picture.palette import Colour, scene_colours
-from sandbox.picture.places import plan
-from sandbox.picture.views import Box, Camera, LongView, Look, Mark, Painter, near
+from sandbox.kit import (
+    Box,
+    Camera,
+    Colour,
+    LongView,
+    Look,
+    Mark,
+    Painter,
+    near,
+    plan,
+    scene_colours,
+)
 
 from .scene import BACK, DELIVERED, HOG, RELEASE, RINGS, Parameters, team_of
 

@@ -12,17 +12,28 @@ from dataclasses import replace
 from math import hypot
 from typing import Any, Literal
 
-from sandbox.engine.model.setup import Setup
-from sandbox.engine.model.shapes import Vector
-from sandbox.engine.paths.run import Run
-from sandbox.parameters import Group, choice, group, groups, quantity
-from sandbox.physics.ice import CurlingIce
-from sandbox.physics.plane import Strips
-from sandbox.scene.scene_run import SceneRun
-from sandbox.sport.amounts import roughly
-from sandbox.sport.controls import Controls, Handle, Spin, Spread
-from sandbox.sport.facts import ENDED, Fact
-from sandbox.sport.readings import fact_from, passing
+from sandbox.kit import (
+    ENDED,
+    Controls,
+    CurlingIce,
+    Fact,
+    Group,
+    Handle,
+    Run,
+    SceneRun,
+    Setup,
+    Spin,
+    Spread,
+    Strips,
+    Vector,
+    choice,
+    fact_from,
+    group,
+    groups,
+    passing,
+    quantity,
+    roughly,
+)
 from sandbox.sport.sliding import (
     REST_TIME,
     Sliding,

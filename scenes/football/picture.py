@@ -4,10 +4,19 @@ from __future__ import annotations
 
 from functools import cached_property
 
-from sandbox.picture.palette import scene_colours
-from sandbox.picture.places import Person, Post, Stands, turf
-from sandbox.picture.views import Box, Length, Look, Place, SideView
-from sandbox.sport.amounts import metres
+from sandbox.kit import (
+    Box,
+    Length,
+    Look,
+    Person,
+    Place,
+    Post,
+    SideView,
+    Stands,
+    metres,
+    scene_colours,
+    turf,
+)
 
 from .scene import Parameters
 

@@ -16,22 +16,43 @@ from typing import Any, Literal
 
 from sandbox.engine import simulate
 from sandbox.engine.model.accuracy import LEVELS
-from sandbox.engine.model.ball import Body
-from sandbox.engine.model.setup import Setup
-from sandbox.engine.model.shapes import Ellipse
-from sandbox.engine.model.surface import Circle, Surface
-from sandbox.engine.paths.run import Event, Run
-from sandbox.parameters import Group, SceneParameters, choice, group, quantity, switch
-from sandbox.physics.elementwise import maximum
-from sandbox.physics.forces import Gravity
+from sandbox.kit import (
+    DEGREE,
+    ENDED,
+    LAUNCH,
+    RPM,
+    Air,
+    Body,
+    Circle,
+    Controls,
+    Directed,
+    Ellipse,
+    Event,
+    Fact,
+    Gravity,
+    Group,
+    Handle,
+    Run,
+    SceneParameters,
+    SceneRun,
+    Setup,
+    Solid,
+    Spin,
+    Spread,
+    Surface,
+    apex,
+    choice,
+    fact_from,
+    group,
+    level,
+    maximum,
+    passing,
+    quantity,
+    switch,
+    wind_in,
+)
 from sandbox.physics.spheroid import DragByAngle, Follows
-from sandbox.scene.scene_run import SceneRun
-from sandbox.sport.air import Air, wind_in
-from sandbox.sport.controls import Controls, Handle, Spin, Spread
-from sandbox.sport.facts import ENDED, Fact
-from sandbox.sport.flight import DEGREE, RPM, Directed
-from sandbox.sport.readings import LAUNCH, apex, fact_from, landing, passing
-from sandbox.sport.solids import Solid, level
+from sandbox.sport.readings import landing
 
 LONGEST, YARD = 15.0, 0.9144  # s, after which a run is ended; m
 

@@ -13,10 +13,21 @@ from math import dist
 import numpy as np
 import pygame
 
-from sandbox.picture.palette import Colour, scene_colours
-from sandbox.picture.places import Shape, goal
+from sandbox.kit import (
+    AboveView,
+    Area,
+    Box,
+    Camera,
+    Colour,
+    Look,
+    Mark,
+    Painter,
+    Shape,
+    goal,
+    near,
+    scene_colours,
+)
 from sandbox.picture.places.plan import Ground, Kit, Line, Person, Plan, Point, Spot, Worn, arc
-from sandbox.picture.views import AboveView, Area, Box, Camera, Look, Mark, Painter, near
 from sandbox.sport.dive import place_of
 
 from .scene import Parameters, Player, Rink, decided, named

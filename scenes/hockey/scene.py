@@ -14,18 +14,32 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import Literal
 
-from sandbox.engine.model.setup import Setup, Touches
-from sandbox.engine.model.shapes import Vector
-from sandbox.engine.model.surface import Circle, Segment, Surface, Trap
-from sandbox.engine.paths.run import Run
-from sandbox.parameters import Group, choice, group, groups, quantity
-from sandbox.physics.ice import Glide
-from sandbox.scene.scene_run import SceneRun
-from sandbox.sport.amounts import roughly
-from sandbox.sport.controls import Controls, Handle, Spin, Spread
+from sandbox.kit import (
+    ENDED,
+    Circle,
+    Controls,
+    Fact,
+    Glide,
+    Group,
+    Handle,
+    Run,
+    SceneRun,
+    Segment,
+    Setup,
+    Spin,
+    Spread,
+    Surface,
+    Touches,
+    Trap,
+    Vector,
+    before,
+    choice,
+    group,
+    groups,
+    quantity,
+    roughly,
+)
 from sandbox.sport.dive import Dive
-from sandbox.sport.facts import ENDED, Fact
-from sandbox.sport.readings import before
 from sandbox.sport.sliding import Slide, Sliding, SlidingDisc, check_inside, collisions_of, end_of, removed_by, rounded
 
 DECIDING = {"goal", "goalie", "defender", "receiver"}

@@ -6,8 +6,16 @@ from functools import cached_property
 
 import numpy as np
 
-from sandbox.kit import AboveView, Box, Look, plan, scene_colours, seams, table
-from sandbox.picture.palette import mix
+from sandbox.kit import (
+    AboveView,
+    Box,
+    Look,
+    mix,
+    plan,
+    scene_colours,
+    seams,
+    table,
+)
 
 from .scene import BOARD, Parameters
 

@@ -7,10 +7,25 @@ from math import atan2, cos, radians, sin
 
 import numpy as np
 
-from sandbox.picture.palette import scene_colours
-from sandbox.picture.places import Ground, Landscape, Person, Post, Stripes
-from sandbox.picture.views import Box, Camera, Length, Painter, Place, Sheet, SideView, Silhouette, turned
-from sandbox.sport.amounts import amount, metres
+from sandbox.kit import (
+    Box,
+    Camera,
+    Ground,
+    Landscape,
+    Length,
+    Painter,
+    Person,
+    Place,
+    Post,
+    Sheet,
+    SideView,
+    Silhouette,
+    Stripes,
+    amount,
+    metres,
+    scene_colours,
+    turned,
+)
 
 from .scene import Parameters, burnout, motor_of
 

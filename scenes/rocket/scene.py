@@ -11,23 +11,48 @@ from __future__ import annotations
 from itertools import pairwise
 from math import hypot
 
-from sandbox.engine.model.ball import Ball, Force
-from sandbox.engine.model.setup import Setup, Touches
-from sandbox.engine.model.surface import Segment, Surface
-from sandbox.engine.paths.run import Run
-from sandbox.errors import RequestError
-from sandbox.parameters import Group, SceneParameters, group, quantity, vectors
-from sandbox.physics.elementwise import anywhere, cos, sin, where
-from sandbox.physics.forces import Gravity, Thinning
+from sandbox.kit import (
+    DEGREE,
+    ENDED,
+    Air,
+    Ball,
+    Controls,
+    Directed,
+    Fact,
+    Force,
+    Gravity,
+    Group,
+    Handle,
+    Moment,
+    NoForce,
+    RequestError,
+    Run,
+    SceneParameters,
+    SceneRun,
+    Segment,
+    Setup,
+    Sphere,
+    Spread,
+    Surface,
+    Touches,
+    anywhere,
+    below,
+    check_apart,
+    cos,
+    disc,
+    fact_from,
+    forces_in_flight,
+    group,
+    level,
+    quantity,
+    roughly,
+    sin,
+    vectors,
+    where,
+    wind_in,
+)
+from sandbox.physics.forces import Thinning
 from sandbox.physics.rocket import Motor, Thrust
-from sandbox.scene.scene_run import SceneRun
-from sandbox.sport.air import Air, NoForce, wind_in
-from sandbox.sport.amounts import roughly
-from sandbox.sport.controls import Controls, Handle, Spread
-from sandbox.sport.facts import ENDED, Fact
-from sandbox.sport.flight import DEGREE, Directed, Sphere, forces_in_flight
-from sandbox.sport.readings import Moment, fact_from
-from sandbox.sport.solids import below, check_apart, disc, level
 
 
 class Start(Directed):

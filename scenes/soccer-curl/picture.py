@@ -7,15 +7,24 @@ from math import cos, dist, hypot, pi, radians, sin, tan
 
 import numpy as np
 
+from sandbox.kit import (
+    AboveView,
+    Box,
+    Camera,
+    Entry,
+    Painter,
+    Sheet,
+    first_touch,
+    metres,
+    mix,
+    palette,
+    plan,
+    scene_colours,
+)
 from sandbox.picture.lettering import around
-from sandbox.picture.palette import mix, palette, scene_colours
 from sandbox.picture.places import goal as goal_at
-from sandbox.picture.places import plan
 from sandbox.picture.places.courts import PENALTY_SPOT, pitch_lines
-from sandbox.picture.views import AboveView, Box, Camera, Entry, Painter, Sheet
-from sandbox.sport.amounts import metres
 from sandbox.sport.dive import place_of
-from sandbox.sport.readings import first_touch
 
 from ..soccer.picture import LINE, STRIPE
 from ..soccer.picture import Picture as FromTheSide

@@ -19,21 +19,43 @@ from math import cos, inf, radians, tan
 
 from sandbox.engine import simulate
 from sandbox.engine.model.accuracy import resolve
-from sandbox.engine.model.ball import Ball
-from sandbox.engine.model.setup import Setup
-from sandbox.engine.model.shapes import Vector
-from sandbox.engine.model.surface import Circle, Segment, Surface
-from sandbox.engine.paths.run import Event, Run
-from sandbox.parameters import SceneParameters, group, quantity, switch
-from sandbox.scene.scene_run import SceneRun
+from sandbox.kit import (
+    BALL_SPEED,
+    ENDED,
+    LAUNCH_ANGLE,
+    LAUNCH_SPIN,
+    Air,
+    Ball,
+    Circle,
+    Controls,
+    Event,
+    Extent,
+    Fact,
+    Handle,
+    Moment,
+    Run,
+    SceneParameters,
+    SceneRun,
+    Segment,
+    Setup,
+    Solid,
+    Spin,
+    Surface,
+    Vector,
+    cached_per_run,
+    check_apart,
+    disc,
+    fact_from,
+    first_touch,
+    group,
+    passing,
+    quantity,
+    rectangle,
+    roughly,
+    switch,
+)
 from sandbox.sport import flight
-from sandbox.sport.air import Air
-from sandbox.sport.amounts import roughly
-from sandbox.sport.controls import Controls, Handle, Spin
 from sandbox.sport.dive import Dive
-from sandbox.sport.facts import ENDED, Fact, cached_per_run
-from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, LAUNCH_SPIN, Moment, fact_from, first_touch, passing
-from sandbox.sport.solids import Extent, Solid, check_apart, disc, rectangle
 
 from ..soccer.scene import SPREAD, Goal, SoccerBall, Wall
 

@@ -7,10 +7,26 @@ from functools import cached_property
 
 import numpy as np
 
-from sandbox.picture.palette import scene_colours
-from sandbox.picture.places import COURT_WIDTH, Ground, Hall, Person, Planks, Stands, tennis_court
-from sandbox.picture.places.things import net_across, pose_of, standing_table
-from sandbox.picture.views import Box, Camera, Eye, Look, NetView, Place, seams
+from sandbox.kit import (
+    COURT_WIDTH,
+    Box,
+    Camera,
+    Eye,
+    Ground,
+    Hall,
+    Look,
+    NetView,
+    Person,
+    Place,
+    Planks,
+    Stands,
+    net_across,
+    scene_colours,
+    seams,
+    standing_table,
+    tennis_court,
+)
+from sandbox.picture.places.things import pose_of
 from sandbox.sport.net_game import received_at
 
 from .scene import Parameters

@@ -10,20 +10,31 @@ from __future__ import annotations
 
 from typing import Literal
 
-from sandbox.engine.model.setup import Setup
-from sandbox.engine.model.surface import Segment, Surface
-from sandbox.engine.paths.run import Run
-from sandbox.parameters import choice, group, quantity
-from sandbox.physics.coefficients import TENNIS_DRAG, TENNIS_LIFT
+from sandbox.kit import (
+    ENDED,
+    LAUNCH,
+    TENNIS_DRAG,
+    TENNIS_LIFT,
+    Controls,
+    Fact,
+    Handle,
+    Release,
+    Run,
+    SceneRun,
+    Segment,
+    Setup,
+    Sphere,
+    Spin,
+    Spread,
+    Surface,
+    choice,
+    group,
+    level,
+    quantity,
+)
 from sandbox.physics.court import court_pace, is_pace_test, pace_category
 from sandbox.physics.swing import RUBBER, STRINGS
-from sandbox.scene.scene_run import SceneRun
 from sandbox.sport import net_game
-from sandbox.sport.controls import Controls, Handle, Spin, Spread
-from sandbox.sport.facts import ENDED, Fact
-from sandbox.sport.flight import Release, Sphere
-from sandbox.sport.readings import LAUNCH
-from sandbox.sport.solids import level
 from sandbox.sport.swing import Swing, struck_by
 
 

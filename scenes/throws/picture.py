@@ -4,9 +4,19 @@ from __future__ import annotations
 
 from functools import cached_property
 
-from sandbox.picture.palette import scene_colours
-from sandbox.picture.places import Person, Post, Shape, Stands, turf
-from sandbox.picture.views import Box, Length, Look, Place, SideView
+from sandbox.kit import (
+    Box,
+    Length,
+    Look,
+    Person,
+    Place,
+    Post,
+    Shape,
+    SideView,
+    Stands,
+    scene_colours,
+    turf,
+)
 
 from .scene import THROWN, Parameters
 

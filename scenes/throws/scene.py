@@ -14,20 +14,35 @@ from math import atan2, cos, degrees, hypot, radians, sin, sqrt
 
 from sandbox.engine import simulate
 from sandbox.engine.model.accuracy import Accuracy
-from sandbox.engine.model.ball import SOLID_SPHERE
-from sandbox.engine.model.setup import Setup, Touches
-from sandbox.engine.model.surface import Surface
-from sandbox.engine.paths.run import Run
-from sandbox.parameters import group, quantity
-from sandbox.physics.forces import Gravity
-from sandbox.scene.scene_run import SceneRun
-from sandbox.sport.air import NoForce
-from sandbox.sport.amounts import roughly
-from sandbox.sport.controls import Controls, Handle, Spread
-from sandbox.sport.facts import ENDED, Fact
-from sandbox.sport.flight import Flight, Release, Sphere
-from sandbox.sport.readings import APEX, BALL_SPEED, DISTANCE, FLIGHT_TIME, LANDING_ANGLE, LAUNCH_ANGLE, before
-from sandbox.sport.solids import level
+from sandbox.kit import (
+    APEX,
+    BALL_SPEED,
+    DISTANCE,
+    ENDED,
+    FLIGHT_TIME,
+    LANDING_ANGLE,
+    LAUNCH_ANGLE,
+    SOLID_SPHERE,
+    Controls,
+    Fact,
+    Flight,
+    Gravity,
+    Handle,
+    NoForce,
+    Release,
+    Run,
+    SceneRun,
+    Setup,
+    Sphere,
+    Spread,
+    Surface,
+    Touches,
+    before,
+    group,
+    level,
+    quantity,
+    roughly,
+)
 
 
 class Shot(Sphere):

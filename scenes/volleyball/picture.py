@@ -4,9 +4,18 @@ from __future__ import annotations
 
 from functools import cached_property
 
-from sandbox.picture.palette import scene_colours
-from sandbox.picture.places import Hall, Person, boards, net_across
-from sandbox.picture.views import Box, Look, NetView, Place, seams
+from sandbox.kit import (
+    Box,
+    Hall,
+    Look,
+    NetView,
+    Person,
+    Place,
+    boards,
+    net_across,
+    scene_colours,
+    seams,
+)
 
 from .scene import Parameters
 

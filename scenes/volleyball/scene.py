@@ -10,17 +10,28 @@ from __future__ import annotations
 
 from typing import Any
 
-from sandbox.engine.model.setup import Setup
-from sandbox.engine.model.surface import Surface
-from sandbox.errors import RequestError
-from sandbox.parameters import group, quantity
-from sandbox.physics.elementwise import clip, exp, maximum
+from sandbox.kit import (
+    ENDED,
+    LAUNCH,
+    Controls,
+    Fact,
+    Handle,
+    Launch,
+    RequestError,
+    Setup,
+    Sphere,
+    Spin,
+    Spread,
+    Surface,
+    clip,
+    exp,
+    group,
+    level,
+    maximum,
+    quantity,
+)
 from sandbox.sport import net_game
-from sandbox.sport.controls import Controls, Handle, Spin, Spread
-from sandbox.sport.facts import ENDED, Fact
-from sandbox.sport.flight import Launch, Sphere
-from sandbox.sport.readings import LAUNCH, coefficient_at_start
-from sandbox.sport.solids import level
+from sandbox.sport.readings import coefficient_at_start
 
 
 def hong_drag(reynolds: Any, spin_ratio: Any) -> Any:

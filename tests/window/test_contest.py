@@ -497,7 +497,7 @@ class TestTheBestList:
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        ({"source": "golf", "players": 2}, "--two: goes with a task"),
+        ({"source": "golf", "players": 2}, "--two: requires a task"),
         ({"source": None, "game": "nine-ball"}, "--game nine-ball: name its scene, too"),
         ({"source": "golf", "game": "chess"}, "golf has no game chess"),
         ({"source": "free-throw", "changes": {"gravity": 1.0}}, "--set: does not go with free-throw"),
