@@ -64,20 +64,21 @@ def _case(
     value, unit = float(one.written[place]), one.units[place]
     if name not in within:
         raise RequestError(f"--against {path}: say how far off {name} may be: --within {name}=2%, or a number")
-    tolerance = _tolerance(name, within[name], value, unit)
+    tolerance = _tolerance(f"--within {name}={within[name]}", within[name], value, unit)
     return Case(scene.title, settings, f"row {row}", name, repr(value).removesuffix(".0"), tolerance, unit, path.name,
                 "", "measured", "", f"--within {name}={within[name]}")  # fmt: skip
 
 
-def _tolerance(name: str, text: str, value: float, unit: str) -> float:
-    """A tolerance in the unit of the value: a number with a unit, or a share in %. Raises RequestError."""
+def _tolerance(at: str, text: str, value: float, unit: str) -> float:
+    """A tolerance in the unit of the value: a number, with a unit or in that of the value, or a share of it in %.
+    ``at`` is as messages begin. Raises RequestError."""
     try:
         share = units.parse(text, "%") if text.strip().endswith("%") else None
         found = units.parse(text, unit) if share is None else abs(value) * share / 100.0
     except ValueError as error:
-        raise RequestError(f"--within {name}={text}: {error}") from None
+        raise RequestError(f"{at}: {error}") from None
     if not found >= 0.0:
-        raise RequestError(f"--within {name}={text}: must be 0 or more")
+        raise RequestError(f"{at}: must be 0 or more")
     return found
 
 
@@ -117,13 +118,11 @@ def _row(table: Table, number: int, row: dict[str, str], path: Path, source: str
         raise RequestError(f"{at} result = {shortened(name, 40)}: {no_such_result(name, list(scene.facts))}")
     tolerance = None
     if row["tolerance"]:
-        for key in ("value", "tolerance"):
-            column = next(column for column in table.columns if column.name == key)
-            row[key] = repr(table.number(column, number - 1))
-        tolerance = float(row["tolerance"])
-        if tolerance < 0.0:
-            raise RequestError(f"{at} tolerance = {tolerance:g}: must be 0 or more")
+        value = table.number(next(column for column in table.columns if column.name == "value"), number - 1)
         _check_unit(at, row, scene.facts[name].unit)
+        wide = row["tolerance"].replace(",", ".") if table.comma else row["tolerance"]
+        tolerance = _tolerance(f"{at} tolerance = {shortened(wide, 40)}", wide, value, row["unit"])
+        row["value"] = repr(value)
     row["value"] = row["value"].removesuffix(".0")
     return Case(name=row.pop("case"), tolerance=tolerance, **{k: v for k, v in row.items() if k != "tolerance"})
 

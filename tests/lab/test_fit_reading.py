@@ -351,6 +351,14 @@ def test_a_table_of_ones_own_is_validated(tmp_path, capsys):
     assert first["computed"] == pytest.approx(17.5, abs=1.0)
 
 
+def test_a_tolerance_of_ones_own_may_be_a_share_or_have_a_unit(tmp_path, capsys):
+    file = tmp_path / "own.csv"
+    file.write_text("result;value;tolerance;unit\napex;17,5;2,5%;ft\napex;17,5;1 m;ft\napex;17,5;0,5;ft\n")
+    assert call(["validate", "throws", "--against", str(file), "--json"]) == 0
+    allowed = [row["tolerance"] for row in json.loads(capsys.readouterr().out)]
+    assert allowed == pytest.approx([0.4375, 1.0 / 0.3048, 0.5])
+
+
 def test_launches_are_validated_by_their_columns(tmp_path, capsys, carries):
     file = tmp_path / "shots.csv"
     file.write_text(devices(carries)["garmin"], "utf-8")
@@ -395,6 +403,8 @@ def test_a_long_table_takes_fewer_starts(monkeypatch):
         ("a,b\n1,2\n", "has no column result"),
         ("result,set,value,tolerance\ncarry,launch.sped=3,1,1\n", "row 1, set launch.sped: unknown key"),
         ("result,value,tolerance,unit\ncarry,1,-1,m\n", "row 1, tolerance = -1: must be 0 or more"),
+        ("result,value,tolerance,unit\ncarry,1,-2%,m\n", "row 1, tolerance = -2%: must be 0 or more"),
+        ("result,value,tolerance,unit\ncarry,1,1 kg,m\n", "row 1, tolerance = 1 kg: kg is a unit of mass; use m"),
     ],
 )
 def test_a_table_that_cannot_be_validated_is_one_line(tmp_path, capsys, text, wrong):
