@@ -39,11 +39,12 @@ def descend(
     loss: Loss,
     until: float | None = None,
     worth: float = WORTH,
+    steps: int = MOST_STEPS,
 ) -> Place:
     """Go down from a candidate to where the loss of the residuals measured ``until`` a time in s is least.
 
     ``inverse_sd`` is one over the standard deviation of each residual. It ends where a step is expected to save less
-    than the share ``worth`` of the cost.
+    than the share ``worth`` of the cost, or after so many ``steps``.
     """
     until = problem.last if until is None else until
     inverse = np.where(problem.times <= until, inverse_sd, 0.0)
@@ -52,7 +53,7 @@ def descend(
         return here
     low, high = problem.starts_within
     longest = LONGEST * (high - low)
-    for _ in range(MOST_STEPS):
+    for _ in range(steps):
         step, saved = _step(here, inverse, loss, damping, longest)
         if abs(saved) <= worth * here.cost or damping > MOST_DAMPING:
             break

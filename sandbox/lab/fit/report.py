@@ -21,8 +21,8 @@ HARDLY, NOT = 0.95, 0.999
 #: 2002, section 2.6).
 AS_GOOD, RULED_OUT = 2.0, 10.0
 
-#: Most outliers that are listed.
-_MOST = 12
+#: Most outliers that are listed, and other minima.
+_MOST, _OTHERS = 12, 3
 
 #: Digits of a value that are shown, at most: data without noise tell more.
 _SHOWN = 7
@@ -82,6 +82,7 @@ def sentences(found: Fit) -> Iterator[str]:
             "as large as neighbouring ones differ. The intervals are then too narrow"
         )
     yield from _of_values(found)
+    yield from _of_others(found)
     yield from _of_pairs(found)
     if found.models:
         yield models_text(found)
@@ -129,6 +130,25 @@ def _of_pairs(found: Fit) -> Iterator[str]:
             )
 
 
+def _of_others(found: Fit) -> Iterator[str]:
+    """Say which other values explain the data as well."""
+    if not found.others:
+        return
+    said = []
+    for other in found.others[:_OTHERS]:
+        apart = [key for key, one in found.values.items() if not one.low <= other.values[key] <= one.high]
+        named = [f"{key} = {other.values[key]:.{_digits(found.values[key])}f} {found.values[key].unit}".rstrip()
+                 for key in apart]  # fmt: skip
+        said.append(f"{', '.join(named)} (chi^2 {other.more:.1f} more)")
+    more = f"; and {len(found.others) - _OTHERS} more" if len(found.others) > _OTHERS else ""
+    well = "as well" if found.others[0].more < AS_GOOD else "nearly as well"
+    listed, what = "; ".join(said) + more, found.measured.what
+    yield (
+        f"other values explain these {what}s {well}: {listed}. The intervals are for those above only; narrower ranges "
+        "(--vary) decide"
+    )
+
+
 def models_text(found: Fit) -> str:
     """Say in a sentence which model fits best."""
     (best, _), *others = found.models.items()
@@ -160,6 +180,7 @@ def as_json(found: Fit) -> str:
         },
         "residual_sd": dict(found.residual_sd),
         "correlations": {f"{one}, {other}": value for (one, other), value in found.correlations.items()},
+        "others": [{"values": other.values, "chi2_more": other.more} for other in found.others],
         "outliers": list(found.outliers),
         "points": found.measured.count,
         "late": found.late,

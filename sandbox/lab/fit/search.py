@@ -47,22 +47,21 @@ FAR_OFF = 0.1
 ENOUGH, LARGE = 8, 5.0
 
 
-def search(problem: Problem, robust: bool) -> Place | None:
-    """The best candidate; None if no run could be completed."""
+def search(problem: Problem, robust: bool) -> list[Place]:
+    """The places where starts ended, the best first; none if no run could be completed."""
     starts, scale = _starts(problem)
-    best, least = None, np.inf
+    ended: list[tuple[float, Place]] = []
     for growth in GROWTHS:
         following = _Following(problem, scale, robust, growth)
         for share in starts:
             found = following.from_start(share)
-            for place in (found, following.freed(found)):
-                if place is not None and following.merit(place) < least:
-                    best, least = place, following.merit(place)
-            if best is not None and _is_good(problem, best, following.agreed):
-                return best
+            ended += [(following.merit(place), place) for place in (found, following.freed(found)) if place is not None]
+            ended.sort(key=lambda pair: pair[0])
+            if ended and _is_good(problem, ended[0][1], following.agreed):
+                return [place for _, place in ended]
         if window(problem, WINDOW) >= problem.last or following.hopeless:
             break  # there is nothing to grow, or no window would do
-    return best
+    return [place for _, place in ended]
 
 
 def _is_good(problem: Problem, place: Place, agreed: int) -> bool:

@@ -19,6 +19,7 @@ from sandbox.lab.fit.intervals import Errors, errors_of, group_sds, pooled
 from sandbox.lab.fit.loss import HUBERS, SQUARES, TUKEYS, Loss
 from sandbox.lab.fit.measured import Measured
 from sandbox.lab.fit.problem import Problem
+from sandbox.lab.fit.rivals import Weighted, rivals
 from sandbox.lab.fit.search import ALIKE, ENOUGH, neumann, robust_sds, search
 from sandbox.lab.runs import runs
 from sandbox.scene import Scene
@@ -27,8 +28,9 @@ from sandbox.text import counted
 #: A residual beyond so many robust standard deviations is an outlier.
 OUTLIER = 4.0
 
-#: Rounds in which values and standard deviations of the groups are found one from the other.
-ROUNDS = 3
+#: Rounds in which values and standard deviations of the groups are found one from the other; and in which a minimum is
+#: looked for whose chi^2 is at least so much less.
+ROUNDS, ROUNDS_OF_RIVALS, BETTER = 3, 6, 0.2
 
 #: Steps for the last slopes, in standard errors of the values as they seem before: the first, which at most may be this
 #: share of a range; and how often they are made smaller.
@@ -55,6 +57,14 @@ class Value:
     unit: str
     at_bound: bool = False  # the fit stopped at an end of the range, so the interval does not hold
     unknown: bool = False  # the data do not say: the interval is the whole range
+
+
+@dataclass(frozen=True)
+class Other:
+    """Other values that explain the data nearly as well."""
+
+    values: dict[str, float]  # by key, in its unit
+    more: float  # of chi^2, compared with the best
 
 
 @dataclass(frozen=True)
@@ -90,6 +100,7 @@ class Fit:
     slopes: np.ndarray  # of the computed by the values in their units, (residuals, values)
     late: int = 0  # points after the end of the scene's own run
     end: float = inf  # s, that end
+    others: tuple[Other, ...] = ()  # values of other minima, the best first
     models: Mapping[str, Model] = field(default_factory=dict)  # that were compared, by name
     models_of: str = ""  # the parameter that chooses the model
 
@@ -138,14 +149,21 @@ def solve(scene: Scene, measured: Measured, spans: Sequence[Span], robust: bool 
     if measured.count <= len(problem):
         rows, values = counted(measured.count, measured.what), counted(len(problem), "parameter")
         raise RequestError(f"{rows} for {values}: a fit needs more {measured.what}s than parameters")
-    place = search(problem, robust)
-    if place is None:
+    ended = search(problem, robust)
+    if not ended:
         raise RunError(f"no run of {scene.title} in these ranges could be completed")
-    place, sds, loss = _refined(problem, place, robust)
-    place = Place(place.share, place.residuals, _slopes(problem, place, sds), place.cost)
-    if near:
-        check_near(problem.scene, measured, place.residuals)
-    return _finished(problem, place, sds, loss)
+    place, known = ended[0], ended[1:]
+    for left in reversed(range(ROUNDS_OF_RIVALS)):
+        place, sds, loss = _refined(problem, place, robust)
+        place = Place(place.share, place.residuals, _slopes(problem, place, sds), place.cost)
+        if near:
+            check_near(problem.scene, measured, place.residuals)
+        errors = errors_of(place.residuals, place.slopes, sds, measured.groups, loss)
+        found = rivals(Weighted(problem, sds, loss), place, errors, known)
+        if not left or not found or found[0][0] > -BETTER:
+            break
+        place, known = found[0][1], []
+    return _finished(problem, place, sds, loss, errors, found)
 
 
 def _slopes(problem: Problem, place: Place, sds: np.ndarray) -> np.ndarray:
@@ -184,10 +202,16 @@ def _refined(problem: Problem, place: Place, robust: bool) -> tuple[Place, np.nd
     return place, sds, SQUARES
 
 
-def _finished(problem: Problem, place: Place, sds: np.ndarray, loss: Loss) -> Fit:
-    """The fit with intervals and warnings. Raises RequestError where nothing is explained."""
+def _finished(
+    problem: Problem,
+    place: Place,
+    sds: np.ndarray,
+    loss: Loss,
+    errors: Errors,
+    others: Sequence[tuple[float, Place]],
+) -> Fit:
+    """The fit with intervals and warnings."""
     measured, count = problem.measured, len(problem)
-    errors = errors_of(place.residuals, place.slopes, sds, measured.groups, loss)
     scatter = group_sds(place.residuals, place.slopes, sds, measured.groups)
     if loss is not SQUARES:
         scatter = np.array([sds[measured.groups == group][0] for group in range(len(measured.names))])
@@ -209,6 +233,9 @@ def _finished(problem: Problem, place: Place, sds: np.ndarray, loss: Loss) -> Fi
         measured.remarks(best, values[len(problem.scene_keys) :]),
         -place.slopes / problem.width,
         *_late(problem, best, values[len(problem.scene_keys) :]),
+        tuple(
+            Other(dict(zip(keys, problem.values(other.share).tolist(), strict=True)), more) for more, other in others
+        ),
     )
 
 
