@@ -53,6 +53,11 @@ _PATIENCE, _STANDSTILL = 8, 1e-6
 #: overlapped by up to half of what they move in a step; if faster, they have an impact at its exact time.
 _SLOW = 8.0
 
+#: Share of a step within which the next one begins if an impact cuts it short at once, and how often in a row, for each
+#: ball or body, until a step takes all that meets in it: two that touch with a corner and fall together on the next one
+#: would meet at the first again and again, and the run would not go on.
+_AT_ONCE, _STUCK = 1e-3, 4
+
 #: Impulse, as a fraction of the largest that forces give a ball in a step, below which it is rounding.
 _PRESSURE = 1e-6
 
@@ -82,7 +87,7 @@ class HeapState(NamedTuple):
     members: dict[int, dict[str, Any]]  # by index, in the order in which they are stepped
     pressed: dict[frozenset[int], float]
     resting: dict[int, set[int]]
-    numbers: tuple[float, float, float, float]
+    numbers: tuple[float, float, float, float, int]
     accounts: Accounts
 
 
@@ -104,6 +109,7 @@ class Heap:
         self._share = _STEP if all_round(*setup.balls) else _STEP_OF_BODIES
         self._span = accuracy.step  # s, of a step that nothing cuts
         self._t = 0.0  # s, the start of this step
+        self._cut_short = 0  # steps in a row that an impact cut short at once
         self.margin = _MARGIN * min(ball.radius for ball in setup.balls)  # m, gap up to which shapes touch
         # Chipmunk's correction of overlaps is per unit of its time
         self._stepper = Stepper(setup, self.margin, self._lasting(1.0, _COMMON))
@@ -111,12 +117,12 @@ class Heap:
     def state(self) -> HeapState:
         """Return all that its next steps depend on, apart from the balls themselves and its Space."""
         members = {index: member.state() for index, member in self._members.items()}
-        numbers = self._forced, self._fastest, self._span, self._t
+        numbers = self._forced, self._fastest, self._span, self._t, self._cut_short
         return HeapState(members, dict(self._pressed), dict(self._resting), numbers, self._stepper.accounts())
 
     def restore(self, state: HeapState) -> None:
         """Go on from this state, in a new Space."""
-        self._forced, self._fastest, self._span, self._t = state.numbers
+        self._forced, self._fastest, self._span, self._t, self._cut_short = state.numbers
         self._pressed, self._resting = dict(state.pressed), dict(state.resting)
         self._stepper.restore(state.accounts)
         for index, values in state.members.items():
@@ -209,6 +215,7 @@ class Heap:
     def step(self, t: float, until: float, states: Mapping[int, State]) -> dict[int, Arc]:
         """Step these balls from t, not beyond ``until``; returns the arcs of those that press on others or did just
         before."""
+        self._cut_short = self._cut_short + 1 if t - self._t < _AT_ONCE * self._span else 0
         self._t = t
         self.note_energy(states)
         fresh = states.keys() - self._members.keys()
@@ -252,7 +259,8 @@ class Heap:
         for attempt in range(_ATTEMPTS):
             for index, state in states.items():
                 self._members[index].place(t, h, state)
-            self._fastest = _SLOW * self._forced * self._span
+            stuck = self._cut_short > _STUCK * len(self._members)
+            self._fastest = inf if stuck else _SLOW * self._forced * self._span
             groups = self._stepper.step(h, self._span, self._forced * h, self._fastest)
             self._numerics.pymunk_steps += 1
             fits = self._fitting(h, groups)

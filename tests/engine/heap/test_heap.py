@@ -314,6 +314,20 @@ def test_a_heavy_ball_on_a_light_one_is_carried_by_it():
     assert max(overlap(run, t) for t in np.linspace(0.0, run.duration, 60)) < 0.02
 
 
+def test_boxes_that_fall_together_on_the_next_corner_go_on():
+    """The heavy one stands on a corner, and the next is too fast for a step: they would meet at the first for ever."""
+    light = Outlined("light", shape=box(0.12046802348009102, 0.08343080498424456), mass=0.0793, forces=[Gravity(G)],
+                     angle=3.0937468359950904, position=(-0.05684286983151058, 0.04467280985305697))  # fmt: skip
+    heavy = Outlined("heavy", shape=box(0.07092984450777058, 0.1886014506849759), mass=22.65, forces=[Gravity(G)],
+                     angle=-0.033474838010031364, position=(-0.0429041753576802, 0.1814089808534181),
+                     velocity=(0.09779858663345493, -0.23078153896644318), spin=-2.324644841737424)  # fmt: skip
+    turns = [pi * part / 40 for part in range(18, 23)]
+    rim = [(-1.3242553226347955 * cos(turn), 1.3242553226347955 * (1.0 - sin(turn))) for turn in turns]
+    bowl = [surface(f"bowl {place}", *ends, 0.0764, 0.8066, 0.0) for place, ends in enumerate(pairwise(rim))]
+    numerics = run_of([light, heavy], bowl, 0.4776, 0.7668, duration=0.006).numerics
+    assert numerics.impacts < 40
+
+
 def test_an_ellipse_slides_for_a_moment_and_rolls_on():
     """Its slide begins with a slip of 6e-17 m/s, by rounding, which is not its end."""
     sizes = (0.09189541639610163, 0.03786986286671355), (0.09258495762422515, 0.052231609147767484)
