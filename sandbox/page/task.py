@@ -20,20 +20,12 @@ def session_page(session: Session) -> str:
         "task.html",
         title=html(title_of(task.name)),
         goal=html(task.goal),
-        score=html(_score(session)),
+        score=html(session.result),
         stars=stars,
         attempts="\n".join(_attempt(session, attempt) for attempt in session.attempts if attempt.shots),
         seed=str(session.seed),
         command=html(f"sandbox run {task.name} --seed {session.seed} --attempt 1"),
     )
-
-
-def _score(session: Session) -> str:
-    """The score in words, and whether it passes."""
-    said = session.task.score.text(session.total)
-    if not session.over:
-        return f"{said} so far"
-    return f"{said}: passed" if session.passed else f"{said}: not passed"
 
 
 def _attempt(session: Session, attempt: Attempt) -> str:

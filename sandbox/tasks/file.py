@@ -94,6 +94,7 @@ def read_task_file(path: Path) -> TaskFile:
         found = declared.validate(TaskFile, values, where)
     except RequestError as error:
         line = str(error).replace(f"{where}: passing", f"{where}: pass").replace("mean passing?", "mean pass?")
+        line = line.replace(", passing, ", ", pass, ")  # of the keys that there are
         raise RequestError(line) from None
     if not found.controls:
         raise RequestError(f"{where}: controls: the player sets nothing; add [[controls]] with key, low and high")

@@ -35,6 +35,8 @@ class _Reader:
 
     def __init__(self, path: Path, file: TaskFile) -> None:
         self.file, self.path, self.where = file, path, from_here(path)
+        if not file.goal.isprintable():
+            raise self.wrong(f"goal = {shown(file.goal)}: must be one line of printable characters")
         written = file.scene
         source = path.parent / written if written.startswith(("./", "../")) else written
         try:
@@ -202,6 +204,8 @@ class _Reader:
                 if len(given) != 2:
                     raise self.wrong(f"{what}.{name} = {shown(given)}: a range is a list of its two ends")
                 low, high = (self.number(f"{what}.{name}", end, unit) for end in given)
+                if low > high:
+                    raise self.wrong(f"{what}.{name} = {shown(given)}: write the lower end first")
                 yield Wanted(fact, within=(low, high))
             elif isinstance(given, str) and unit:
                 yield Wanted(fact, self.number(f"{what}.{name}", given, unit))

@@ -105,6 +105,17 @@ class Session:
         return count
 
     @property
+    def result(self) -> str:
+        """The score in words, and at the end whether it passes: ``4 of 5 made: passed``."""
+        score, played = self.task.score, [attempt.worth for attempt in self.attempts if attempt.over]
+        said = score.text(self.total)
+        if score.how == "sum" and score.word == "made" and self.task.shots == 1 and {0.0, 1.0}.issuperset(played):
+            said = f"{score.number(self.total or 0.0)} of {len(played)} made"
+        if not self.over:
+            return f"{said} so far"
+        return f"{said}: passed" if self.passed else f"{said}: {score.number(self.task.passing)} needed to pass"
+
+    @property
     def passed(self) -> bool:
         """True if the task is passed: at its end, since then alone a score is final."""
         return self.over and self.task.passed(self.total)

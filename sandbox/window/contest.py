@@ -230,8 +230,9 @@ class AtTask(Contest):
 
     @property
     def best_shots(self) -> Sequence[int]:
-        lower = self.task.score.lower_is_better and self.task.score.how != "fewest"
-        known = [(worth if lower else -worth, i) for i, worth in enumerate(self.worths) if worth is not None]
+        lower, all_count = self.task.score.how == "nearest", self.task.score.how in ("nearest", "greatest")
+        known = [(worth if lower else -worth, i) for i, worth in enumerate(self.worths)
+                 if worth is not None and (worth > 0.0 or all_count)]  # fmt: skip
         return [i for _, i in sorted(known)[:3]]
 
     @property
@@ -248,8 +249,7 @@ class AtTask(Contest):
     def outcome(self) -> list[str]:
         totals, score = [session.total for session in self.sessions], self.task.score
         if self.players == 1:
-            passed = "passed" if self.session.passed else f"not passed, which takes {self.written(self.task.passing)}"
-            return [f"{score.text(totals[0])}: {passed}"]
+            return [self.session.result]
         first, second = totals
         ahead = [second is None or (first is not None and score.reaches(first, second)),
                  first is None or (second is not None and score.reaches(second, first))]  # fmt: skip

@@ -23,6 +23,7 @@ from sandbox.window.game import Game
 from sandbox.window.layout import Form, Layout
 from sandbox.window.messages import reason
 from sandbox.window.pad import Pad
+from sandbox.window.referee import deciding_ball
 from sandbox.window.screen import Screen
 from sandbox.window.shots import Shot
 from sandbox.window.shown import Shown
@@ -118,7 +119,8 @@ class Drawing:
             spots = [contest.mark, *([landed] if landed is not None else [])]
             scoreboard.draw_mark(sheet, stage.pixels(np.array(spots)).tolist(), shot.upright)
         if referee.glow and not self.shown.follows:
-            scoreboard.draw_glow(sheet, stage.ball_at(shot, min(self.shown.time, referee.decided)), referee.glow)
+            at = stage.ball_at(shot, min(self.shown.time, referee.decided), deciding_ball(shot, referee.decided))
+            scoreboard.draw_glow(sheet, at, referee.glow)
         if contest is not None and referee.is_over and referee.tells and referee.again != "slow":
             best, place, mouse = self.game.best, self.game.place, self.targets.mouse
             forms = scoreboard.end_forms(sheet, contest, best, place, mouse, self.targets.cards)

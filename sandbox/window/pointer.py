@@ -133,6 +133,8 @@ class Pointer:
             return self._pull(at)
         elif game.watching.playback.over:
             return lambda to: self._perhaps_pull(at, to)
+        elif game.referee.contest is not None:  # a pull that comes too early would move the picture for the next shot
+            game.messages.tell("Enter for the next shot, Space to pause")
         else:
             game.messages.tell("Enter to aim again, Space to pause")
             return self._pan

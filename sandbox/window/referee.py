@@ -213,10 +213,15 @@ class Referee:
             self._next_best, self.again = self._next_best + 1, "best"
 
 
+def deciding_ball(shot: Shot, decided: float) -> str:
+    """The ball that decides a shot at a time in s: one that a trap takes then, or else the one that is played."""
+    return next((e.ball for e in shot.run.events if e.kind == "caught" and abs(e.t - decided) < STEP), shot.ball)
+
+
 def decided_at(shot: Shot) -> float:
     """The time in s at which a shot is decided: when the fact that it scored is final. Where that is not known before
-    the end it is with the last body that a trap takes, such as a pocket or a cup, or else with the last impact of the
-    ball that is played."""
+    the end it is with the last body that a trap takes, such as a pocket or a cup, or else with the last ball that the
+    one that is played meets, or the last impact."""
     run, fact = shot.run, shot.scene.facts.get(shot.scene.controls.scores)
     final = fact.final_when if fact is not None else "end"
     found = []
@@ -228,5 +233,8 @@ def decided_at(shot: Shot) -> float:
         found += [e.t for i, e in enumerate(run.events[:MOST], 1) if condition.over(run.events[:i])][:1]
     if found:
         return float(min(found))
-    met = [e.t for e in run.events if e.kind == "impact" and shot.ball in (e.ball, e.partner)]
-    return max([e.t for e in run.events if e.kind == "caught"] or met, default=run.duration)
+    caught = [event for event in run.events if event.kind == "caught"]
+    met = [event for event in run.events if event.kind == "impact" and shot.ball in (event.ball, event.partner)]
+    balls = {ball.name for ball in run.setup.balls}
+    among = [event for event in met if {event.ball, event.partner} <= balls]
+    return max([event.t for event in caught or among or met], default=run.duration)

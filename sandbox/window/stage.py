@@ -96,9 +96,9 @@ class Stage:
         shares = self.pixels(shot.track(shot.ball)[:, 1:]) / self.size
         return shot.run is self.shot.run or bool((shares >= EDGE).all() and (shares <= 1 - EDGE).all())
 
-    def ball_at(self, shot: Shot, t: float = 0.0) -> tuple[float, float]:
-        """The place of the ball that is played, in px."""
-        ((x, y),) = self.pixels(np.array([shot.run.state(shot.ball, t)[:2]])).tolist()
+    def ball_at(self, shot: Shot, t: float = 0.0, ball: str = "") -> tuple[float, float]:
+        """The place of a ball, by default the one that is played, in px."""
+        ((x, y),) = self.pixels(np.array([shot.run.state(ball or shot.ball, t)[:2]])).tolist()
         return x, y
 
     def pixels(self, points: np.ndarray) -> np.ndarray:

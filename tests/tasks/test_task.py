@@ -43,7 +43,9 @@ def test_a_session_counts_attempts_streak_and_stars():
     made = [session.shoot(_in(session) if right else {}).made for right in (True, False, True, True)]
     assert made == [True, False, True, True]
     assert (session.total, session.left, session.streak, session.stars, session.passed) == (3.0, 1, 2, 0, False)
+    assert session.result == "3 of 4 made so far"
     session.shoot({})
+    assert session.result == "3 of 5 made: passed"
     assert (session.total, session.left, session.streak, session.stars, session.passed) == (3.0, 0, 0, 1, True)
     with pytest.raises(RequestError, match="all 5 attempts are played"):
         session.shoot({})

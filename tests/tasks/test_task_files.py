@@ -97,6 +97,13 @@ def test_an_attempt_is_run_from_what_is_drawn_for_it(call, file: Path):
         ("stars = [1, 2, 3]", "stars = [3, 2, 1]", "stars = [3, 2, 1]: must be rising"),
         ("pass = 2", "pass = 20", "pass = 20: 3 attempts can reach 3 at most"),
         ("stars = [1, 2, 3]", "stars = [1, 2, 4]", "stars[2] = 4: 3 attempts can reach 3 at most"),
+        ("attempts = 3", "colour = 1\nattempts = 3", "stars, pass, goes_on"),
+        ('"Throw it in"', '"Throw\\nit in"', "must be one line of printable characters"),
+        (
+            'score = "made"',
+            'score = { fact = "made", wanted = { entry_angle = [60, 40] } }',
+            "score.wanted.entry_angle = [60, 40]: write the lower end first",
+        ),
         ('"one metre"', '"some"', 'shown = "some": must be "all", "first contact", "one metre" or "nothing"'),
         ('"basketball"', '"basketbal"', 'scene = "basketbal": unknown scene basketbal; did you mean basketball?'),
         ("attempts = 3", "atempts = 3", "atempts: unknown key; did you mean attempts?"),

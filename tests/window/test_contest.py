@@ -23,7 +23,7 @@ from sandbox.window.contest import AtMatch, AtTask
 from sandbox.window.front import START_HERE, TILE, TILE_FILE, Front, entries_of, first_task, sports
 from sandbox.window.panel import SLIDER_OF
 from sandbox.window.prediction import Prediction
-from sandbox.window.referee import AFTER, decided_at
+from sandbox.window.referee import AFTER, decided_at, deciding_ball
 from sandbox.window.shots import LONGEST_FRAME
 
 from .conftest import Player
@@ -202,7 +202,7 @@ class TestATask:
             shoot(thrower, **({**IN, "launch__speed": 5.0} if number == 4 else IN))
         contest = referee.contest
         assert (contest.over, contest.stars, contest.session.total) == (True, 2, 4.0)
-        assert {"4 made: passed", "your best: 4 made"} <= said(thrower)
+        assert {"4 of 5 made: passed", "your best: 4 made"} <= said(thrower)
         kept = json.loads(game.best.file.read_text("utf-8"))["tasks"]["free-throw"]
         assert [(each["score"], each["stars"]) for each in kept] == [(4.0, 2)]
         shown = []
@@ -224,6 +224,24 @@ class TestATask:
         assert referee.contest.seed != contest.seed
         thrower.key(pygame.K_PAGEDOWN)
         assert referee.contest.name == contest.following != contest.name
+
+    def test_only_shots_that_count_are_among_the_best(self, thrower):
+        contest = thrower.game.referee.contest
+        contest.worths = [0.0, 1.0, None, 0.0, 1.0]
+        assert contest.best_shots == [1, 4]
+        contest.task = tasks.load("closest-to-the-pin")
+        contest.worths = [5.0, 0.0, 9.0]  # m
+        assert contest.best_shots == [1, 0, 2]
+
+    def test_a_pull_that_comes_too_early_leaves_the_picture_where_it_is(self, thrower):
+        thrower.key(pygame.K_SPACE)
+        passes(thrower, lambda: thrower.game.watching.playback is not None)
+        thrower.settle()
+        thrower.press((400, 300))
+        thrower.move((300, 350))
+        thrower.release((300, 350))
+        assert thrower.view.stages.chosen is None
+        assert thrower.game.notices[-1][0] == "Enter for the next shot, Space to pause"
 
     def test_a_page_has_the_attempts_so_far(self, thrower, tmp_path, monkeypatch):
         monkeypatch.chdir(tmp_path)
@@ -400,7 +418,17 @@ def test_the_first_contact_may_be_named_by_the_other_ball(player, source):
 def test_a_shot_is_decided_where_its_score_is_final(shot_of, player):
     player = player("billiards/bank", (640, 480))
     shot = player.game.shot
-    assert decided_at(shot) == next(event.t for event in shot.run.events if event.kind == "caught")
+    caught = next(event for event in shot.run.events if event.kind == "caught")
+    assert decided_at(shot) == caught.t
+    assert deciding_ball(shot, caught.t) == caught.ball != shot.ball
+    assert deciding_ball(shot, caught.t - 0.5) == shot.ball
+
+
+def test_a_point_in_carom_is_decided_by_the_last_ball_that_is_met(player):
+    shot = player("billiards/three-rail-carom", (640, 480)).game.shot
+    met = [event for event in shot.run.events if {event.ball, event.partner} & {"red", "yellow"}]
+    last = max(event.t for event in met if event.kind == "impact" and shot.ball in (event.ball, event.partner))
+    assert decided_at(shot) == last < shot.run.events[-1].t
 
 
 class TestTheBestList:

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from sandbox.sport.match import Match, Outcome
+from sandbox.text import counted
 
 POINTS, CUSHIONS = 5, 3
 CUES, RED = ("white", "yellow"), "red"
@@ -43,8 +44,9 @@ class ThreeCushion(Match):
         points = list(self.points)
         points[self.turn] += scored
         both = (points[0], points[1])
-        few = "no point: " + (f"only {cushions} cushions" if cushions is not None else "misses a ball")
-        said = f"{self.player}: {foul or (f'a point, after {cushions} cushions' if scored else few)}"
+        what = "a point" if scored else "no point"
+        way = "misses a ball" if cushions is None else f"after {counted(cushions, 'cushion')}"
+        said = f"{self.player}: {foul or f'{what}, {way}'}"
         balls = tuple((name, x, y) for name, (x, y) in outcome["positions"].items())
         after = replace(self, balls=balls, opening=False, points=both)
         ended = self.turn == 1 and not scored and points[0] >= POINTS

@@ -24,6 +24,14 @@ def closed(balls: Sequence[int], last: bool) -> bool:
     return len(balls) == 3 or (len(balls) == 2 and sum(balls) < PINS)
 
 
+def at_rack(balls: Sequence[int]) -> list[int]:
+    """The last balls of a frame, those at the pins that stand now: none at a full rack that is new."""
+    rack: list[int] = []
+    for pins in balls:
+        rack = [] if sum(rack) + pins == PINS else [*rack, pins]
+    return rack
+
+
 def total(frames: Frames) -> int:
     """The score so far: a ball that a strike or spare waits for counts once it is bowled."""
     points = 0
@@ -51,8 +59,8 @@ class TenFrames(Match):
         fresh = not own or closed(own[-1], len(own) == FRAMES)
         balls = (pins,) if fresh else (*own[-1], pins)
         own = (*(own if fresh else own[:-1]), balls)
-        last, full = len(own) == FRAMES, self.standing == ALL
-        what = "strike" if full and not leaves else "spare" if not leaves else f"{pins or 'no pin'} down"
+        last, at_all = len(own) == FRAMES, not at_rack(balls[:-1])
+        what = f"{pins or 'no pin'} down" if leaves else "strike" if at_all else "spare"
         both = (own, self.frames[1]) if self.turn == 0 else (self.frames[0], own)
         said, done = f"{self.player}: {what}", closed(balls, last)
         if done and last and self.turn == 1:
