@@ -45,7 +45,8 @@ class Match:
 
     @property
     def start(self) -> Mapping[str, Any]:
-        """The changes of the scene's parameters with which the next shot begins."""
+        """The changes of the scene's parameters with which the next shot begins. It is aimed so that who shoots at once
+        gains nothing."""
         return {}
 
     @property

@@ -25,13 +25,13 @@ from sandbox.window.front import first_task
 from sandbox.window.game import Game
 from sandbox.window.history import Changes
 from sandbox.window.memory import Memory, usual_place
-from sandbox.window.opening import LOADING
+from sandbox.window.opening import limit_of
 from sandbox.window.pointer import Pointer
 from sandbox.window.screen import SIZE
 from sandbox.window.session import Session
 from sandbox.window.sound import Sound
 from sandbox.window.view import View
-from sandbox.window.worker import checked
+from sandbox.window.worker import checked, started
 from sandbox.workers import Processes
 
 MODIFIED = pygame.KMOD_CTRL | pygame.KMOD_ALT
@@ -259,9 +259,10 @@ def _load_there(worker: Processes, source: str, changes: Mapping[str, Any]) -> N
     """Have the worker load a scene before this process does, in which what is wrong with it is reported. Raises
     RunError if that takes too long: its code may never end."""
     folder = find(source).folder
-    work = worker.submit(checked, source, changes, folder)
-    if not wait_for([work], LOADING).done:
-        raise RunError(f"loading {source}: given up after {LOADING:.0f} s: does its code ever end?")
+    limit = limit_of(folder)
+    worker.submit(started).result()  # which takes a while on a busy machine
+    if not wait_for([worker.submit(checked, source, changes, folder)], limit).done:
+        raise RunError(f"loading {source}: given up after {limit:.0f} s: does its code ever end?")
 
 
 @contextmanager

@@ -30,7 +30,7 @@ class Canvas(Sheet):
         """The card along the bottom; a value that is too long is cut."""
         room = self.frame.width - 6 * self.gap
         short = [self.shortened(entry[1], "medium", room, bold=True) for entry in entries]
-        shown = [e if text == e[1] else (e[0], text) for e, text in zip(entries, short, strict=True)]
+        shown = [e if text == e[1] else (e[0], text, *e[2:]) for e, text in zip(entries, short, strict=True)]
         self.columns(self.card_row(), shown)
 
     def board(self, rect: pygame.Rect) -> None:

@@ -74,7 +74,11 @@ class Cards:
             text, said, colour = headline_of(referee, contest)
             notes = notes if self.game.grasp.holds else said
             pulled = playback is None and self.game.session.may_change(aim_keys(shot))
-            entries, forces = [*contest.entries, *([("aimed", shot.aimed)] if pulled else [])], ()
+            entries = [
+                (*entry, CARD["accent" if place == contest.marked else "text"])
+                for place, entry in enumerate(contest.entries)
+            ]
+            entries, forces = [*entries, *([("aimed", shot.aimed)] if pulled else [])], ()
         self.draw_head(sheet, layout, text, notes, colour)
         numbers, overlay = pygame.Rect(0, sheet.card_row(), *sheet.size), self.shown.overlay
         if overlay is None or not overlay.place(self.screen.whole).colliderect(numbers):

@@ -118,6 +118,11 @@ class Contest:
         raise NotImplementedError
 
     @property
+    def marked(self) -> int:
+        """The place among the scores of the one that is highlighted: of two players that whose turn it is."""
+        return 0
+
+    @property
     def table(self) -> Entries:
         """More of what was collected."""
         return []
@@ -229,6 +234,10 @@ class AtTask(Contest):
         ]
 
     @property
+    def marked(self) -> int:
+        return self.turn
+
+    @property
     def best_shots(self) -> Sequence[int]:
         lower, all_count = self.task.score.how == "nearest", self.task.score.how in ("nearest", "greatest")
         known = [(worth if lower else -worth, i) for i, worth in enumerate(self.worths)
@@ -321,6 +330,10 @@ class AtMatch(Contest):
     @property
     def entries(self) -> Entries:
         return list(zip(self.match.players, self.match.scores, strict=True))
+
+    @property
+    def marked(self) -> int:
+        return self.match.turn if self.match.winner is None else self.match.winner
 
     @property
     def outcome(self) -> list[str]:

@@ -11,6 +11,7 @@ from time import perf_counter
 from typing import NamedTuple
 
 from sandbox.errors import RunError
+from sandbox.scene.finding import folder_of, is_installed
 from sandbox.scene.modules import forget
 from sandbox.window import replay
 from sandbox.window.aiming import Aiming
@@ -18,8 +19,14 @@ from sandbox.window.background import Workers
 from sandbox.window.messages import Messages
 from sandbox.window.worker import checked, checked_replay
 
-#: Loading a scene that takes longer than this, in s, is given up.
-LOADING = 10.0
+#: Loading a scene that takes longer than this, in s, is given up; one that came with the sandbox ends, and is slow only
+#: where the machine is.
+LOADING, LOADING_INSTALLED = 10.0, 120.0
+
+
+def limit_of(folder: Path | None) -> float:
+    """The time in s after which loading a scene is given up."""
+    return LOADING_INSTALLED if folder is not None and is_installed(folder) else LOADING
 
 
 class Loading(NamedTuple):
@@ -30,6 +37,7 @@ class Loading(NamedTuple):
     failed: Callable[[BaseException], object]
     said: str
     began: float  # perf_counter, in s
+    limit: float  # in s, after which it is given up
 
     @property
     def takes(self) -> float:
@@ -60,7 +68,7 @@ class Opening:
             work, then = self.workers.path.submit(checked_replay, path, None, running), open_replay
         else:
             work, then = self.workers.path.submit(checked, source, {}), open_scene
-        self._load(work, then, self.messages.tell_error, source)
+        self._load(work, then, self.messages.tell_error, source, limit_of(folder_of(source)))
 
     def open_replay(self, path: Path, scene: str | None = None) -> None:
         """Watch a recorded shot, of ``scene`` if that is given. Raises RequestError."""
@@ -75,7 +83,7 @@ class Opening:
         code = any(file.suffix == ".py" for file in files)
         names, changes = ", ".join(str(file) for file in files), self.session.changes
         work = self.workers.path.submit(checked, changes.source, changes.values, self.session.base.folder, code)
-        self._load(work, lambda: self._read_again(names, code), self.messages.files_are_bad, names)
+        self._load(work, lambda: self._read_again(names, code), self.messages.files_are_bad, names, LOADING)
 
     def _read_again(self, names: str, code: bool) -> None:
         """Read saved files in the window, too."""
@@ -103,11 +111,12 @@ class Opening:
         then: Callable[[], object],
         failed: Callable[[BaseException], object],
         what: str,
+        limit: float,
     ) -> None:
         """Do something with a scene once the worker has loaded it; or say why it could not be."""
         if self.loading is not None:  # of what is no longer wanted
             self.workers.path.abandon(self.loading.work)
-        self.loading = Loading(work, then, failed, f"loading {what}", perf_counter())
+        self.loading = Loading(work, then, failed, f"loading {what}", perf_counter(), limit)
         self.take(self.workers.patience)
 
     def take(self, patience: float | None) -> None:
@@ -117,9 +126,9 @@ class Opening:
         if loading is None:
             return
         self.path.give_way()
-        if not wait_for([loading.work], LOADING if patience is None else patience).done:
-            if loading.takes > LOADING:
-                self._give_up(f"given up after {LOADING:.0f} s: does its code ever end?")
+        if not wait_for([loading.work], loading.limit if patience is None else patience).done:
+            if loading.takes > loading.limit:
+                self._give_up(f"given up after {loading.limit:.0f} s: does its code ever end?")
             return
         self.loading, error = None, loading.work.exception()
         if error is None:

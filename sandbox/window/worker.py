@@ -21,6 +21,10 @@ from sandbox.window.replay import data_of, read, run_of
 Packed = bytes | dict[str, Any]
 
 
+def started() -> None:
+    """Do nothing: it is done once the process has begun to work."""
+
+
 def warm_up(source: str) -> None:
     """Import the scene; one that is invalid is reported where it is opened."""
     with suppress(Exception):

@@ -88,6 +88,27 @@ def test_a_game_is_written_down_and_reads_facts_of_its_scene(folder: Path, name:
     assert begun(match, folder)
 
 
+#: What comes of the first shot as it stands before the player aims, in the games whose shots begin alike.
+AS_IT_STANDS = {
+    "basketball/free-throws": "Player 1 missed: 0 to 0",
+    "soccer-curl/penalty-kicks": "Player 1 missed: 0 to 0",
+    "golf/nearest-the-pin": "Player 1: 38 m from the pin",
+    "curling/end": "Red's stone: nobody lies in the house",
+    "bowling/ten-frames": "Player 1: no pin down",
+    "billiards/three-cushion": "White: no point, misses a ball",
+}
+
+
+@pytest.mark.parametrize("game", AS_IT_STANDS)
+def test_a_game_is_not_won_without_aiming(game: str):
+    scene, _, name = game.partition("/")
+    folder = installed_folder(scene)
+    assert folder is not None
+    match = game_of(folder, name)()
+    run = sandbox.simulate(sandbox.load("/".join(filter(None, [scene, match.preset])), match.start))
+    assert match.after(run.result).said == AS_IT_STANDS[game]
+
+
 def test_a_real_break_is_a_shot_of_the_game():
     folder = installed_folder("billiards")
     assert folder is not None

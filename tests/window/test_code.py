@@ -10,8 +10,10 @@ import pytest
 
 from sandbox.errors import RequestError, RunError
 from sandbox.new import new_scene
+from sandbox.scene.finding import installed_folder
 from sandbox.window import replay
 from sandbox.window.app import play
+from sandbox.window.opening import LOADING, limit_of
 from sandbox.window.session import Session
 
 from .conftest import Player
@@ -132,12 +134,15 @@ class TestCodeThatNeverEnds:
         game.path.runs.give_up(None)
 
     def test_a_window_is_not_opened_on_it(self, tmp_path, monkeypatch):
-        monkeypatch.setattr("sandbox.window.app.LOADING", 1.0)
+        monkeypatch.setattr("sandbox.window.opening.LOADING", 1.0)
         new_scene(tmp_path / "endless")
         with (tmp_path / "endless" / "scene.py").open("a") as file:
             file.write(LOOP)
         with pytest.raises(RunError, match=r"given up after 1 s: does its code ever end\?"):
             play(str(tmp_path / "endless"))
+
+    def test_what_came_with_the_sandbox_may_take_longer(self, tmp_path):
+        assert limit_of(tmp_path) == limit_of(None) == LOADING < limit_of(installed_folder("golf"))
 
 
 class TestReplays:

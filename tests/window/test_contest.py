@@ -233,7 +233,7 @@ class TestATask:
         contest.worths = [5.0, 0.0, 9.0]  # m
         assert contest.best_shots == [1, 0, 2]
 
-    def test_a_pull_that_comes_too_early_leaves_the_picture_where_it_is(self, thrower):
+    def test_a_pull_that_comes_too_early_does_not_move_the_picture(self, thrower):
         thrower.key(pygame.K_SPACE)
         passes(thrower, lambda: thrower.game.watching.playback is not None)
         thrower.settle()
@@ -424,7 +424,7 @@ def test_a_shot_is_decided_where_its_score_is_final(shot_of, player):
     assert deciding_ball(shot, caught.t - 0.5) == shot.ball
 
 
-def test_a_point_in_carom_is_decided_by_the_last_ball_that_is_met(player):
+def test_a_point_in_carom_is_decided_by_the_last_ball_met(player):
     shot = player("billiards/three-rail-carom", (640, 480)).game.shot
     met = [event for event in shot.run.events if {event.ball, event.partner} & {"red", "yellow"}]
     last = max(event.t for event in met if event.kind == "impact" and shot.ball in (event.ball, event.partner))

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 from sandbox.sport.match import Shootout
 
 
@@ -15,6 +18,10 @@ class FreeThrows(Shootout):
     fact = "made"
     shots = 10
     words = ("missed", "scored")
+
+    @property
+    def start(self) -> Mapping[str, Any]:
+        return {"launch.speed": 6.5}  # m/s: too short
 
 
 GAME = FreeThrows

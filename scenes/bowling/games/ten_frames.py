@@ -76,7 +76,7 @@ class TenFrames(Match):
 
     @property
     def start(self) -> Mapping[str, Any]:
-        return {"pin.standing": self.standing}
+        return {"pin.standing": self.standing, "launch.angle": 0.0}  # deg: hooks into the gutter
 
 
 GAME = TenFrames

@@ -77,7 +77,12 @@ class End(Match):
 
     @property
     def start(self) -> Mapping[str, Any]:
-        return {"team": TEAMS[self.turn], "stones": [{"team": team, "x": x, "y": y} for team, x, y in self.stones]}
+        return {
+            "team": TEAMS[self.turn],
+            "stones": [{"team": team, "x": x, "y": y} for team, x, y in self.stones],
+            "launch.speed": 1.85,  # m/s: short of the hog line
+            "launch.angle": 0.0,
+        }
 
 
 GAME = End

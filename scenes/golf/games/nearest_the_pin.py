@@ -5,7 +5,9 @@ A ball in the water does not count; one in the hole wins, unless the other holes
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from sandbox.sport.amounts import roughly
 from sandbox.sport.match import Match, Outcome
@@ -43,6 +45,10 @@ class NearestThePin(Match):
     def scores(self) -> tuple[str, str]:
         first, second = ("-" if far is None else "holed" if far == 0.0 else roughly(far) for far in self.best)
         return first, second
+
+    @property
+    def start(self) -> Mapping[str, Any]:
+        return {"launch.speed": 40.0}  # m/s: too short
 
 
 GAME = NearestThePin

@@ -24,6 +24,7 @@ class PenaltyKicks(Shootout):
     def start(self) -> Mapping[str, Any]:
         return {
             "wall.present": False,
+            "launch.angle": 0.0,  # deg: at the keeper
             "goal.distance": 11.0,  # m (Laws of the Game, law 14)
             "keeper.distance": 0.1,  # m, on his line
             "keeper.offset": 0.0,
