@@ -2,8 +2,8 @@
 scenes.
 
 A scene's ``Picture`` is a :class:`~sandbox.picture.side.SideView` or a view from above, and overrides some of these
-constants and methods; the views have a few more of their own, in their sections "scene options". Lengths are in m,
-times in s, and px are those of the picture.
+constants and methods. The views have a few more of their own: from the side in ``side_options.py``, the others in their
+sections "scene options". Lengths are in m, times in s, and px are those of the picture.
 """
 
 from __future__ import annotations

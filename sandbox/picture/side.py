@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from math import ceil, floor, isinf, log10
-from typing import ClassVar, NamedTuple
 
 import numpy as np
 import pygame
@@ -18,10 +16,10 @@ from sandbox.picture.closeup import CloseUp, arranged
 from sandbox.picture.lettering import LabelPlace, Labels
 from sandbox.picture.marks import draw_mark, draw_trace, label_mark, mark_impacts
 from sandbox.picture.painter import Painter, Point, around_corners
-from sandbox.picture.palette import Colour
 from sandbox.picture.path import FINEST, ImpactMark, apart
-from sandbox.picture.places import Ground, Person, Scenery, Thing
+from sandbox.picture.places import Person
 from sandbox.picture.sheet import CARD, Entry, Sheet, SideRows
+from sandbox.picture.side_options import SideOptions
 from sandbox.picture.view import P, View
 from sandbox.sport.amounts import metres, roughly
 
@@ -40,104 +38,14 @@ ALONG, ACROSS = 9, 4
 SHADOW_FADES = 80
 
 
-class Length(NamedTuple):
-    """A distance along the ground, from ``start`` to ``end`` in m, and what is written on it."""
-
-    text: str
-    start: float
-    end: float
-    colour: Colour = CARD["text"]
-
-
-@dataclass(frozen=True)
-class Place:
-    """A place: what lies behind, the ground, and the things on it, the farthest first."""
-
-    scenery: Scenery
-    ground: Ground
-    things: Sequence[Thing] = ()
-
-
-class SideView(View[P]):
-    """A run seen from the side: x along the ground, y up."""
-
-    SHARED_GROUND = True
-
-    # Scene options
-
-    #: The unit of the ruler's lower row; the upper has metres.
-    SECOND_UNIT: ClassVar[str] = "yd"
-    #: Rows between ground and ruler for the distances that ``lengths`` returns.
-    LENGTH_ROWS: ClassVar[int] = 2
-    #: Free room between header and path, in px on 720 rows.
-    HEADROOM: ClassVar[float] = 24
-    #: A low flight is drawn at most so many times as high as it is; inf draws any as high as there is room.
-    MAX_STRETCH: ClassVar[float] = 1.0
-    #: The poster leaves out the ``preferred_view`` if the path would take up less than this share of its width.
-    MIN_PATH_SHARE: ClassVar[float] = 0.15
-    #: The origin of the distance in a frame's headline: 12.3 m "from the hand".
-    MEASURED_FROM: ClassVar[str] = "from the start"
-    #: The eye of the perspective: its height over the ground in px on 720 rows, its column as a share of the width.
-    EYE_HEIGHT: ClassVar[float] = 150
-    EYE_COLUMN: ClassVar[float] = 0.25
-
-    @property
-    def must_be_visible(self) -> Box | None:
-        """The part of the world that is visible in any case besides the path, in m, such as the player."""
-        return None
-
-    @property
-    def preferred_view(self) -> Box | None:
-        """The part of the world, in m, that is visible unless the path would then be too small."""
-        return None
-
-    @property
-    def frame_width(self) -> float:
-        """The width of the world in frames, in m, where the poster shows more."""
-        return 36.0
-
-    def ground(self, x: np.ndarray) -> np.ndarray:
-        """Height of the ground in m, at places in m."""
-        return np.zeros_like(x)
-
-    def profile(self, left: float, right: float) -> np.ndarray:
-        """The ground's line from one place to another, in m."""
-        return np.array([(x, self._under(x)) for x in (left, right)])
-
-    @cached_property
-    def place(self) -> Place:
-        """The place that the ball flies through; without one a view draws its own backdrop."""
-        raise NotImplementedError
-
-    @property
-    def standing(self) -> Sequence[Thing]:
-        """The things that stand on the ground."""
-        return self.place.things
-
-    @property
-    def turf(self) -> Colour:
-        """The colour of the ground on the map of frames."""
-        ground = self.place.ground
-        return next((colour for colour, _ in ground.edges), ground.surface.colours[0])
-
-    def on_map(self, painter: Painter, camera: Camera) -> None:
-        """Draw the target on the map of frames."""
-
-    def lengths(self) -> Sequence[Length]:
-        """Distances to be drawn along the ground; the first is drawn lowest."""
-        return ()
-
-    def closeup_boxes(self) -> Sequence[Box]:
-        """The parts of the world, in m, where the run is decided: enlarged on the poster where there is free sky."""
-        return ()
+class SideView(SideOptions[P], View[P]):
+    """A run seen from the side: x along the ground, y up. What a scene may change is in ``side_options.py``."""
 
     @property
     def sky(self) -> float:
         """The row down to which nothing is drawn, in px."""
         tops = [self.points[:, 1].max() + self.radius, self.subject.top]
         return self.camera.pixel(0.0, float(max(tops)))[1] - 20 * self.unit
-
-    # Shared by all scenes
 
     @cached_property
     def rows_at(self) -> SideRows:
@@ -296,9 +204,6 @@ class SideView(View[P]):
 
     def progress(self, t: float) -> tuple[str, str]:
         return metres(self.run.state(self.ball, t)[0] - self.path.points[0, 0]), self.MEASURED_FROM
-
-    def _under(self, x: float) -> float:
-        return float(self.ground(np.array([x]))[0])
 
     def spots(self, camera: Camera, points: np.ndarray, radius: float, name: str = "") -> np.ndarray:
         """On the path, raised so that balls which are drawn too large along it lie on the ground and not in it."""

@@ -37,7 +37,8 @@ from sandbox.picture.places import (
     turf,
 )
 from sandbox.picture.sheet import Entry, Sheet, SideRows
-from sandbox.picture.side import Length, NetView, Place, SideView
+from sandbox.picture.side import NetView, SideView
+from sandbox.picture.side_options import Length, Place
 from sandbox.picture.view import View
 from sandbox.renamed import name_old_names
 from sandbox.sport.amounts import round_number_above
