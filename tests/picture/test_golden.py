@@ -12,7 +12,7 @@ import pytest
 from PIL import Image
 
 import sandbox
-from sandbox.golden import LOWEST, NEIGHBOURHOOD, ROUNDING_LEVELS, coarser, compare
+from sandbox.picture.difference import LOWEST, NEIGHBOURHOOD, ROUNDING_LEVELS, coarser, compare
 from sandbox.picture.frames import to_image
 from sandbox.picture.painter import Painter, blank
 from sandbox.record import SAMPLES, TOLERANCE, as_text, changed_results, first_change, record
