@@ -162,6 +162,19 @@ def test_a_scene_takes_from_the_kit_what_it_may():
     assert broken_rules(through_kit(source), "here", "picture") == []
 
 
+def past_kit(source: str) -> list[str]:
+    """The names that a scene takes from where they are defined, though the kit has them."""
+    homes = set(offered().values())
+    return [module for module in imported(ast.parse(source), "itself") if module in homes]
+
+
+def test_scenes_take_from_the_kit_what_it_has():
+    paths = [path for path in (ROOT / "scenes").glob("*/*.py") if path.stem != "__init__"]
+    assert {str(path): found for path in paths if (found := past_kit(path.read_text("utf-8")))} == {}
+    assert past_kit("from sandbox.engine.model.ball import Ball, kinetic") == ["sandbox.engine.model.ball.Ball"]
+    assert len(paths) > 40
+
+
 def test_the_kit_does_without_pygame_until_a_picture_needs_it():
     code = "import sys, sandbox.kit; assert 'pygame' not in sys.modules; sandbox.kit.SideView; sys.modules['pygame']"
     assert subprocess.run([sys.executable, "-c", code]).returncode == 0

@@ -21,8 +21,10 @@ from sandbox.kit import (
     plan,
     scene_colours,
 )
+from sandbox.kit import (
+    goal as goal_at,
+)
 from sandbox.picture.lettering import around
-from sandbox.picture.places import goal as goal_at
 from sandbox.picture.places.courts import PENALTY_SPOT, pitch_lines
 from sandbox.sport.dive import place_of
 
