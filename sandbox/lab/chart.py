@@ -26,6 +26,9 @@ _TARGETS = (0.1, 0.01, 0.001, 0.0001)
 #: Smaller errors, in m, are drawn at this value: they do not matter.
 _LEAST = 1e-9
 
+#: What is not written into a file, so that the same chart is the same file.
+_UNDATED: dict[str, dict[str, Any]] = {"svg": {"Date": None}}
+
 #: Behind a text on a drawing.
 PLATE = {"facecolor": "white", "edgecolor": "none", "alpha": 0.75, "pad": 1.5}
 
@@ -74,7 +77,8 @@ def _sheet(path: Path, size: tuple[float, float]) -> Iterator[tuple[Any, dict[st
         sheet = Figure(figsize=size, dpi=_DOTS, facecolor="white", layout=ConstrainedLayoutEngine(rect=_FRAME))
         yield sheet, colours
         with atomic_write(path) as out:
-            sheet.savefig(out.buffer, format=path.suffix[1:].lower())
+            kind = path.suffix[1:].lower()
+            sheet.savefig(out.buffer, format=kind, metadata=_UNDATED.get(kind))
 
 
 def _style(colours: dict[str, Any]) -> Any:
@@ -84,6 +88,7 @@ def _style(colours: dict[str, Any]) -> Any:
     card = colours["card"]
     ticks = {"color": card["quiet"], "labelcolor": card["ink_quiet"], "labelsize": 9.5}
     return {
+        "svg.hashsalt": "sandbox",
         "font.family": ["Noto Sans", "sans-serif"],
         "text.color": card["ink"],
         "axes.spines.top": False,

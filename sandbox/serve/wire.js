@@ -106,7 +106,8 @@ class Latest {
 }
 Latest.number = 0;
 
-const narrow = () => $("picture").clientWidth < 700;
+/** True for a phone that is held upright. */
+const narrow = () => $("picture").clientWidth < 700 && innerHeight > innerWidth;
 
 /** A stage as it came, with its images. */
 async function staged(stage) {

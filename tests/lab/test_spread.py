@@ -121,6 +121,7 @@ def test_picture_and_page_are_written(throws: Spread, tmp_path: Path):
     assert "launch.angle" in page
     assert "sandbox spread basketball --by launch.speed=" in page
     assert page.count("<section>") == 4
+    assert throws.page() == page  # without a date, and with names that are the same each time
 
 
 def test_every_column_is_in_the_chosen_units(capsys):

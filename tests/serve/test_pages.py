@@ -296,4 +296,7 @@ def test_everything_has_a_label_and_fits(pages, browser: Browser):
         page.until("state.stage.view.size[0] === arguments[0] && player.view === state.stage.view", view)
         assert browser.run("document.documentElement.scrollWidth") <= width
         assert browser.run(f"{buttons}.filter((each) => each.offsetHeight < 32).map((each) => each.outerHTML)") == []
+    browser.resize(844, 390)  # on its side: a finger on the picture aims, so it must not fill the screen
+    page.until("state.stage.view.size[0] === 1600 && player.view === state.stage.view")
+    page.until("document.getElementById('shoot').getBoundingClientRect().bottom <= innerHeight")
     assert page.complaints() == []
