@@ -4,9 +4,9 @@ the work that they do; and what is refused."""
 from __future__ import annotations
 
 import pickle
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from math import asin, cos, pi, sin, sqrt
+from math import asin, cos, inf, pi, sin, sqrt
 from random import Random
 
 import numpy as np
@@ -14,10 +14,11 @@ import pytest
 from scipy.optimize import brentq
 
 from sandbox.engine import simulate
+from sandbox.engine.contact import driven
 from sandbox.engine.ledger import ledger
 from sandbox.engine.model.accuracy import resolve
 from sandbox.engine.model.ball import Ball, Body
-from sandbox.engine.model.motion import Given, InTurn, Motion, Placing, Sliding, Swinging, Turning
+from sandbox.engine.model.motion import Given, InTurn, Motion, Placing, Sliding, Swinging, Turning, moved, stays_within
 from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.shapes import box
 from sandbox.engine.model.surface import Circle, Moving, Segment, Surface
@@ -370,6 +371,16 @@ def test_a_ball_that_is_pressed_on_something_is_refused_by_name():
         run_with(Sliding((0.0, 0.1)), slope, position=(0.0, 0.5), restitution=0.0, friction=0.0, others=[wall])
 
 
+@pytest.mark.parametrize("velocity", [(0.0, 0.0), (0.3, 0.0), (0.0, 0.5)])
+def test_balls_that_press_on_one_another_are_not_carried(velocity: tuple[float, float]):
+    balls = [
+        Ball(name, MASS, RADIUS, (0.0, y * RADIUS), forces=[Gravity(MASS, G)]) for name, y in (("low", 1), ("high", 3))
+    ]
+    lift = Moving(Surface("lift", PLATE, 0.8, 0.4), Sliding(velocity))
+    with pytest.raises(RunError, match="ball 'low': 'high' presses on it, and it is on 'lift', which moves: "):
+        simulate(Setup(balls, [lift], duration=1.0), resolve(level="balanced"))
+
+
 def test_a_body_bounces_off_what_moves_and_is_not_carried():
     crate = Body("crate", position=(0.0, 1.0), shape=box(0.2, 0.2), mass=1.0, forces=[Gravity(1.0, G)])
     plate = Moving(Surface("lift", PLATE, 0.5, 0.3), Sliding((0.0, 1.0)))
@@ -433,6 +444,42 @@ def test_balls_that_nothing_reaches_end_the_run():
     run = simulate(Setup([ball], [blade], duration=99.0, plane=Cloth()), resolve(level="balanced"))
     assert run.ended == "rest"
     assert run.duration < 99.0
+
+
+def bounded_motion(kind: int, draw: Callable[[float, float], float]) -> Motion:
+    """A random motion of each kind that stays near by."""
+    about, rate, last = (draw(-1.0, 1.0), draw(-1.0, 1.0)), draw(-9.0, 9.0), draw(0.1, 1.0)
+    if kind == 0:
+        return Turning(about, rate, draw(0.0, 6.0))
+    if kind == 1:
+        return Swinging(about, draw(-2.0, 2.0), draw(0.1, 3.0), shift=(draw(-1.0, 1.0), draw(-1.0, 1.0)))
+    if kind == 2:
+        times = sorted(draw(-1.0, 3.0) for _ in range(3))
+        ways = [(draw(-2.0, 2.0), draw(-2.0, 2.0)), (draw(-2.0, 2.0), draw(-2.0, 2.0)), (0.0, 0.0)]
+        return Sliding(list(zip(times, ways, strict=True)), draw(-1.0, 1.0), (0.3, -0.4), about, draw(0.0, 6.0))
+    return InTurn([(0.0, Turning(about, rate)), (last, Sliding(about=about, angle=rate * last))])
+
+
+def test_a_motion_stays_within_its_box():
+    for seed in range(120):
+        draw = Random(seed).uniform
+        motion, points = bounded_motion(seed % 4, draw), [(draw(-2.0, 2.0), draw(-2.0, 2.0)) for _ in range(2)]
+        left, bottom, right, top = stays_within(motion, points)
+        assert right - left < 50.0
+        for t in np.linspace(0.0, 5.0, 40):
+            for x, y in (moved(point, motion, t) for point in points):
+                assert left - 1e-9 <= x <= right + 1e-9
+                assert bottom - 1e-9 <= y <= top + 1e-9
+    assert stays_within(Sliding((1.0, 0.0)), [(0.0, 0.0)])[2] == inf
+
+
+def test_what_moves_too_fast_is_refused_only_where_it_is_met(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(driven, "_MOST_ARCS", 50)
+    gate = Segment((-0.5, 0.0), (0.5, 0.0))
+    said = "t = .* s: the motion of 'lift' has taken 50 pieces of path, the last .* s long; shorten the duration"
+    with pytest.raises(RunError, match=said):
+        run_with(to_and_fro(1e-3, (0.0, 0.1)), gate)
+    assert run_with(to_and_fro(1e-3, (0.0, 0.1)), gate, position=(2.0, 1.0)).ended == "duration"
 
 
 def test_a_ball_that_spins_in_its_path_meets_what_moves():

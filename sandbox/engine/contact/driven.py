@@ -10,17 +10,17 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence
 from functools import cache
-from math import comb, cos, hypot, inf, isfinite, sin
+from math import comb, cos, hypot, isfinite, sin
 from typing import Any, NamedTuple
 
 from sandbox.engine.contact.touch import Obstacle
 from sandbox.engine.contact.turning_touch import OutlineOnArc, first_touch
 from sandbox.engine.model.ball import Ball, outline_of
-from sandbox.engine.model.motion import Motion, Placing, piece_of, stands_until
+from sandbox.engine.model.motion import Motion, Placing, piece_of, stands_until, stays_within
 from sandbox.engine.model.setup_errors import call_user_function
 from sandbox.engine.model.shapes import Polygon, Vector
 from sandbox.engine.model.surface import Circle, Segment, Surface
-from sandbox.engine.model.tolerances import SKIN
+from sandbox.engine.model.tolerances import SKIN, TOUCHING_GAP
 from sandbox.engine.paths.arc import Arc
 from sandbox.engine.paths.bernstein import derivative, elevate, evaluate, piece
 from sandbox.errors import RunError
@@ -32,6 +32,9 @@ _FITS, _DRIFT, _ROUNDING, _SHORTEST, _LONGEST = 1e-11, 1e-9, 1e-13, 1e-7, 1.0
 
 #: A piece of a motion that lasts no longer than this, in s, and as a share of the time, is rounding.
 _INSTANT = 1e-13
+
+#: Most arcs of one motion, beyond which it is too fast for the run: some 20 s of computing.
+_MOST_ARCS = 100_000
 
 #: Degree of the arcs; they match the motion at so many nodes.
 _DEGREE, _NODES = 7, (0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0)
@@ -47,6 +50,7 @@ class DrivenPath:
         assert surface.motion is not None
         self.about = surface.motion.about
         self.outline = _outline(surface.shape, self.about)
+        self.box = stays_within(surface.motion, _points(surface.shape))  # m, of its line or centre
         self._name = surface.name
         self._motion = surface.motion
         self._arcs: list[Arc] = []
@@ -79,6 +83,9 @@ class DrivenPath:
         return piece_of(self._motion, arc.t0)[1] <= arc.t1
 
     def _arc_from(self, t: float) -> Arc:
+        if len(self._arcs) >= _MOST_ARCS:
+            what = f"the motion of {self._name!r} has taken {_MOST_ARCS:,} pieces of path"
+            raise RunError(f"t = {t:.6g} s: {what}, the last {self._next:.2g} s long; shorten the duration")
         motion, until = piece_of(self._motion, t)
         if until - t <= _INSTANT * (1.0 + t):
             motion, until = piece_of(self._motion, until)
@@ -175,7 +182,9 @@ class MovingObstacle(Obstacle):
     def __init__(self, surface: Surface, path: DrivenPath, radius: float, skin: float = SKIN) -> None:
         super().__init__(surface, radius, skin)
         self.path = path
-        self.box = -inf, -inf, inf, inf
+        left, bottom, right, top = path.box
+        margin = self.outline.reach + TOUCHING_GAP
+        self.box = left - margin, bottom - margin, right + margin, top + margin
         self._posed: tuple[float, Obstacle] | None = None
 
     def at(self, t: float) -> Obstacle:
@@ -187,8 +196,8 @@ class MovingObstacle(Obstacle):
     def first_touch_of(self, ball: Ball, arc: Arc) -> float | None:
         """The time in s at which a ball or body first touches it on an arc, or None."""
         outline = outline_of(ball)
-        for own in self.path.between(arc.t0, arc.t1):
-            start, end = max(own.t0, arc.t0), min(own.t1, arc.t1)
+        for own in self.path.between(arc.t0, arc.truncated_at):
+            start, end = max(own.t0, arc.t0), min(own.t1, arc.truncated_at)
             at = first_touch(OutlineOnArc(outline, arc), OutlineOnArc(self.path.outline, own), start, end, self.skin)
             if at is not None:
                 return at
@@ -299,5 +308,10 @@ def _sums(
 
 def _outline(shape: Segment | Circle, about: Vector) -> Polygon:
     """The outline of a shape as seen from a point."""
-    points = (shape.center,) if isinstance(shape, Circle) else (shape.a, shape.b)
-    return Polygon(tuple(dict.fromkeys((x - about[0], y - about[1]) for x, y in points)), shape.radius)
+    points = dict.fromkeys((x - about[0], y - about[1]) for x, y in _points(shape))
+    return Polygon(tuple(points), shape.radius)
+
+
+def _points(shape: Segment | Circle) -> Sequence[Vector]:
+    """The ends of its line in m, or its centre."""
+    return (shape.center,) if isinstance(shape, Circle) else (shape.a, shape.b)

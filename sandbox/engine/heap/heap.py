@@ -37,6 +37,7 @@ from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.setup_errors import failed
 from sandbox.engine.model.tolerances import STILL, TOUCHING_GAP
 from sandbox.engine.motion.body_point_contact import body_point_contact
+from sandbox.engine.motion.carried_ball import CarriedBall
 from sandbox.engine.motion.moving_ball import InHeap, MovingBall
 from sandbox.engine.paths.arc import Arc, resting_arc
 from sandbox.engine.paths.run import Numerics
@@ -167,8 +168,18 @@ class Heap:
                 or (not all_round(*balls) and self._come_back(t, (i, j), (a, b), met))
             ):
                 pressing.add(frozenset((i, j)))
+                self._refuse_carried(t, i, j, a)
+                self._refuse_carried(t, j, i, b)
         self._pressed |= dict.fromkeys(pressing, t)
         return bool(pressing) or self.has(states)
+
+    def _refuse_carried(self, t: float, index: int, other: int, state: State) -> None:
+        """Raise RunError if a ball that another presses on is carried by a surface: no heap is stepped on that."""
+        mover = self._movers[index]
+        on = mover.carried_by(t, state, self._settle) if isinstance(mover, CarriedBall) else ""
+        if on:
+            what = f"{self._movers[other].ball.name!r} presses on it, and it is on {on!r}, which moves"
+            raise failed(t, mover.ball.name, f"{what}: balls that press on one another cannot be carried")
 
     def _come_back(self, t: float, indices: Sequence[int], states: Sequence[State], met: ContactManifold) -> bool:
         """True if bodies that touch and part touch again at once, as they turn."""

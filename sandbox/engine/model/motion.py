@@ -6,10 +6,10 @@ and it is turned about that point by the angle ``place(t)[2]``.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import cos, inf, isfinite, pi, sin
+from math import cos, hypot, inf, isfinite, pi, sin
 from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 from sandbox.engine.model.shapes import Vector
@@ -74,12 +74,12 @@ class Sliding:
 
     def __post_init__(self) -> None:
         check("sliding", self, points=["about", "shift"], finite=["start", "angle"])
-        times = [start for start, _ in self._pieces]
+        times = [start for start, _ in self.pieces]
         if times != sorted(set(times)):
             raise ValueError(f"sliding: the pieces begin at {times} s: each must begin after the one before")
 
     @cached_property
-    def _pieces(self) -> list[tuple[float, Sliding]]:
+    def pieces(self) -> list[tuple[float, Sliding]]:
         """Each velocity by itself, with the time in s from which it holds."""
         try:
             if not _in_pieces(self.velocity):
@@ -100,17 +100,17 @@ class Sliding:
 
     def piece(self, t: float) -> tuple[Motion, float]:
         """The motion at time t, and until when it lasts, in s."""
-        return _piece(self._pieces, t)
+        return _piece(self.pieces, t)
 
     def place(self, t: float) -> Placing:
-        if len(self._pieces) > 1:
+        if len(self.pieces) > 1:
             return self.piece(t)[0].place(t)
         x, y = ([shift, *_integral(v)] for shift, v in zip(self.shift, self.velocity, strict=True))
         since = t - self.start
         return Placing(self.about[0] + _polynomial(x, since), self.about[1] + _polynomial(y, since), self.angle)
 
     def rates(self, t: float) -> Placing:
-        if len(self._pieces) > 1:
+        if len(self.pieces) > 1:
             return self.piece(t)[0].rates(t)
         x, y = (_polynomial(_coefficients(v), t - self.start) for v in self.velocity)
         return Placing(x, y, 0.0)
@@ -269,6 +269,38 @@ def stands_until(motion: Motion, t: float) -> float:
     known = isinstance(piece, Sliding | Turning | Swinging)
     still = known and not any(piece.rates(t)) and not (isinstance(piece, Sliding) and any(map(_varies, piece.velocity)))
     return until if still and not isinstance(piece, Swinging) else t
+
+
+#: The left, bottom, right and top edge of a box, in m.
+Box = tuple[float, float, float, float]
+
+_ANYWHERE = (-inf, -inf, inf, inf)
+
+
+def stays_within(motion: Motion, points: Sequence[Vector]) -> Box:
+    """The edges in m of a box that these points of what is moved never leave, at any time; infinite if not known."""
+    size = max(hypot(x - motion.about[0], y - motion.about[1]) for x, y in points)
+    match motion:
+        case InTurn():
+            return _around(stays_within(each, points) for _, each in motion.motions)
+        case Turning() | Swinging():
+            (x, y), (dx, dy) = motion.about, motion.shift if isinstance(motion, Swinging) else (0.0, 0.0)
+            dx, dy = abs(dx) + size, abs(dy) + size
+            return x - dx, y - dy, x + dx, y + dy
+        case Sliding():
+            pieces = motion.pieces
+            stays = not any(any(map(_varies, piece.velocity)) for _, piece in pieces)
+            if not stays or any(pieces[0][1].rates(0.0)) or any(pieces[-1][1].rates(0.0)):
+                return _ANYWHERE
+            places = [motion.place(start) for start, _ in pieces[1:]] or [motion.place(0.0)]
+            return _around((p.x - size, p.y - size, p.x + size, p.y + size) for p in places)
+    return _ANYWHERE
+
+
+def _around(boxes: Iterable[Box]) -> Box:
+    """The box around all of these."""
+    left, bottom, right, top = zip(*boxes, strict=True)
+    return min(left), min(bottom), max(right), max(top)
 
 
 def _piece(pieces: Sequence[tuple[float, Motion]], t: float) -> tuple[Motion, float]:

@@ -102,7 +102,7 @@ class CarriedBall(MovingBall):
         self.contact, self._frame = None, None
         slips, self._slips = self._slips, False
         near = self.near(t, *self.state[:2])
-        driven = [(self._leaving(each), each[0]) for each in near if isinstance(each[0], PosedObstacle)]
+        driven = [(self._leaving(each, self.state), each[0]) for each in near if isinstance(each[0], PosedObstacle)]
         moving = [each for each in driven if each[1].moves]
         self._beside = [each for _, each in driven] if not moving else ()
         if not moving:
@@ -123,11 +123,20 @@ class CarriedBall(MovingBall):
         if self.contact is not None:
             self._refuse_wedged(t, near, frame)
 
-    def _leaving(self, near: Near) -> float:
-        """The speed in m/s at which it leaves a surface."""
+    def carried_by(self, t: float, state: State, height: float) -> str:
+        """Return the name of a surface with a motion that it stays on in this state, as it would bounce no higher than
+        ``height`` (m); "" if there is none."""
+        for obstacle, touch in self.near(t, *state[:2]):
+            by = press(state, self.applied(t, state), touch.nx, touch.ny, touch.curvature)
+            if obstacle.surface.motion and self._leaving((obstacle, touch), state) <= takeoff_speed(by, height):
+                return obstacle.surface.name
+        return ""
+
+    def _leaving(self, near: Near, state: State) -> float:
+        """The speed in m/s at which it leaves a surface in this state."""
         obstacle, touch = near
-        point = self.state[0] - self.ball.radius * touch.nx, self.state[1] - self.ball.radius * touch.ny
-        _, _, vx, vy, *_ = relative(self.state, obstacle.velocity_at(point))
+        point = state[0] - self.ball.radius * touch.nx, state[1] - self.ball.radius * touch.ny
+        _, _, vx, vy, *_ = relative(state, obstacle.velocity_at(point))
         return vx * touch.nx + vy * touch.ny
 
     def _hop(self, t: float, near: Sequence[Near], frame: Frame, applied: Acceleration, height: float) -> None:
@@ -146,7 +155,7 @@ class CarriedBall(MovingBall):
                 0.0,
             )
             by = press(seen, inertial, touch.nx, touch.ny, touch.curvature)
-            short = takeoff_speed(by, max(height, HOP)) - self._leaving((obstacle, touch))
+            short = takeoff_speed(by, max(height, HOP)) - self._leaving((obstacle, touch), self.state)
             if by > PUSH and short >= 0.0:
                 self.state = (u, v, ux + short * touch.nx, uy + short * touch.ny, *spins)
 
@@ -164,7 +173,11 @@ class CarriedBall(MovingBall):
         ax, ay = frame.unseen(t, contact.forces(ball, applied, state)[0])
         for obstacle, touch in near:
             by = -(ax * touch.nx + ay * touch.ny)
-            if not obstacle.moves and by > PUSH and self._leaving((obstacle, touch)) <= takeoff_speed(by, 0.0):
+            if (
+                not obstacle.moves
+                and by > PUSH
+                and self._leaving((obstacle, touch), self.state) <= takeoff_speed(by, 0.0)
+            ):
                 other = obstacle.surface.name
         if other:
             what = f"{contact.obstacle.surface.name!r}, which moves, presses it on {other!r}"
