@@ -124,6 +124,12 @@ class Score:
         word = self.word.removesuffix("s") if score == 1.0 else self.word
         return self.number(score) if self.total_unit else f"{score:g} {word}"
 
+    def counted(self, worth: float | None) -> str:
+        """What a shot counts where a distance or rings do: ``off by 0.34 m/s``, ``counts 5 points``; else ""."""
+        if self.how == "nearest":
+            return "" if worth is None else f"off by {self.number(worth)}"
+        return f"counts {self.text(worth)}" if self.how == "points" else ""
+
     @property
     def said(self) -> str:
         """The score in words: ``"made"``, ``"sum of pins"``, ``"nearest: to_tee"``."""

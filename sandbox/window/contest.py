@@ -42,6 +42,7 @@ class Contest:
     shown = "all"  # of the path: as tasks have it
     said = ""  # what came of the last shot, in a sentence
     good = False  # whether that was a success
+    counts = ""  # what the last shot counts, where its sentence may not say so
     takes_marks = False  # whether the player marks where the ball will land, before he shoots
     mark: tuple[float, float] | None = None  # m
     landed: tuple[float, float] | None = None  # m, of the shot that is over
@@ -68,6 +69,11 @@ class Contest:
         easy = {controls.speed, controls.angle, *(spin.key for spin in controls.spins)}
         dragged = {key for handle in controls.handles for key in (handle.x, handle.y)}
         return any(key not in easy and re.sub(r"\[\d+\]", "[*]", key) not in dragged for key in self.limits or ())
+
+    @property
+    def in_hand(self) -> bool:
+        """True if the player may place the ball that he plays."""
+        return False
 
     @property
     def missing(self) -> str:
@@ -189,7 +195,7 @@ class AtTask(Contest):
         session, attempt = self.session, self.session.attempt
         shot = session.record(self._set, run)
         self.worths.append(shot.worth)
-        self.said, self.good = shot.said, shot.made
+        self.said, self.good, self.counts = shot.said, shot.made, self.task.score.counted(shot.worth)
         if self.players > 1:
             self.said = f"{PLAYERS[self.turn]}: {self.said}"
         if attempt.over and not self.over:
@@ -302,6 +308,10 @@ class AtMatch(Contest):
         spread = players_spread(scene).items()
         aimed = {key: known.within(float(self.random.normal(known.value, sd))) for key, (known, sd) in spread}
         return scene.changed(aimed, "aim")
+
+    @property
+    def in_hand(self) -> bool:
+        return bool(self.match.free)
 
     def would_score(self, run: SceneRun) -> bool:
         after = self.match.after(run.result)

@@ -20,7 +20,7 @@ from sandbox.window.opening import Opening
 from sandbox.window.path import LATE, LONG, AimedPath
 from sandbox.window.referee import Referee
 from sandbox.window.session import Session
-from sandbox.window.shots import Shot, Shots
+from sandbox.window.shots import SHOWN, Shot, Shots
 from sandbox.window.watching import Watching
 from sandbox.window.worker import warm_up
 from sandbox.workers import Processes
@@ -98,7 +98,7 @@ class Game:
             if playback is None and self.referee.contest.takes_marks:
                 return []  # they would tell
             place = self.session.place if playback is None else playback.shot.place
-            return [shot for shot in self.referee.shots if shot is not self.shot and shot.place == place]
+            return [shot for shot in self.referee.shots if shot is not self.shot and shot.place == place][-SHOWN:]
         if playback is not None:
             return shots.earlier(playback.shot.start, but=playback.shot)
         earlier = shots.earlier((self.session.base.folder, *self.session.changes.start))

@@ -21,7 +21,8 @@ CARD, FORCE = palette("card"), palette("force")
 
 #: The mouse takes hold of a handle from this distance, and sees those of a list from the second; px on 720 rows.
 NEAR, SEEN = 13.0, 70.0
-#: A handle on the ball that is played lies so far to its lower left: a pull begins on the ball. Px on 720 rows.
+#: A handle on the ball that is played lies so far to its lower left: a pull begins on the ball, unless it is in hand.
+#: Px on 720 rows.
 ASIDE = 26.0
 #: The wind's handle is this far from its foot, in px on 720 rows per m/s; and its foot from the upper right corner.
 WIND, FOOT = 4.0, (42.0, 13.0)
@@ -37,6 +38,7 @@ class ShownGrip(NamedTuple):
     at: Point  # px
     camera: Camera  # that shows its place
     unit: float  # px on 720 rows
+    in_hand: bool = False  # the ball itself is dragged, at the place of the handle
 
     def step(self, snap: bool) -> float:
         """The size of the steps in which it is dragged, in m or m/s."""
@@ -48,17 +50,19 @@ class ShownGrip(NamedTuple):
         return self.grip.place[0] + x - x0, self.grip.place[1] + y - y0
 
 
-def shown_grips(grips: Sequence[Grip], stage: Stage, sheet: Canvas) -> list[ShownGrip]:
-    """The places of the handles; that of the wind has a camera of its own."""
+def shown_grips(grips: Sequence[Grip], stage: Stage, sheet: Canvas, in_hand: bool = False) -> list[ShownGrip]:
+    """The places of the handles; that of the wind has a camera of its own. If the ball that is played is ``in_hand``, a
+    drag of it moves it."""
     ball, aside, unit = stage.ball_at(stage.shot), ASIDE * sheet.unit, sheet.unit
     foot = sheet.frame.right - FOOT[0] * unit, sheet.frame.top + FOOT[1] * unit
     found = []
     for grip in grips:
         camera = Camera((0.0, 0.0), foot, WIND * unit) if grip.is_wind else stage.camera
         x, y = camera.pixel(*grip.place)
-        if dist((x, y), ball) < NEAR * unit and not grip.is_wind:
+        on_ball = dist((x, y), ball) < NEAR * unit and not grip.is_wind
+        if on_ball and not in_hand:
             x, y = x - aside, y + aside
-        found.append(ShownGrip(grip, (x, y), camera, unit))
+        found.append(ShownGrip(grip, (x, y), camera, unit, on_ball and in_hand))
     return found
 
 
@@ -74,17 +78,19 @@ def draw_handles(
     """The handles, those in a list only near the mouse, if it is there; the one that is held, or that the mouse is on,
     with its numbers."""
     unit = sheet.unit
-    for grip, at, _, _ in found:
-        seen = mouse is not None and (not grip.in_list or dist(at, mouse) < SEEN * unit)
+    for grip, at, _, _, in_hand in found:
+        seen = in_hand or (mouse is not None and (not grip.in_list or dist(at, mouse) < SEEN * unit))
         if seen and (held is None or grip.keys != held.keys):
-            sheet.painter.ring(at, 6 * unit, 4 * unit, CARD["background"], 0.8)
-            sheet.painter.ring(at, 5 * unit, 2.2 * unit, CARD["text"])
-    for grip, at, camera, _ in found:
+            radius = NEAR if in_hand else 5.0
+            sheet.painter.ring(at, (radius + 1) * unit, 4 * unit, CARD["background"], 0.8)
+            sheet.painter.ring(at, radius * unit, 2.2 * unit, CARD["text"])
+    for grip, at, camera, _, in_hand in found:
         if held is not None and grip.keys == held.keys:
             if grip.is_wind and dist(camera.anchor, at) > 2:
                 sheet.painter.arrow(camera.anchor, at, 3.6 * unit, FORCE["wind"])
-            sheet.painter.ring(at, 9 * unit, 5 * unit, CARD["background"], 0.8)
-            sheet.painter.ring(at, 8 * unit, 2.2 * unit, CARD["accent"])
+            radius = NEAR if in_hand else 8.0
+            sheet.painter.ring(at, (radius + 1) * unit, 5 * unit, CARD["background"], 0.8)
+            sheet.painter.ring(at, radius * unit, 2.2 * unit, CARD["accent"])
             label(
                 sheet, layout, text, at, below=at[1] > camera.pixel(*grip.place)[1]
             )  # beside a ball, which stays in sight

@@ -32,12 +32,15 @@ CHOICES = {"again": ("Enter", "play again"), "next_preset": ("PgDn", "next: "), 
 def headline_of(referee: Referee, contest: Contest) -> tuple[str, list[str], Colour]:
     """The headline while a contest is aimed, or once its shot was counted; a line of notes; and the colour."""
     if referee.watching.playback is None:
-        how = "set the sliders and press Space" if contest.aimed_by_panel else "pull back anywhere and let go"
+        where = "elsewhere" if contest.in_hand else "anywhere"
+        how = "set the sliders and press Space" if contest.aimed_by_panel else f"pull back {where} and let go"
         notes = [contest.stand] if contest.takes_marks else [contest.stand, how]
         return contest.headline, notes, CARD["text"]
     if contest.over:
         return referee.said, ["the best shots, the best last"] if referee.again == "best" else [], CARD["text"]
-    return referee.said, ["Enter or click: the next shot", "R: see it again"], CARD["good" if contest.good else "text"]
+    notes = [contest.counts] if contest.counts else []
+    notes += ["Enter or click: the next shot", "R: see it again"]
+    return referee.said, notes, CARD["good" if contest.good else "text"]
 
 
 def star(sheet: Canvas, centre: tuple[float, float], radius: float, lit: bool) -> None:

@@ -41,7 +41,8 @@ class Targets:
         if game.watching.playback is not None or game.grasp.pull is not None or stage is None:
             return []
         found: list[Grip] = self._once("grips", game.session.scene, lambda: grips(game.session))
-        return hand.shown_grips(found, stage, self.screen.sheet)
+        contest = game.referee.contest
+        return hand.shown_grips(found, stage, self.screen.sheet, in_hand=contest is not None and contest.in_hand)
 
     def grip_at(self, at: tuple[int, int]) -> hand.ShownGrip | None:
         """The handle at a place in px."""

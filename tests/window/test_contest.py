@@ -24,7 +24,7 @@ from sandbox.window.front import START_HERE, TILE, TILE_FILE, Front, entries_of,
 from sandbox.window.panel import SLIDER_OF
 from sandbox.window.prediction import Prediction
 from sandbox.window.referee import AFTER, decided_at, deciding_ball
-from sandbox.window.shots import LONGEST_FRAME
+from sandbox.window.shots import LONGEST_FRAME, SHOWN
 
 from .conftest import Player
 from .test_see import said
@@ -225,6 +225,17 @@ class TestATask:
         thrower.key(pygame.K_PAGEDOWN)
         assert referee.contest.name == contest.following != contest.name
 
+    def test_where_a_distance_counts_it_is_said(self, thrower):
+        score = tasks.load("stop-dead").score
+        assert [score.counted(worth) for worth in (0.338, None)] == ["off by 0.34 m/s", ""]
+        score = tasks.load("hold-over").score
+        assert [score.counted(worth) for worth in (1.0, 5.0)] == ["counts 1 point", "counts 5 points"]
+        contest = AtTask(tasks.load("stop-dead"), seed=SEED)
+        thrower.game.referee.begin(contest)
+        thrower.settle()
+        shoot(thrower)
+        assert any(contest.counts and text.startswith(contest.counts) for text in said(thrower))
+
     def test_only_shots_that_count_are_among_the_best(self, thrower):
         contest = thrower.game.referee.contest
         contest.worths = [0.0, 1.0, None, 0.0, 1.0]
@@ -301,6 +312,8 @@ class TestATask:
         player.key(pygame.K_RETURN)
         player.settle()
         assert player.game.ghosts == player.game.referee.shots
+        player.game.referee.shots *= 9
+        assert len(player.game.ghosts) == SHOWN
         player.game.referee.begin(AtMatch(installed_folder("billiards"), "nine-ball", seed=1))
         shoot(player)
         player.key(pygame.K_RETURN)
@@ -339,8 +352,9 @@ class TestAMatch:
         player.game.referee.begin(AtMatch(installed_folder("billiards"), "eight-ball", seed=1))
         player.settle()
         game, session = player.game, player.game.session
-        assert any("ball in hand" in text for text in said(player))
+        assert any("ball in hand" in text and "pull back elsewhere" in text for text in said(player))
         (grip,) = player.view.targets.shown_grips
+        assert grip.at == pytest.approx(player.view.stages.latest.ball_at(game.shot), abs=1.0)  # no pull begins there
         x, y = (round(value) for value in grip.at)
         player.press((x, y))
         player.move((x + 400, y + 30))  # beyond the head string
