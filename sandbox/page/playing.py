@@ -31,6 +31,8 @@ from sandbox.units import convert
 
 #: The picture that shows until the page's script draws, and where none runs, is at most so large, in px.
 POSTER = (640, 640)
+#: A headline has at least so much of the width.
+LEAST_ROOM = 0.3
 #: The forces are sampled at so many even times, and at each impact.
 SAMPLES = 240
 #: The poses a second of surfaces that move.
@@ -72,6 +74,8 @@ def stage_data(view: View[Any]) -> dict[str, Any]:
     view.before(sheet.painter, camera, 0.0)
     view.measure(sheet, camera)
     right = sheet.wind(*view.wind, sheet.frame.right, sheet.frame.top).left if any(view.wind) else sheet.frame.right
+    tops = [camera.pixel(box.left, box.top) for box in view.aims]
+    beside = [x for x, y in tops if y < sheet.top_row and x > LEAST_ROOM * view.size[0]]  # such as a pinball table
     over = np.array(to_image(sheet.surface))[:tall]
     lens = _lens(view, tall, quick=True)
     if lens is not None:
@@ -80,7 +84,7 @@ def stage_data(view: View[Any]) -> dict[str, Any]:
         over[part] = place[part]  # what moves there is drawn by the page
     return {
         **_seen_by(view, tall),
-        "room": right - 2 * sheet.gap - sheet.frame.left,
+        "room": min([right, *beside]) - 2 * sheet.gap - sheet.frame.left,
         "notes": view.notes(camera),
         "place": picture(Image.fromarray(place), quick=True),
         "along": None,

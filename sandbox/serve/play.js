@@ -69,7 +69,10 @@ const value = (key) => (key in state.changes ? state.changes[key] : state.scene.
 /** Speed and angle, as they are aimed. */
 function aimed() {
   const { pull, by } = state.scene;
-  const text = (key) => `${typed(value(key))}${by.get(key).unit === "deg" ? "°" : ` ${by.get(key).unit}`}`;
+  const text = (key) => {
+    const { unit } = by.get(key), number = typed(value(key));
+    return unit === "deg" ? `${number}°` : unit ? `${number} ${unitOf(unit)}` : `${labelOf(key)} ${number}`;
+  };
   $("aimed").textContent = pull ? `${text(pull.speed)} at ${text(pull.angle)}` : "";
 }
 

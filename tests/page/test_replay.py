@@ -17,6 +17,7 @@ from selenium.webdriver.support.wait import WebDriverWait
 import sandbox
 from sandbox.cli import main
 from sandbox.page.parts import save
+from sandbox.page.playing import stage_data
 from sandbox.page.replay import LAYOUTS, command, page_of
 from sandbox.parameters import parse_assignment
 from sandbox.sport.amounts import amount, shown_in
@@ -111,6 +112,15 @@ def test_what_is_seen_from_near_by_is_played(browser, pages):
         assert set(fallen) == expected
         assert bool(expected) == (t > 0.0)
     assert browser.complaints() == []
+
+
+def test_a_headline_stays_beside_a_pinball_table():
+    view = run_of("pinball").scene.picture(run_of("pinball"), LAYOUTS[0][0])
+    stage, (table,) = stage_data(view), view.aims
+    left = view.camera.pixel(table.left, 0.0)[0]
+    assert 0.5 * left < view.sheet.frame.left + stage["room"] < left
+    long = run_of("golf").scene.picture(run_of("golf"), LAYOUTS[0][0])
+    assert stage_data(long)["room"] > 0.8 * LAYOUTS[0][0][0]
 
 
 def test_a_longer_run_that_is_compared_is_drawn_to_its_end(browser, pages):
