@@ -181,7 +181,7 @@ class Player {
     if (!whole && $("arrows").checked) this.vectors(t);
     for (const ball of balls) this.ball(ball, t);
     context.drawImage(view.over, 0, 0);
-    if (view.lens && (faint < 1 || !view.along)) this.lens(t, faint < 1 ? t : Infinity);
+    if (view.lens && (faint < 1 || !view.along)) this.lens(() => this.nearBy(t, faint < 1 ? t : Infinity));
     this.above();
     if (this.pointed) this.point();
     this.now();
@@ -196,27 +196,31 @@ class Player {
     return found;
   }
 
-  /** The part that is seen from near by at time t, with the paths until a time. */
-  lens(t, until) {
+  /** Draw on the part that is seen from near by, as its camera sees it. */
+  lens(draw) {
     const { context, data, view: { lens, unit } } = this, { corner: [left, top], size: [wide, high] } = lens;
     context.save();
     context.beginPath();
     context.rect(left, top, wide, high);
     context.clip();
     context.drawImage(lens.place, left, top, wide, high);
-    this.through(lens, () => {
-      for (const ball of data.balls) {
-        const [, , x, y] = ball.path.arcs[0], width = (ball === this.main ? 3.4 : 2.2) * unit;
-        const been = ball.near.filter(([, , at]) => at <= until), here = ball.path.state(Math.min(until, data.told));
-        if (ball !== this.main && been.length > 1) this.circle(...this.pixel(x[0], y[0]), ball.radius * lens.scale, ball.colour, 1.5 * unit);
-        this.trace([...been, [...this.spot(ball, ...here), 0]], 0, Infinity, width, ball.colour, 0.8);
-      }
-      for (const ghost of data.ghosts) this.trace(ghost.near, 0, Infinity, 2.4 * unit, ghost.colour, 0.8);
-      for (const ball of data.balls) this.ball(ball, t);
-    });
+    this.through(lens, draw);
     context.restore();
     Object.assign(context, { lineWidth: Math.max(1, unit), strokeStyle: data.quiet });
     context.strokeRect(left - 0.5, top - 0.5, wide + 1, high + 1);
+  }
+
+  /** What is there at time t, with the paths until a time. */
+  nearBy(t, until) {
+    const { data, view: { unit, scale } } = this;
+    for (const ball of data.balls) {
+      const [, , x, y] = ball.path.arcs[0], width = (ball === this.main ? 3.4 : 2.2) * unit;
+      const been = ball.near.filter(([, , at]) => at <= until), here = ball.path.state(Math.min(until, data.told));
+      if (ball !== this.main && been.length > 1) this.circle(...this.pixel(x[0], y[0]), ball.radius * scale, ball.colour, 1.5 * unit);
+      this.trace([...been, [...this.spot(ball, ...here), 0]], 0, Infinity, width, ball.colour, 0.8);
+    }
+    for (const ghost of data.ghosts) this.trace(ghost.near, 0, Infinity, 2.4 * unit, ghost.colour, 0.8);
+    for (const ball of data.balls) this.ball(ball, t);
   }
 
   circle(x, y, radius, colour, width) {

@@ -25,6 +25,12 @@ class Board extends Player {
     for (const ball of this.data.balls) this.ball(ball, 0);
     context.drawImage(this.view.over, 0, 0);
     const shots = state.room.players.filter(({ last }) => last && last.source === state.source);
+    if (this.view.lens) {
+      this.lens(() => {
+        for (const ball of this.data.balls) this.ball(ball, 0);
+        for (const each of shots) this.shot(each);
+      });
+    }
     const ends = shots.map((each) => [each, this.shot(each)]).filter(([, end]) => end).sort(([, a], [, b]) => b[1] - a[1]);
     this.taken = []; // by names
     for (const [{ name, number }, [x, y]] of ends) {
