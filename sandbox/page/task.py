@@ -6,10 +6,11 @@ from collections.abc import Mapping
 from html import escape
 from typing import Any
 
+from sandbox.files import from_here
 from sandbox.page.parts import filled, html
 from sandbox.page.replay import page_of
-from sandbox.tasks import Attempt, Session, Shot
-from sandbox.text import title_of
+from sandbox.tasks import Attempt, Session, Shot, Task, find_task, tasks
+from sandbox.text import command_line, title_of
 
 
 def session_page(session: Session) -> str:
@@ -24,8 +25,13 @@ def session_page(session: Session) -> str:
         stars=stars,
         attempts="\n".join(_attempt(session, attempt) for attempt in session.attempts if attempt.shots),
         seed=str(session.seed),
-        command=html(f"sandbox run {task.name} --seed {session.seed} --attempt 1"),
+        command=html(command_line(_source(task), {}, "run", "--seed", str(session.seed), "--attempt", "1")),
     )
+
+
+def _source(task: Task) -> str:
+    """The task as a command takes it: its name, or the file of one that is not installed."""
+    return task.name if task.name in tasks() and find_task(task.name) == task.file else from_here(task.file)
 
 
 def _attempt(session: Session, attempt: Attempt) -> str:

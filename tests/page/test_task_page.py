@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import shlex
+import shutil
+from html import unescape
 from pathlib import Path
 
 import pytest
 
+from sandbox.cli import main
 from sandbox.page.parts import save
 from sandbox.page.task import session_page
-from sandbox.tasks import Session, load
+from sandbox.tasks import Session, find_task, load
 
 
 @pytest.fixture(scope="module")
@@ -26,6 +30,16 @@ def test_a_game_says_its_score_and_each_shot(page: str):
     assert "sandbox run stop-dead --seed 3 --attempt 1" in page
     assert "launch.angle = -4 deg" in page
     assert "balls[0].y = 0.0" in page
+
+
+def test_the_command_of_a_task_of_your_own_names_its_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.chdir(tmp_path)
+    shutil.copy(find_task("stop-dead"), "my task.toml")
+    session = Session(load("my task.toml"), seed=3)
+    session.shoot({"launch.angle": 0.0})
+    words = shlex.split(unescape(session_page(session).rpartition("<code>")[2].partition("</code>")[0]))
+    assert words == ["sandbox", "run", "my task.toml", "--seed", "3", "--attempt", "1"]
+    assert main([*words[1:], "--json"]) == 0
 
 
 def test_a_shot_of_a_game_is_a_replay(page: str, browser, tmp_path: Path):
