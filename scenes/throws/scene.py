@@ -1,7 +1,7 @@
 """Throws from the side: the shot, how far it goes, and the angle that would have been best.
 
-Models: gravity; drag of a sphere; a release above the ground. The best angle in the air is searched; without air it
-has a closed form.
+Models: gravity; drag of a sphere; lift, if chosen; a release above the ground. The best angle in the air is searched;
+without air it has a closed form.
 Leaves out: everything sideways; that people throw faster at flatter angles, which is why they choose 37 to 38 deg and
 not the best angle for one speed (Lenz & Rappl 2010, arXiv:1007.3689); discus and javelin, which fly like wings.
 """
@@ -28,7 +28,6 @@ from sandbox.kit import (
     Flight,
     Gravity,
     Handle,
-    NoForce,
     Release,
     Run,
     SceneRun,
@@ -49,7 +48,6 @@ class Shot(Sphere):
     """The shot."""
 
     INERTIA = SOLID_SPHERE
-    lift: NoForce = group(NoForce(), "none")
 
 
 class Parameters(Flight):

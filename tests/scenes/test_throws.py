@@ -68,3 +68,10 @@ def test_a_throw_that_equals_the_mark_does_not_beat_it():
     distance = throw()["distance"]
     assert not throw(record=distance)["record_beaten"]
     assert throw(record=distance - 1e-6)["record_beaten"]
+
+
+@pytest.mark.parametrize("lift", [{"model": "constant", "coefficient": 0.1}, {"model": "spin-ratio"}])
+def test_backspin_carries_a_throw_farther_where_lift_is_chosen(lift: dict[str, Any]):
+    spins = [throw(ball__lift=lift, launch__spin=spin)["distance"] for spin in (-200.0, 0.0, 200.0)]
+    assert spins == sorted(set(spins))
+    assert spins[1] == pytest.approx(throw()["distance"])
