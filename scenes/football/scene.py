@@ -52,10 +52,12 @@ from sandbox.kit import (
     wind_in,
 )
 from sandbox.physics.spheroid import DragByAngle, Follows
-from sandbox.sport.readings import landing
+from sandbox.sport.readings import Passes, landing
 
 LONGEST, YARD = 15.0, 0.9144  # s, after which a run is ended; m
 
+#: No kick is higher than this, in m.
+HIGHEST = 1_000.0
 #: Bounces lower than this, in m, are lost in the grass; assumed.
 LOWEST_BOUNCE = 0.01
 
@@ -166,6 +168,12 @@ def over(run: Run, parameters: Parameters) -> float | None:
     return passed.y - parameters.goal.height
 
 
+def past_goal(parameters: Parameters) -> Passes:
+    """The condition at which it is known how high over the bar a kick is: it is past the goal, or has come down."""
+    distance = parameters.goal.distance
+    return Passes("ground", 1, (distance, -1.0), (distance, HIGHEST))
+
+
 def _nose(run: Run, parameters: Parameters) -> float | None:
     """Angle in deg of the long axis above the horizontal as the ball lands, from -90 to 90."""
     down = landing(run, parameters)
@@ -204,8 +212,8 @@ FACTS = (
     Fact("apex", "apex", "m", apex),
     Fact("bounce", "bounces", "m", _bounced, also="yd"),
     Fact("bounce_spread", "bounce spread", "m", _spread),
-    Fact("over", "over the bar", "m", over),
-    Fact("good", "", "", lambda run, it: (over(run, it) or -1.0) > 0.0 if it.goal.present else None),
+    Fact("over", "over the bar", "m", over, past_goal),
+    Fact("good", "", "", lambda run, it: (over(run, it) or -1.0) > 0.0 if it.goal.present else None, past_goal),
     Fact("landing_angle", "lands at", "deg", fact_from(landing, "descent"), final_when="ground"),
     Fact("nose", "nose at landing", "deg", _nose),
     *LAUNCH,

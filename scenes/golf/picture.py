@@ -55,6 +55,9 @@ TURF, HOLLOW, LEAST_CUP = 7, 16, 10
 #: Frames show at most this much of the world's length, in m.
 WIDEST_VIEW = 64.0
 
+#: A pin as near as this, in m, is in the picture of a putt however short it is.
+NEAR_PIN = 15.0
+
 
 def _stripe(at: np.ndarray) -> np.ndarray:
     """The line that players draw around half of it."""
@@ -84,6 +87,10 @@ class Picture(SideView[Parameters]):
     @property
     def preferred_view(self) -> Box:
         return Box(self.pin, 0.0, self.pin, 0.0)
+
+    @property
+    def must_be_visible(self) -> Box | None:
+        return self.preferred_view if self.pin <= NEAR_PIN else None
 
     @property
     def frame_width(self) -> float:

@@ -14,6 +14,8 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import Literal
 
+import numpy as np
+
 from sandbox.kit import (
     ENDED,
     Circle,
@@ -44,6 +46,7 @@ from sandbox.sport.sliding import Slide, Sliding, SlidingDisc, check_inside, col
 
 DECIDING = {"goal", "goalie", "defender", "receiver"}
 POST, DEPTH = 0.030, 1.0  # m: radius of a post (NHL rule 2.1), depth of the net
+LOOK = 0.01  # s between places of which the nearest to a receiver is found
 
 
 class PuckShot(Slide):
@@ -205,11 +208,23 @@ FACTS = (
 )
 
 
+def missed_by(run: SceneRun, parameters: Parameters) -> float | None:
+    """Return the distance in m at which the puck passes the nearest receiver, between their edges; None without one."""
+    names = [name for name, who in named(parameters.players) if who.role == "receiver"]
+    times = np.linspace(0.0, run.duration, 2 + round(run.duration / LOOK))
+    puck, touching = run.states("puck", times)[:, :2], parameters.puck.radius + parameters.player.radius
+    gaps = [np.hypot(*(run.states(name, times)[:, :2] - puck).T).min() - touching for name in names]
+    return max(0.0, float(min(gaps))) if gaps else None
+
+
 def verdict(run: SceneRun, parameters: Parameters) -> str:
     """Return the outcome in a sentence."""
     said, off = run.result["verdict"], ", off the boards" if run.result["boards"] else ""
     if said in ("goal", "received"):
         return f"{said.capitalize()} at {run.result['speed']:.1f} m/s{off}"
+    missed = missed_by(run, parameters) if said in ("wide", "short", "post") else None
+    if missed is not None:
+        return f"Misses the receiver by {roughly(missed)}{off}"
     ways = {"saved": "Saved by the goalie", "post": "Off the post", "wide": "Wide of the goal"}
     before = f"Stops {roughly(max(0.0, parameters.rink.line - end_of(run, 'puck')[0]))} before the goal line"
     return ways.get(said, before if said == "short" else f"Stopped by the {said}")

@@ -9,6 +9,7 @@ import pytest
 
 import sandbox
 from sandbox.engine.motion.forces_on_ball import Turned
+from sandbox.lab.runs import runs
 from sandbox.physics.spheroid import DragByAngle
 from tests.scenes.play import playing
 
@@ -72,3 +73,15 @@ def test_a_step_that_is_far_too_long_is_made_again():
     kick = {"launch.speed": 1e-9, "launch.angle": 0.0, "launch.height": 3.0, "launch.turns": "spiral"}
     changes = light | kick | {"air.wind": (89.3, 89.3), "ball.nose_drag": 0.19863759836037037}
     assert run_of(**changes).duration > 0.0
+
+
+def test_a_kick_is_decided_as_it_passes_the_goal():
+    """Then it ends, if no more is asked for; over the bar, under it, and short of it."""
+    scene = sandbox.load("football")
+    speeds = [30.0, 26.0, 12.0]
+    found = list(runs(scene, ["launch.speed"], [[speed] for speed in speeds], asked=("good", "over")))
+    whole = [sandbox.simulate(scene.changed({"launch.speed": speed}, "test")) for speed in speeds]
+    assert [run.result["good"] for run in found] == [run.result["good"] for run in whole]
+    assert [run.result["over"] for run in found[:2]] == pytest.approx([8.652971, 0.925349], abs=1e-5)
+    assert [run.result["over"] for run in whole] == [pytest.approx(run.result["over"], abs=1e-6) for run in found]
+    assert found[1].duration < 0.5 * whole[1].duration

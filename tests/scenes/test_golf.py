@@ -499,3 +499,9 @@ def test_later_strips_cover_earlier_ones_and_the_green_all():
     }
     assert list(kinds.values()) == ["fairway", "rough", "rough", "bunker", "bunker", "water", "water", "green", "green"]
     assert kind_at(course.ground, course.pin, 256.0) == "rough"
+
+
+def test_the_hole_is_in_the_picture_of_the_weakest_putt():
+    run = play("golf/putt", launch__speed=0.5)
+    camera = run.scene.picture(run, (1280, 720)).camera
+    assert camera.pixel(4.0, 0.0)[0] < 1280

@@ -99,3 +99,11 @@ def test_a_goalie_who_dives_saves_what_he_reaches_in_time():
     assert saved.result["touches"][0] == "goalie 1"
     assert saved.setup.surfaces[-1].at(0.3).shape.center == pytest.approx((26.2, 0.4 - 3.0 * 0.1))
     assert shoot("hockey/glove-save", **dives | {"dive.reaction": 0.45}).result["goal"]
+
+
+def test_a_pass_that_misses_says_by_how_much():
+    """Straight on, past a receiver who stands aside, between the edges of the discs."""
+    receiver = {"role": "receiver", "x": 0.0, "y": 4.0}
+    run = shoot(**ALONE | {"players": [receiver]}, launch__x=-10, launch__aside=0.0, launch__angle=0.0, launch__speed=6)
+    gap = 4.0 - run.scene.parameters.puck.radius - run.scene.parameters.player.radius
+    assert run.scene.verdict(run) == f"Misses the receiver by {gap:.1f} m"
