@@ -113,7 +113,8 @@ class Session:
             said = f"{score.number(self.total or 0.0)} of {len(played)} made"
         if not self.over:
             return f"{said} so far"
-        return f"{said}: passed" if self.passed else f"{said}: {score.number(self.task.passing)} needed to pass"
+        enough = score.number(self.task.passing) + " or less" * score.lower_is_better
+        return f"{said}: passed" if self.passed else f"{said}: {enough} needed to pass"
 
     @property
     def passed(self) -> bool:

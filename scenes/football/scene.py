@@ -32,6 +32,7 @@ from sandbox.kit import (
     Gravity,
     Group,
     Handle,
+    Passes,
     Run,
     SceneParameters,
     SceneRun,
@@ -52,7 +53,7 @@ from sandbox.kit import (
     wind_in,
 )
 from sandbox.physics.spheroid import DragByAngle, Follows
-from sandbox.sport.readings import Passes, landing
+from sandbox.sport.readings import landing
 
 LONGEST, YARD = 15.0, 0.9144  # s, after which a run is ended; m
 
