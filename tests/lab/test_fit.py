@@ -77,3 +77,15 @@ def test_what_is_no_track_is_an_error_of_one_line(tmp_path, text, wrong):
     with pytest.raises(RequestError, match=wrong) as error:
         sandbox.fit("basketball", file, {"launch.speed": (6, 9)})
     assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize("wide", [(-180.0, 180.0), None])
+def test_a_direction_is_searched_all_round(wide):
+    """The scene's own direction is 3.8 deg, a twentieth of its range and less."""
+    alone = sandbox.load("billiards/three-rail-carom", {"balls": [{"name": "white", "x": 0.7, "y": 0.0}]})
+    run = sandbox.simulate(alone.changed({"cue.speed": 4.3, "cue.angle": 161.0}))
+    t = np.linspace(0.0, 1.0, 40)
+    places = run.states("white", t)[:, :2] + np.random.default_rng(5).normal(0.0, 0.002, (40, 2))
+    found = sandbox.fit(alone, {"t": t, "x": places[:, 0], "y": places[:, 1]}, {"cue.speed": None, "cue.angle": wide})
+    assert found.values["cue.angle"].value == pytest.approx(161.0, abs=0.2)
+    assert found.values["cue.speed"].value == pytest.approx(4.3, abs=0.02)

@@ -18,6 +18,7 @@ from sandbox.lab.fit.frame import parse_free
 from sandbox.lab.fit.launches import Launches
 from sandbox.lab.fit.measured import Measured
 from sandbox.lab.fit.models import chosen_models, compare
+from sandbox.lab.fit.problem import Declared
 from sandbox.lab.fit.reading import Film, parse_scale
 from sandbox.lab.fit.squares import Fit, solve
 from sandbox.lab.fit.track import Track
@@ -116,7 +117,7 @@ def _span(scene: Scene, option: str, key: str, given: Any) -> Span:
             raise RequestError(f"{option} {key}: only numbers can be fitted; --models compares words")
         if known is None or known.low is None or known.high is None:
             raise RequestError(f"{option} {key}: has no bounds to search in; give a range, {key}=LO:HI")
-        return Span(key, known.low, known.high)
+        return Declared(key, known.low, known.high)
     low, high = given
     axis = as_axis(scene, key, (low, high), option)
     if not isinstance(axis, Span):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -18,8 +19,14 @@ STEP, LEAST_STEP, MOST_STEP = 1e-5, 1e-8, 1e-5
 #: A slope to one side so many times as steep as to the other is that of a cliff.
 STEEPER = 3.0
 
-#: Ranges so many times as wide as the scene's own value are searched near that value only.
-WIDE = 20.0
+#: Declared bounds so many times as wide as the scene's own value are searched near that value only, directions all
+#: round it (in deg); and what belongs to a film within this share of its range around where it most likely is.
+WIDE, ALL_ROUND, LIKELY = 20.0, 180.0, 0.2
+
+
+@dataclass(frozen=True)
+class Declared(Span):
+    """The declared bounds of a parameter, of which no range was given."""
 
 
 class Problem:
@@ -31,6 +38,7 @@ class Problem:
         self.keys = [*self.scene_keys, *(one.key for one in free)]
         self.units = [*(unit_of(scene, key) for key in self.scene_keys), *(one.unit for one in free)]
         ranges = [(span.low, span.high) for span in spans] + [(one.low, one.high) for one in free]
+        self.declared = np.array([isinstance(span, Declared) for span in spans] + [False] * len(free))
         self.low, high = np.array(ranges).T
         self.width = high - self.low
         starts = [float(value_at(scene.parameters, key)) for key in self.scene_keys]
@@ -79,9 +87,10 @@ class Problem:
 
     @cached_property
     def starts_within(self) -> tuple[np.ndarray, np.ndarray]:
-        """The shares between which starts are searched: all of a range, unless it is far wider than the own value."""
-        own = np.abs(self.values(self.own))
-        near = (own > 0.0) & (self.width > WIDE * own)
-        reach = 2.0 * own / self.width
-        low, high = np.where(near, self.own - reach, 0.0), np.where(near, self.own + reach, 1.0)
-        return np.clip(low, 0.0, 1.0), np.clip(high, 0.0, 1.0)
+        """The shares between which starts are searched: all of a range that was given."""
+        own, turns = np.abs(self.values(self.own)), np.array([unit == "deg" for unit in self.units])
+        near = self.declared & (own > 0.0) & (self.width > WIDE * own)
+        reach = np.where(near, 2.0 * own / self.width, 1.0)
+        reach = np.where(self.declared & turns, ALL_ROUND / self.width, reach)
+        reach[len(self.scene_keys) :] = LIKELY
+        return np.clip(self.own - reach, 0.0, 1.0), np.clip(self.own + reach, 0.0, 1.0)

@@ -12,8 +12,8 @@ from sandbox.lab.fit.descent import WORTH, Place, descend
 from sandbox.lab.fit.loss import HUBERS, SQUARES
 from sandbox.lab.fit.problem import Problem
 
-#: Starts that are tried, and those that are followed, at most; fewer are tried where one is more than so many runs in
-#: all, as for a long table of shots.
+#: Starts that are tried for each value beyond the first, and those that are followed, at most; fewer are tried where
+#: one is more than so many runs in all, as for a long table of shots.
 TRIED, FOLLOWED, MOST_RUNS = 24, 6, 1000
 
 #: The first window, and by how much it grows at least, as shares of the points; smaller where that leads nowhere.
@@ -100,9 +100,10 @@ def _starts(problem: Problem) -> tuple[list[np.ndarray], np.ndarray]:
     """The scene's own values and a Latin hypercube, the best by the first window first; and a scale for each residual,
     the same for those in one unit, so that others can be compared."""
     rng, (low, high) = np.random.default_rng(0), problem.starts_within
-    tried = min(TRIED, max(FOLLOWED, MOST_RUNS // problem.measured.runs))
+    tried = min(TRIED * max(len(problem) - 1, 1), max(FOLLOWED, MOST_RUNS // problem.measured.runs))
     columns = [rng.permutation(tried) for _ in range(len(problem))]
     cube = low + (np.column_stack(columns) + rng.random((tried, len(problem)))) / tried * (high - low)
+    cube[::2, len(problem.scene_keys) :] = problem.own[len(problem.scene_keys) :]  # of a film, where it most likely is
     starts = np.clip(np.vstack([problem.own, cube]), 1e-3 * high, 1.0 - 1e-3 * (1.0 - low))
     until = window(problem, WINDOW)
     found = problem.residuals(starts, until)
