@@ -15,6 +15,9 @@ KEY, WORD, CHANGES = 80, 60, 200
 #: Messages per second of one browser, and how many may come at once. What comes faster is not read, and the player is
 #: told; after FLOOD such messages the connection is closed.
 RATE, BURST, FLOOD = 40.0, 120, 1000
+#: Pings per second of one connection, ten times as many at once, and parts of one message: browsers send none, and a
+#: message in one part. A connection with more is ended.
+PINGS, PARTS = 1.0, 100
 #: Messages per second that a browser is told of what was refused.
 TOLD = 2.0
 #: A run may take so long, in s; it is then ended, and the player is told.

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import uvicorn
-from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from sandbox.errors import RequestError
 from sandbox.files import reason
@@ -17,7 +16,8 @@ from sandbox.scene.finding import first_comment, folder_of, listings, listings_o
 from sandbox.serve import calls
 from sandbox.serve.app import app_of
 from sandbox.serve.lanes import Lanes
-from sandbox.serve.limits import CONNECTIONS, HELLO, MESSAGE, PLAYERS
+from sandbox.serve.limits import CONNECTIONS, MESSAGE, PLAYERS
+from sandbox.serve.protocols import Asking, Talking
 from sandbox.serve.room import Listed, Room
 from sandbox.serve.tokens import tokens
 
@@ -100,7 +100,7 @@ async def _serve(
         room = Room(scenes, lanes, options.units)
         config = uvicorn.Config(
             app_of(room, own, hosts), log_config=None, log_level="error", access_log=False, lifespan="off",
-            http=_Asking, ws="websockets-sansio",
+            http=Asking, ws=Talking,
             ws_max_size=MESSAGE, ws_max_queue=8, ws_per_message_deflate=False, limit_concurrency=CONNECTIONS,
             timeout_graceful_shutdown=GRACE, h11_max_incomplete_event_size=MESSAGE, server_header=False,
             proxy_headers=False,
@@ -112,19 +112,6 @@ async def _serve(
         raise KeyboardInterrupt  # only a signal ends it, whether or not this process was started to ignore that
     finally:
         lanes.close()
-
-
-class _Asking(H11Protocol):
-    """A connection over which no whole request has come after HELLO s is closed: a few hundred silent ones would
-    otherwise keep everybody out."""
-
-    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
-        super().connection_made(transport)
-        self.loop.call_later(HELLO, self._close_if_silent)
-
-    def _close_if_silent(self) -> None:
-        if self.scope is None and not self.transport.is_closing():
-            self.transport.close()
 
 
 async def _checked(lanes: Lanes, scenes: dict[str, Listed]) -> None:

@@ -8,7 +8,8 @@ import re
 import socket
 import urllib.error
 import urllib.request
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from typing import Any
 from urllib.parse import urlsplit
 
@@ -19,6 +20,7 @@ from websockets.sync.client import connect
 
 from sandbox.serve import app, connection, limits, messages, room
 from sandbox.serve.connection import Connection
+from sandbox.serve.protocols import Talking
 from sandbox.serve.tokens import Tokens
 from tests.serve.conftest import PATIENCE, Client, Served, memory
 
@@ -170,24 +172,61 @@ def test_a_message_that_is_too_long_ends_the_connection(player):
     plays_on(other)
 
 
+@contextmanager
+def opened(served: Served, request: bytes) -> Iterator[socket.socket]:
+    """A connection after its handshake: what comes before that is not read."""
+    with socket.create_connection(("127.0.0.1", served.port), PATIENCE) as line:
+        line.sendall(request)
+        answer = b""
+        while b"\r\n\r\n" not in answer:
+            answer += line.recv(1)
+        assert b" 101 " in answer
+        yield line
+
+
+def sent(line: socket.socket, data: bytes) -> int:
+    """How much of the data is taken: none of it once the connection is closed."""
+    try:
+        line.sendall(data)
+    except OSError:
+        return 0
+    return len(data)
+
+
+@pytest.mark.parametrize("frame", [b"\x89\xfd\0\0\0\0" + b"x" * 125, b"\x00\x80\0\0\0\0"], ids=["pings", "parts"])
+def test_frames_that_are_no_messages_cost_no_memory(served: Served, player, frame: bytes):
+    """Pings whose answers are not read, and a message of empty parts that never ends: 60 MB of them."""
+    place, other = urlsplit(served.url), player()
+    before = memory(served.pid)
+    with opened(served, handshake(place.netloc, place.path)) as line:
+        line.sendall(b"\x01\x80\0\0\0\0" if frame[0] == 0 else frame)
+        assert sum(sent(line, frame * (60_000 // len(frame))) for _ in range(1000)) < 30e6  # it is closed before
+    assert memory(served.pid) - before < 5e6
+    plays_on(other)
+
+
 def test_frames_that_break_the_protocol_end_the_connection(served: Served, player):
     """No mask, reserved bits, a length that never comes, half a request, no request at all."""
     place, other = urlsplit(served.url), player()
     request = handshake(place.netloc, place.path)
-    for attack in (
-        request + b"\x81\x05hello",
-        request + b"\xff\x80\x00\x00\x00\x00",
-        b"\x00" * 5000,
-        b"GET / HTTP/1.1\r\nX: " + b"x" * 40_000,
-    ):
+    for attack in (b"\x00" * 5000, b"GET / HTTP/1.1\r\nX: " + b"x" * 40_000):
         with socket.create_connection(("127.0.0.1", served.port), 10) as line:
             line.sendall(attack)
             line.shutdown(socket.SHUT_WR)
             while line.recv(4096):  # until it is closed
                 pass
-    with socket.create_connection(("127.0.0.1", served.port)) as line:
-        line.sendall(request + b"\x81\xff\x7f\xff\xff\xff\xff\xff\xff\xff\x00\x00\x00\x00")  # 8 EiB are announced
-        plays_on(other)
+    for frames, code in (
+        (b"\x81\x05hello", 1002),  # without a mask
+        (b"\xff\x80\0\0\0\0", 1002),
+        (b"\x83\x80\0\0\0\0", 1002),
+        (b"\x81\x82\0\0\0\0\xff\xff", 1007),  # no text
+        (b"\x81\xff\x7f\xff\xff\xff\xff\xff\xff\xff\0\0\0\0", 1009),  # 8 EiB are announced
+    ):
+        with opened(served, request) as line:
+            line.sendall(frames)
+            said = line.recv(4096)
+            assert (said[0], int.from_bytes(said[2:4], "big")) == (0x88, code)
+    plays_on(other)
 
 
 def test_a_flood_is_bounded(served: Served, player):
@@ -252,7 +291,7 @@ def test_a_client_that_never_reads_is_disconnected(monkeypatch: pytest.MonkeyPat
             listener.listen()
             host = f"127.0.0.1:{listener.getsockname()[1]}"
             made = app.app_of(Talkative(), Tokens("players", "teacher"), [host])  # type: ignore[arg-type]
-            server = uvicorn.Server(uvicorn.Config(made, log_config=None, lifespan="off", ws="websockets-sansio"))
+            server = uvicorn.Server(uvicorn.Config(made, log_config=None, lifespan="off", ws=Talking))
             serving = asyncio.create_task(server.serve(sockets=[listener]))
             reader, writer = await asyncio.open_connection(*host.split(":"), limit=1024)
             writer.write(handshake(host, "/players/"))
