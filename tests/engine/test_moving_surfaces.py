@@ -6,8 +6,9 @@ from __future__ import annotations
 import pickle
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from math import asin, cos, inf, pi, sin, sqrt
+from math import asin, cos, inf, nan, pi, sin, sqrt
 from random import Random
+from typing import Any
 
 import numpy as np
 import pytest
@@ -313,6 +314,28 @@ def test_a_velocity_that_is_not_the_derivative_is_refused():
     wrong = Given(lambda t: Placing(0.0, t), lambda t: Placing(0.0, 2.0))
     with pytest.raises(RunError, match="'lift' is not smooth, or its velocity is not the derivative of its place"):
         run_with(wrong)
+
+
+@pytest.mark.parametrize("wrong", [None, 0.0, "ab", (0.0, 0.0, 0.0, 0.0), (0j, 0.0)])
+def test_a_place_that_is_none_is_refused_with_its_time(wrong: Any):
+    with pytest.raises(RunError, match="t = 0 s: the place of 'lift' must be a Placing of finite numbers"):
+        run_with(Given(lambda t: wrong, lambda t: (0.0, 0.0)))
+
+
+@pytest.mark.parametrize(
+    ("make", "said"),
+    [
+        (lambda: Given(3, 4), "given motion: position = 3 must be a function of time"),
+        (lambda: InTurn([(0.0, 3)]), r"motions in turn: \(0.0, 3\) must be a finite time in s and a motion"),
+        (lambda: InTurn([(nan, Sliding())]), r"motions in turn: \(nan, .*\) must be a finite time in s and a motion"),
+        (lambda: Moving(PLATE, Sliding()), r"Moving\(Segment.*\): must be a Surface and a motion"),
+        (lambda: Moving(Surface("lift", PLATE, 0.5, 0.5), None), r"Moving\(.*, None\): must be a Surface and a motion"),
+        (lambda: Moving(Surface("lift", PLATE, 0.5, 0.5), Turning), "motion = .* must have about, place and rates"),
+    ],
+)
+def test_what_is_no_motion_is_refused_where_it_is_given(make: Callable[[], object], said: str):
+    with pytest.raises(ValueError, match=said):
+        make()
 
 
 def test_a_motion_must_have_what_motions_have():

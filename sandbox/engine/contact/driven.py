@@ -11,6 +11,7 @@ from bisect import bisect_right
 from collections.abc import Iterator, Sequence
 from functools import cache
 from math import comb, cos, hypot, isfinite, sin
+from numbers import Real
 from typing import Any, NamedTuple
 
 from sandbox.engine.contact.touch import Obstacle
@@ -134,7 +135,7 @@ class DrivenPath:
         return self._checked(call_user_function(motion.rates, "a motion's rates are called as rates(t)", t), t, "rates")
 
     def _checked(self, found: Any, t: float, what: str) -> Placing:
-        if not isinstance(found, Placing) or not all(map(isfinite, found)):
+        if not isinstance(found, Placing) or not all(isinstance(each, Real) and isfinite(each) for each in found):
             raise RunError(
                 f"t = {t:.6g} s: the {what} of {self._name!r} must be a Placing of finite numbers, and is {found!r:.60}"
             )

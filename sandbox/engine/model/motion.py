@@ -10,8 +10,9 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import cos, hypot, inf, isfinite, pi, sin
-from typing import Any, NamedTuple, Protocol, runtime_checkable
+from typing import Any, NamedTuple, Protocol, cast, runtime_checkable
 
+from sandbox.engine.model.setup_errors import call_user_function
 from sandbox.engine.model.shapes import Vector
 from sandbox.physics.checks import check, short
 
@@ -198,11 +199,24 @@ class Given:
     velocity: Callable[[float], Sequence[float]]
     about: Vector = (0.0, 0.0)  # m
 
+    def __post_init__(self) -> None:
+        for name in ("position", "velocity"):
+            if not callable(getattr(self, name)):
+                raise ValueError(f"given motion: {name} = {short(getattr(self, name))} must be a function of time")
+
     def place(self, t: float) -> Placing:
-        return Placing(*self.position(t))
+        return _placing(call_user_function(self.position, "a motion's position is called as position(t)", t))
 
     def rates(self, t: float) -> Placing:
-        return Placing(*self.velocity(t))
+        return _placing(call_user_function(self.velocity, "a motion's velocity is called as velocity(t)", t))
+
+
+def _placing(found: Any) -> Placing:
+    """What a function has returned as a Placing, or as it is where that cannot be."""
+    try:
+        return Placing(*found)
+    except TypeError:
+        return cast(Placing, found)
 
 
 #: How far in m, or rad, two motions that follow each other may be apart when one takes over: rounding.
@@ -227,6 +241,9 @@ class InTurn:
         check("motions in turn", self, lists=["motions"])
         if not self.motions:
             raise ValueError("motions in turn: there are none")
+        for t, each in self.motions:
+            if not isinstance(each, Motion) or not isfinite(t):
+                raise ValueError(f"motions in turn: ({t}, {short(each)}) must be a finite time in s and a motion")
         for (before, motion), (t, after) in zip(self.motions[:-1], self.motions[1:], strict=True):
             if t <= before:
                 raise ValueError(f"motions in turn: that from {t:g} s must begin after that from {before:g} s")

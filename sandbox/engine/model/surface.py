@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from sandbox.engine.model.motion import Motion, moved
 from sandbox.engine.model.shapes import Vector
-from sandbox.physics.checks import check
+from sandbox.physics.checks import check, short
 
 
 def _check_shape(shape: Segment | Circle, *points: str) -> None:
@@ -106,7 +106,7 @@ class Surface:
         numbers = ("friction", "rolling_resistance", "lowest_bounce", "kick")
         check("surface", self, names=["name"])
         check(f"surface {self.name!r}", self, fractions=["restitution"], not_negative=numbers)
-        if self.motion is not None and not isinstance(self.motion, Motion):
+        if self.motion is not None and (isinstance(self.motion, type) or not isinstance(self.motion, Motion)):
             raise ValueError(f"surface {self.name!r}: motion = {self.motion!r:.80} must have about, place and rates")
 
     def at(self, t: float) -> Surface:
@@ -134,6 +134,8 @@ def Moving(surface: Surface, motion: Motion) -> Surface:  # noqa: N802, it reads
     >>> round(run.events[0].t, 6), round(run.state("ball", 0.1).vx, 6)  # s, m/s
     (0.045, 40.0)
     """
+    if not isinstance(surface, Surface) or motion is None:
+        raise ValueError(f"Moving({short(surface)}, {short(motion)}): must be a Surface and a motion")
     return replace(surface, motion=motion)
 
 
