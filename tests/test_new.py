@@ -140,6 +140,13 @@ def test_it_is_found_in_all_ways(call, scene: Path):
     assert "did you mean beachvolley/still?" in call("run", f"./{NAME}/stil").err
 
 
+def test_a_folder_that_is_renamed_says_which_file_to_rename(call, scene: Path):
+    scene.rename("copy")
+    outcome = call("run", "./copy")
+    assert outcome.code == 2
+    assert outcome.err == f"error: copy: its numbers belong in copy.toml; is {NAME}.toml that file?\n"
+
+
 def test_it_is_listed_where_it_stands(call, scene: Path):
     lines = call("list").out.splitlines()
     assert any(re.match(rf"\./{NAME} +A ball tossed", line) for line in lines)

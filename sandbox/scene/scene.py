@@ -334,6 +334,10 @@ def _parameters(
     except RequestError:
         for count, (file, _) in enumerate(files[:-1], 1):
             declared.validate(schema, first(count), from_here(file))
+        named, *_ = *sorted(found.folder.glob("*.toml")), None
+        if not files and named is not None:
+            expected = f"{found.folder.resolve().name}.toml"
+            raise RequestError(f"{where}: its numbers belong in {expected}; is {named.name} that file?") from None
         raise
 
 
