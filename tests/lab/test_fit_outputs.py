@@ -187,3 +187,16 @@ def test_measured_points_that_cannot_be_read_are_one_line(table: str, wrong: str
 def test_a_track_without_noise_shows_seven_digits():
     found = sandbox.fit("throws", track("throws", {}, 1.5, 0.0, 12), {"launch.speed": (10, 20)})
     assert report.value_rows(found) == [("launch.speed", "14.00000", "m/s", "14.00000 to 14.00000", "± 0 %")]
+
+
+def test_points_of_several_balls_have_the_colours_of_their_paths():
+    run = sandbox.simulate(sandbox.load("collisions"))
+    t = np.linspace(0.0, 0.6, 10)
+    places = np.vstack([run.states(ball, t)[:, :2] for ball in ("first", "second")])
+    noise = np.random.default_rng(0).normal(0.0, 0.002, (20, 2))
+    x, y = (places + noise).T
+    track = {"t": np.tile(t, 2), "x": x, "y": y, "ball": ["first"] * 10 + ["second"] * 10}
+    picture = np.asarray(sandbox.fit("collisions", track, {"launch.speed": (1, 3)}).plot().convert("RGB")).astype(int)
+    residuals = picture[len(picture) * 2 // 3 :]  # below the paths
+    for colour in ((213, 94, 0), (0, 114, 178)):  # of the first path and the second
+        assert (np.abs(residuals - colour).max(axis=2) < 4).sum() > 20

@@ -73,19 +73,29 @@ def _path(axes: Any, found: Fit, points: Points, colours: dict[str, Any]) -> Non
         margin = max(margin, _ROOM * max(ball.radius for ball in run.setup.balls))
         _surfaces(axes, run, card)
     outlying = np.isin(_rows(found, len(points.positions)), found.outliers)
+    dots = _dots(points, colours)
     for ball, colour in zip(dict.fromkeys(points.balls), traces * 4, strict=False):
-        own = np.array([name == ball for name in points.balls])
+        own = np.array([name == ball for name in points.balls]) & ~outlying
         if run is not None:
             times = np.linspace(0.0, run.duration, _SAMPLES)
-            axes.plot(*run.states(ball, times)[:, :2].T, color=colour, linewidth=1.4, zorder=2, label=ball)
-        axes.scatter(*points.positions[own & ~outlying].T, s=16, color=card["ink"], zorder=3, label="_")
+            axes.plot(*run.states(ball, times)[:, :2].T, color=colour, linewidth=1.4, zorder=2)
+        axes.scatter(*points.positions[own].T, s=16, color=dots[own], zorder=3, label=ball)
     axes.scatter(*points.positions[outlying].T, s=34, color=card["bad"], marker="x", linewidth=1.4, zorder=4)
     axes.set(xlabel="x (m)", ylabel="y (m)")
     axes.set_xlim(low[0] - margin, high[0] + margin)
     axes.set_ylim(low[1] - margin, high[1] + margin)
     axes.set_aspect("equal", adjustable="box")
     if len(set(points.balls)) > 1:
-        axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0))
+        axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), markerscale=1.5)
+
+
+def _dots(points: Points, colours: dict[str, Any]) -> np.ndarray:
+    """The colour of each point: that of its ball's path, where there are several balls."""
+    names = list(dict.fromkeys(points.balls))
+    if len(names) == 1:
+        return np.array([colours["card"]["ink"]] * len(points.balls))
+    traces = colours["trace"]["colours"]
+    return np.array([traces[names.index(ball) % len(traces)] for ball in points.balls])
 
 
 def _last(found: Fit, points: Points) -> float:
@@ -123,7 +133,8 @@ def _residuals(axes: Any, found: Fit, points: Points | None, place: int, colours
     reach = 1.15 * max(float(np.abs(left[~outlying]).max(initial=0.0)), 2.2 * sd, 1e-12)
     axes.axhspan(-2.0 * sd, 2.0 * sd, color=card["quiet"], alpha=0.22, linewidth=0.0)
     axes.axhline(0.0, color=card["quiet"], linewidth=1.0)
-    axes.scatter(at[~outlying], left[~outlying], s=13, color=card["ink"], zorder=3)
+    dots = np.array([card["ink"]] * len(left)) if points is None else _dots(points, colours)
+    axes.scatter(at[~outlying], left[~outlying], s=13, color=dots[~outlying], zorder=3)
     axes.scatter(at[outlying], np.clip(left[outlying], -0.93 * reach, 0.93 * reach), s=30, color=card["bad"],
                  marker="x", linewidth=1.4, zorder=4)  # fmt: skip
     axes.set_ylim(-reach, reach)
