@@ -13,6 +13,7 @@ import pygame
 from sandbox.picture.ball import Flat
 from sandbox.picture.camera import Area, Camera
 from sandbox.picture.chase import Chase
+from sandbox.picture.moving import NOT_WORTH_NOTING
 from sandbox.picture.painter import Painter, Point
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.places.plan import BREADTH, Person, Plan, draw_moving, drawn, dusk, enlarged
@@ -98,7 +99,7 @@ class AboveView(View[P]):
 
     def remarks(self, camera: Camera) -> list[str]:
         factor = enlarged(camera, self.unit)
-        return [f"players drawn {times(factor)} their size"] if self.people and factor > 1 else []
+        return [f"players drawn {times(factor)} their size"] if self.people and factor > NOT_WORTH_NOTING else []
 
     def dimensions(self, sheet: Sheet, camera: Camera) -> None:
         """None; but no label goes to the headline or on the card, nor on a ball or a person."""
