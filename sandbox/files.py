@@ -114,14 +114,16 @@ def json_ready(value: Any, digits: int | None = None) -> Any:
     and infinities become null."""
     if isinstance(value, float):
         return None if not isfinite(value) else float(value if digits is None else round(value, digits))
-    if is_dataclass(value):
-        value = {field.name: getattr(value, field.name) for field in fields(value)}
-    if isinstance(value, Mapping):
-        return {str(key): json_ready(item, digits) for key, item in value.items()}
+    if value is None or isinstance(value, str | int):
+        return value
     if isinstance(value, list | tuple):
         if digits is not None and all(type(item) is float for item in value) and isfinite(sum(value)):
             return [round(item, digits) for item in value]  # most of a run: coefficients
         return [json_ready(item, digits) for item in value]
+    if is_dataclass(value):
+        value = {field.name: getattr(value, field.name) for field in fields(value)}
+    if isinstance(value, Mapping):
+        return {str(key): json_ready(item, digits) for key, item in value.items()}
     return json_ready(value.tolist(), digits) if hasattr(value, "tolist") else value  # numpy's numbers and arrays
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
+from functools import cached_property
 from math import ceil, floor, hypot
 from typing import NamedTuple
 
@@ -79,12 +80,22 @@ class Sheet:
         self.ink, self.quiet_ink = (CARD["text"], CARD["quiet"]) if on_dark else (CARD["ink"], CARD["ink_quiet"])
         self.wind_ink = palette("force")["wind"] if on_dark else CARD["wind"]
         self.gap = max(3, round(6 * self.unit))
-        self.surface = blank(size) if surface is None else surface
-        self.painter = Painter(self.surface)
+        if surface is not None:
+            self.surface = surface
         self.lettering = Lettering(self.rows)
         self.frame = pygame.Rect(0, 0, width, height).inflate(-2 * ceil(MARGIN * width), -2 * ceil(MARGIN * height))
         self.labels = Labels(self.frame, self.gap)
         self.written: list[tuple[str, pygame.Rect]] = []
+
+    @cached_property
+    def surface(self) -> pygame.Surface:
+        """What is drawn on; new memory is slow, and who only measures needs none."""
+        return blank(self.size)
+
+    @cached_property
+    def painter(self) -> Painter:
+        """The painter on it."""
+        return Painter(self.surface)
 
     def write(
         self, text: str, size: str, at: tuple[float, float], colour: Colour, anchor: str = "topleft", bold: bool = False

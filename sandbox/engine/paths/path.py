@@ -92,7 +92,9 @@ class Path:
 
     def highest(self, until: float = inf) -> Passage:
         """Time and state where it is highest, up to a time at which it is not."""
-        turns = [(self[0].t0, self[0].start[:5]), *self.passages(climb), *self.ends()]
+        top = max([self[0].y[0], *(arc.y[-1] for arc in self if arc.t1 <= until)])
+        near = Path([arc for arc in self if max(arc.y) >= top])  # by their coefficients the others are lower
+        turns = [(self[0].t0, self[0].start[:5]), *near.passages(climb), *near.ends()]
         return max((turn for turn in turns if turn[0] <= until), key=height)
 
     def passages(self, curve: Curve) -> Iterable[Passage]:
