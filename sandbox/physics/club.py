@@ -10,10 +10,10 @@ from typing import NamedTuple
 _STEPS = 500
 _STEP = 0.5 * pi / _STEPS  # rad
 
-#: For each step of a half: its fraction of the half's impulse, and the force at its end. The force is a quarter of a
-#: sine wave, rising and then falling.
-_CLOSING = [(cos(k * _STEP) - cos((k + 1) * _STEP), sin((k + 1) * _STEP)) for k in range(_STEPS)]
-_PARTING = [(sin((k + 1) * _STEP) - sin(k * _STEP), cos((k + 1) * _STEP)) for k in range(_STEPS)]
+#: For each step of a half, its fraction of the half's impulse. The force is a quarter of a sine wave, rising and then
+#: falling.
+_CLOSING = [cos(k * _STEP) - cos((k + 1) * _STEP) for k in range(_STEPS)]
+_PARTING = _CLOSING[::-1]
 
 
 class LaunchConditions(NamedTuple):
@@ -59,8 +59,8 @@ def strike(
     Across, a spring is compressed and returns e: ``P = (1 + e) V cos(L - A) / c_n``, with a force that is half a sine
     wave in time (c_x Q, less than 1 % of it, is ignored there). Along, a spring of ``stiffness`` k times the other's is
     stretched by u, beside a damper of ``2 damping (k / (c_n c_t))^(1/2)``, as long as both together need no more than
-    ``friction`` times the force across; otherwise the ball slides. At the end the ball has ``v_n = P / m`` across,
-    ``v_t = Q / m`` along the face, and backspin ``(5/2) v_t / r``.
+    ``friction`` times the force across; otherwise the ball slides, and the two share what friction gives. At the end
+    the ball has ``v_n = P / m`` across, ``v_t = Q / m`` along the face, and backspin ``(5/2) v_t / r``.
 
     The spring along the face may return energy: the ball then leaves with more spin than a rolling ball, 1.2 times for
     a 6-iron, which slides first; or it has swung on, and less spin is left, as for a driver, which soon grips. Without
@@ -93,7 +93,7 @@ def _impulse_along(head: Head, squeezed: float, slip: float, across: float, alon
     stretch = rubbed = 0.0  # m/s: stretch of the spring along, times the frequency of the one across; and N s
     for share, wave in ((1.0, _CLOSING), (head.restitution, _PARTING)):
         step = share * _STEP  # time, times the frequency of the spring across
-        for part, end in wave if step > 0.0 else ():  # which is 0 for the smallest restitution
+        for part in wave if step > 0.0 else ():  # which is 0 for the smallest restitution
             push = share * squeezed * part
             force = (stiffness * (stretch + 0.5 * step * slip) + damper * slip) / (1.0 + 0.5 * step * along * damper)
             most = head.friction * push / step
@@ -101,7 +101,7 @@ def _impulse_along(head: Head, squeezed: float, slip: float, across: float, alon
                 stretch += step * slip
             else:
                 force = most if force > 0.0 else -most
-                stretch = (head.friction if force > 0.0 else -head.friction) * squeezed * end / stiffness
+                stretch = (step * force + damper * stretch) / (step * stiffness + damper)
             rubbed += step * force
             slip -= along * step * force + mixed * push
     return rubbed

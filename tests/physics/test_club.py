@@ -6,14 +6,14 @@ from dataclasses import replace
 from math import atan2, cos, degrees, hypot, inf, pi, radians, sin
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from sandbox.physics.club import Head, LaunchConditions, strike
 
 BALL, RADIUS = 0.04593, 0.021335  # kg, m
 RPM, MPH = pi / 30.0, 0.44704
-DRIVER, IRON = Head(0.2065, 0.83, 0.4, 0.98, 0.45, 0.0423, 2.843e-4), Head(0.26, 0.78, 0.4, 0.78, 0.45)
+DRIVER, IRON = Head(0.2065, 0.83, 0.4, 0.98, 0.24, 0.0423, 2.843e-4), Head(0.26, 0.78, 0.4, 0.78, 0.24)
 
 
 def struck(head: Head, speed: float, loft: float, attack: float = 0.0, height: float = 0.0) -> LaunchConditions:
@@ -36,6 +36,7 @@ def struck(head: Head, speed: float, loft: float, attack: float = 0.0, height: f
         st.floats(1e-4, 1e-2),
     ),
 )
+@example(45.8, 1.7, 0.0, Head(0.058, 1.0, 1.8, 0.14, 0.1, 0.0, 2.4e-4))  # slides while its spring is damped
 def test_momentum_angular_momentum_and_energy(loft: float, attack: float, height: float, head: Head):
     """The head takes the opposite impulse, at the place that is hit, and turns; no energy comes from nowhere."""
     speed, lean = 50.0, radians(loft)
@@ -87,7 +88,7 @@ def test_a_smooth_face_slides_all_the_way(stiffness: float, friction: float, dam
 
 
 def test_no_friction_no_spin_and_a_launch_along_the_normal():
-    vx, vy, spin = struck(Head(0.25, 0.8, 0.0, 1.0, 0.45), 40.0, 30.0)
+    vx, vy, spin = struck(Head(0.25, 0.8, 0.0, 1.0, 0.24), 40.0, 30.0)
     assert spin == 0.0
     assert degrees(atan2(vy, vx)) == pytest.approx(30.0)
 
@@ -119,7 +120,7 @@ def test_gear_effect_and_loft_of_a_driver():
 def test_the_steps_are_fine_enough():
     """Against the spins with an eighth of the step."""
     spins = [struck(IRON, 41.0, loft).spin for loft in (5.0, 20.0, 40.0, 60.0)]
-    assert spins == pytest.approx([98.64060, 533.73723, 1117.51605, 1392.11935], rel=2e-3)
+    assert spins == pytest.approx([126.16232, 535.33166, 1128.91042, 1453.55844], rel=2e-3)
 
 
 def test_a_face_that_moves_away_is_refused():
@@ -128,4 +129,4 @@ def test_a_face_that_moves_away_is_refused():
 
 
 def test_a_head_that_cannot_turn_is_the_default():
-    assert Head(0.2, 0.83, 0.4, 1.0, 0.45).inertia == inf
+    assert Head(0.2, 0.83, 0.4, 1.0, 0.24).inertia == inf

@@ -20,7 +20,7 @@ from sandbox.physics.club import Head, LaunchConditions, strike
 
 MASS, RADIUS, MPH, RPM = 0.04593, 0.021335, 0.44704, pi / 30.0  # kg, m, m/s, rad/s
 FRICTION, INERTIA = 0.4, 2.843e-4  # of face and ball; kg m^2, of a driver
-CHOSEN = 0.78, 0.45
+CHOSEN = 0.78, 0.24
 
 #: How much softer than on a rigid face the impact with a driver is: its face stores, and returns, what the ball then
 #: does not lose, so that their restitution is 0.83 in place of 0.78.

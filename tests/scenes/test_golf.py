@@ -186,7 +186,7 @@ def test_a_shot_to_the_left_mirrors_one_to_the_right():
 
 @pytest.mark.parametrize("loft", [10.5, 34.0, 46.0])
 def test_a_club_gives_the_launch_of_its_law(loft: float):
-    head = Head(0.25, 0.8, 0.4, 0.98, 0.45, 0.0423, 2.843e-4)
+    head = Head(0.25, 0.8, 0.4, 0.98, 0.24, 0.0423, 2.843e-4)
     club = strike(head, 45.0, radians(loft), radians(-3.0), 0.0, 0.04593, RADIUS)
     speed, angle = hypot(club.vx, club.vy), degrees(atan2(club.vy, club.vx))
     struck = {"start": "club", "club__speed": 45.0, "club__mass": 0.25, "club__loft": loft}
