@@ -1,7 +1,8 @@
 """What the games of pool share: legal shots, fouls, the cue ball in hand, and spotting of balls.
 
 By the rules of play of the WPA. Leaves out: calling ball and pocket, so that luck counts; the push out; balls off the
-table and frozen balls; the choice after an illegal break, whose next player always breaks anew.
+table and frozen balls; the choice after an illegal break, whose next player always breaks anew; that with the cue ball
+in hand behind the head string the first ball met must lie beyond it.
 """
 
 from __future__ import annotations
