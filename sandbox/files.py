@@ -136,7 +136,16 @@ def json_text(value: Any) -> str:
 
 def state_folder() -> Path:
     """The folder in which the program keeps what it remembers from one time to the next; it need not be there yet."""
-    home = os.environ.get("XDG_STATE_HOME") or os.environ.get("LOCALAPPDATA") or Path.home() / ".local" / "state"
+    return _own_folder("XDG_STATE_HOME", "state")
+
+
+def data_folder() -> Path:
+    """The folder in which the program keeps what is the user's; it need not be there yet."""
+    return _own_folder("XDG_DATA_HOME", "share")
+
+
+def _own_folder(variable: str, usual: str) -> Path:
+    home = os.environ.get(variable) or os.environ.get("LOCALAPPDATA") or Path.home() / ".local" / usual
     return Path(home) / "sports-sandbox"
 
 

@@ -149,7 +149,7 @@ class LiveSimulation(Simulation):
 
     @property
     def ended(self) -> str:
-        """How it has ended: "until" or "duration"; "rest" while nothing moves, "" while something does."""
+        """The way it has ended: "until" or "duration"; "rest" while nothing moves, "" while something does."""
         return self._ended or ("until" if self._over else "" if self._goes_on else "rest")
 
     @property

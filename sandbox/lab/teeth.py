@@ -1,4 +1,4 @@
-"""Whether a published number could have shown that a model is wrong: its effect is switched off, or changed by a fifth.
+"""A test of the published numbers: could they have shown that a model is wrong? Its effect is left out, or changed.
 
 A row of ``validate`` names the effects that it is to show. Each is one of
 

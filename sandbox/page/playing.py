@@ -282,7 +282,7 @@ def _driven(view: View[Any], run: SceneRun) -> dict[str, Any]:
 
 
 def _fall(view: View[Any], name: str) -> dict[str, Any] | None:
-    """How a ball falls that begins standing: from when in s, where to, how it looks then; None for others."""
+    """Return the fall of a ball that begins standing: from when in s, where to, its look then; None for others."""
     fall = view.fall_of(name)
     return fall and fall._asdict() | {"shapes": [[corners, css(colour)] for corners, colour in fall.shapes]}
 

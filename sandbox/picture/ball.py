@@ -138,7 +138,7 @@ class Flat(Silhouette):
 
 
 class Fall(NamedTuple):
-    """How a ball that begins standing falls, such as a pin: then it is seen from the side."""
+    """The fall of a ball that begins standing, such as a pin: it is then seen from the side."""
 
     start: float  # s
     towards: float  # rad, where its head goes

@@ -187,7 +187,7 @@ class SceneOptions(Generic[P]):
         return self.LOOK
 
     def fall_of(self, name: str) -> Fall | None:
-        """How a ball that begins standing falls; None for one that does not."""
+        """Return the fall of a ball that begins standing; None for one that does not."""
         return None
 
     def colour_of(self, name: str) -> Colour:

@@ -89,7 +89,7 @@ class Sheet:
 
     @cached_property
     def surface(self) -> pygame.Surface:
-        """What is drawn on; new memory is slow, and who only measures needs none."""
+        """The surface that is drawn on. New memory is slow, and a sheet that only measures needs none."""
         return blank(self.size)
 
     @cached_property

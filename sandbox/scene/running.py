@@ -118,7 +118,7 @@ def simulate_at(
 @with_old_fields_named
 @dataclass(frozen=True)
 class Check:
-    """How accurate a result is, according to runs that should agree with it.
+    """The accuracy of a result, according to runs that should agree with it.
 
     >>> import sandbox
     >>> found = sandbox.check("golf")

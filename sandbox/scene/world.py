@@ -90,7 +90,7 @@ class World:
 
     @property
     def ended(self) -> str:
-        """How it has ended: "until" or "duration"; "rest" while nothing moves, "" while something does."""
+        """The way it has ended: "until" or "duration"; "rest" while nothing moves, "" while something does."""
         return self._simulation.ended
 
     @property

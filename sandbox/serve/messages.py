@@ -112,7 +112,7 @@ def read(text: str, teacher: bool = False) -> Any:
 
 
 def _wrong(failure: ValidationError) -> str:
-    """What is wrong with a message, in a line: where, and what must be there."""
+    """Return what is wrong with a message, in a line: where, and what must be there."""
     error = failure.errors(include_url=False, include_input=False)[0]
     if error["type"].startswith("union_tag"):
         return "what is to be done is not known"

@@ -1,4 +1,4 @@
-"""What is bounded before a message is a message: silent connections, pings, messages that never end."""
+"""Bounds on what comes before a whole message: silent connections, pings, messages that never end."""
 
 from __future__ import annotations
 

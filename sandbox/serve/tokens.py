@@ -36,7 +36,7 @@ def tokens(fresh: bool = False) -> Tokens:
 
 
 def _read(file: Path) -> Tokens | None:
-    """What was kept; None if it is too old, may have been read by others, or is not what was written."""
+    """Return what was kept; None if it is too old, may have been read by others, or is not what was written."""
     with suppress(OSError, ValueError, TypeError, AttributeError):
         state = file.stat()
         if state.st_mode & 0o077 == 0 and 0.0 <= time() - state.st_mtime < KEPT:

@@ -15,7 +15,7 @@ from sandbox.parameters import Group, quantity, switch
 
 
 class Dive(Group):
-    """How a keeper dives."""
+    """The dive of a keeper."""
 
     dives: bool = switch(..., "whether he goes where he sees the ball go; otherwise he does as he is told")
     reaction: float = quantity(..., "s", 0, 5, "from the shot until he moves")

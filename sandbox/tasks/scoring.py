@@ -125,7 +125,7 @@ class Score:
         return self.number(score) if self.total_unit else f"{score:g} {word}"
 
     def counted(self, worth: float | None) -> str:
-        """What a shot counts where a distance or rings do: ``off by 0.34 m/s``, ``counts 5 points``; else ""."""
+        """Return what a shot counts where a distance or rings do: ``off by 0.34 m/s``, ``counts 5 points``; else ""."""
         if self.how == "nearest":
             return "" if worth is None else f"off by {self.number(worth)}"
         return f"counts {self.text(worth)}" if self.how == "points" else ""

@@ -43,7 +43,7 @@ class Start:
 
     @property
     def range(self) -> str:
-        """What may be drawn, in words, such as ``between 2 and 2.3 m``."""
+        """Return what may be drawn, in words, such as ``between 2 and 2.3 m``."""
         if self.values:
             return f"one of {', '.join(map(repr, self.values))}"
         return f"between {self.low:g} and {self.high:g} {self.unit}".rstrip()

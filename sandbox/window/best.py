@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from datetime import date
@@ -12,7 +11,7 @@ from pathlib import Path
 from time import monotonic, sleep
 from typing import Any, NamedTuple
 
-from sandbox.files import atomic_write, lock, reason
+from sandbox.files import atomic_write, data_folder, lock, reason
 
 FORMAT, VERSION = "sandbox best list", 1
 #: So many scores are kept of each task.
@@ -23,8 +22,7 @@ PATIENCE = 3.0
 
 def usual_file() -> Path:
     """The file in the folder in which programs keep a user's data."""
-    home = os.environ.get("XDG_DATA_HOME") or os.environ.get("LOCALAPPDATA") or Path.home() / ".local" / "share"
-    return Path(home) / "sports-sandbox" / "best.json"
+    return data_folder() / "best.json"
 
 
 class Best(NamedTuple):

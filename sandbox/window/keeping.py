@@ -1,4 +1,4 @@
-"""What a player keeps: files of shots, tasks and scenes, pictures, and the clipboard."""
+"""Keeping and opening: files of shots, tasks and scenes, pictures, and the clipboard."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the games of pool share: legal shots, fouls, the cue ball in hand, and spotting of balls.
+"""The common part of the games of pool: legal shots, fouls, the cue ball in hand, and spotting of balls.
 
 By the rules of play of the WPA. Leaves out: calling ball and pocket, so that luck counts; the push out; balls off the
 table and frozen balls; the choice after an illegal break, whose next player always breaks anew; that with the cue ball

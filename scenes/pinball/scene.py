@@ -93,7 +93,7 @@ class Flippers(Group):
 
 
 class Kicks(Group):
-    """What kicks, by an impulse along its normal in each impact."""
+    """The bumpers and slings, which kick by an impulse along their normal in each impact."""
 
     restitution: float = quantity(..., "", 0, 1, "of ball and rubber")
     bumper: float = quantity(..., "N s", 0, 1, "of a bumper")
@@ -110,7 +110,7 @@ class Bumper(Group):
 
 
 class Points(Group):
-    """What a hit scores."""
+    """The points of a hit."""
 
     bumper: int = quantity(..., "", 0, 100000, "points for a bumper")
     sling: int = quantity(..., "", 0, 100000, "points for a sling")

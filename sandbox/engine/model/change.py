@@ -1,4 +1,4 @@
-"""What can be changed while a run goes on: forces, motion and places of balls, which balls there are, and the setup."""
+"""The changes of a run that goes on: of forces, of motion and places of balls, of the balls there are, of the setup."""
 
 from __future__ import annotations
 

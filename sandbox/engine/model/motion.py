@@ -212,7 +212,7 @@ class Given:
 
 
 def _placing(found: Any) -> Placing:
-    """What a function has returned as a Placing, or as it is where that cannot be."""
+    """Return what a function has returned as a Placing, or as it is where that cannot be."""
     try:
         return Placing(*found)
     except TypeError:

@@ -1,4 +1,4 @@
-"""How scatter in the parameters becomes scatter in the results: the same shot many times, as a player would hit it.
+"""Scatter in the parameters and what becomes of it in the results: the same shot many times, as a player would hit it.
 
 Each cause, a parameter with its standard deviation, is drawn independently of the others, at points of Sobol's
 sequence, which cover the distribution evenly. Sobol's indices (2001, Math. Comput. Simul. 55:271) say how much of
