@@ -1,4 +1,4 @@
-"""A test of the published numbers: could they have shown that a model is wrong? Its effect is left out, or changed.
+"""A test of each published number: could it have shown that a model is wrong? Its effect is left out, or changed.
 
 A row of ``validate`` names the effects that it is to show. Each is one of
 
