@@ -45,9 +45,7 @@ def played(task: Task, scene: Scene, rows: Sequence[Sequence[float]]) -> list[fl
 
 def better(task: Task, worths: Sequence[float | None]) -> list[int]:
     """The places of shots that are a success, the best first."""
-    known = [(worth, place) for place, worth in enumerate(worths) if worth is not None]
-    ordered = sorted(known, key=lambda each: each[0], reverse=not task.score.lower_is_better or task.shots > 1)
-    return [place for worth, place in ordered if task.is_made(worth)]
+    return [place for place in task.score.best_shots(worths) if task.is_made(worths[place])]
 
 
 def solved(task: Task, scene: Scene, random: np.random.Generator) -> tuple[list[float] | None, float, float]:

@@ -61,7 +61,7 @@ class Tried:
             "seed": self.seed,
             "start": dict(self.start),
             "controls": {key: _value(self.scene, key) for key in self.task.defaults},
-            "score": self.task.score.said,
+            "score": self.task.score.summary,
             "worth": worth,
             "made": self.task.is_made(worth),
         }
@@ -75,7 +75,7 @@ class Tried:
         score = self.task.score
         worth = score.of_shot(run.result)
         counts = "nothing" if worth is None else score.number(worth)
-        rows = [("goal", self.task.goal), ("counts", f"{counts} ({score.said})")]
+        rows = [("goal", self.task.goal), ("counts", f"{counts} ({score.summary})")]
         drawn = [("start", key) for key in self.start] + [("set", key) for key in self.task.defaults]
         for what, key in drawn:
             value = _value(self.scene, key)

@@ -191,11 +191,6 @@ class Course:
         scene, run = self.scene_of(parameters), simulate(self._build(parameters), self._accuracy)
         return SceneRun.of(run, scene, self._read(run, parameters))
 
-    def reward(self, worth: float | None, over: bool, made: bool) -> float:
-        """The reward of a shot of this worth; where the fewest count, a last one that is missed costs one more."""
-        extra = -1.0 if self.task.score.how == "fewest" and over and not made else 0.0
-        return float(self.task.score.reward(worth) + extra)
-
 
 def _numbers(values: Sequence[Any]) -> list[float]:
     return [float(value) if _is_number(value) else float(place) for place, value in enumerate(values)]

@@ -89,14 +89,14 @@ class TaskEnv(gymnasium.Env["NDArray[np.float32]", "NDArray[np.float32]"]):
             run = course.shot(self._scene, self._drawn, aimed)
         except (RunError, RequestError) as error:
             info = {"error": str(error), "is_success": False, "controls": aimed}
-            return course.seen(self._drawn, self._scene), course.reward(None, True, False), True, False, info
+            return course.seen(self._drawn, self._scene), task.reward(None, over=True), True, False, info
         self._run = run
         worth = task.score.of_shot(run.result)
         over, made = task.is_over(run.result, self._shots), task.is_made(worth)
         if not over:
             self._scene = task.after(run)
         info = {**run.result, "is_success": made, "controls": aimed}
-        return course.seen(self._drawn, self._scene), course.reward(worth, over, made), over, False, info
+        return course.seen(self._drawn, self._scene), task.reward(worth, over), over, False, info
 
     def render(self) -> Any:
         """The frame of the last shot, at its end; before the first, of the start. Array of shape (height, width, 3)."""

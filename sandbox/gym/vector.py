@@ -119,7 +119,7 @@ class TaskVectorEnv(VectorEnv[Any, Any, Any]):
         over = np.array(
             [result is None or task.is_over(result, shots) for result, shots in zip(results, self._shots, strict=True)]
         )
-        rewards = np.array([self.course.reward(*each) for each in zip(worths, over, made, strict=True)])
+        rewards = np.array([task.reward(*each) for each in zip(worths, over, strict=True)])
         for place in np.flatnonzero(~over):
             run = found[place]
             assert isinstance(run, SceneRun)

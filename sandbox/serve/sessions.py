@@ -71,7 +71,7 @@ def _keep(key: tuple[str, str], session: Session) -> None:
 
 def said_of(task: Task) -> dict[str, Any]:
     """A task, in words for people."""
-    return {"goal": task.goal, "attempts": task.attempts, "score": task.score.said, "shown": task.shown}
+    return {"goal": task.goal, "attempts": task.attempts, "score": task.score.summary, "shown": task.shown}
 
 
 def standing(session: Session) -> dict[str, Any]:

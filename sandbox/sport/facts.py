@@ -58,6 +58,7 @@ class Fact:
     in_order: bool = True  # whether the order of a list matters where many runs are compared
     digits: int | None = None  # after the point, where its unit usually has others
     names: bool = False  # whether its words are names of balls, surfaces and traps
+    most: float | None = None  # that it can be, or count, in one shot: what a task may ask for depends on it
 
     def text(self, value: Any, error: float | None = None, also: bool = False) -> str:
         """The value as text; "" for what did not happen.

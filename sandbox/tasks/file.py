@@ -12,6 +12,7 @@ from sandbox import parameters as declared
 from sandbox.errors import RequestError
 from sandbox.files import from_here
 from sandbox.parameters import Group, choice, group, groups
+from sandbox.tasks.scoring import KINDS
 from sandbox.toml import read_toml
 
 #: Most attempts at a task, and most shots of one attempt.
@@ -48,10 +49,10 @@ class ScoreEntry(Group):
     """The score: how the shots of all attempts are counted."""
 
     fact: str = Field(description="a fact of the scene, or made: the one that says that the shot scored")
-    how: Literal["sum", "greatest", "nearest", "points", "fewest"] = choice("sum", "how the shots become a score")
-    target: Any = Field(0.0, description="nearest, points: the value of the fact that is aimed at, in its unit")
-    rings: list[tuple[Any, float]] = Field(
-        default_factory=list, description="points: pairs of a distance from the target and what it is worth"
+    how: str = Field("sum", description=f"how the shots become a score: {', '.join(KINDS)}")
+    target: Any = Field(None, description="nearest, points: the value of the fact that is aimed at, in its unit")
+    rings: list[tuple[Any, float]] | None = Field(
+        None, description="points: pairs of a distance from the target and what it is worth"
     )
     wanted: dict[str, Any] = Field(default_factory=dict, description="facts without which a shot counts nothing")
 

@@ -70,4 +70,4 @@ def listed() -> Iterator[TaskListing]:
 
     for name in tasks():
         task = load(name)
-        yield TaskListing(name, task.scene.title, task.goal, task.attempts, task.score.said)
+        yield TaskListing(name, task.scene.title, task.goal, task.attempts, task.score.summary)

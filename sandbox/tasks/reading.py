@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
+from dataclasses import fields
 from math import inf, isfinite
 from pathlib import Path
 from typing import Any
@@ -15,13 +15,10 @@ from sandbox.errors import RequestError
 from sandbox.files import from_here
 from sandbox.tasks.file import ScoreEntry, TaskFile, read_task_file
 from sandbox.tasks.finding import find_task
-from sandbox.tasks.scoring import Score, Wanted
+from sandbox.tasks.scoring import KINDS, Score, Wanted
 from sandbox.tasks.task import Control, Start, Task
 from sandbox.text import counted, nearest, no_such_result
 from sandbox.toml import shown
-
-#: The distance from a target, over the one that passes, that counts for a shot that has none.
-FARTHEST = 10.0
 
 
 def load(source: str | Path) -> Task:
@@ -83,20 +80,13 @@ class _Reader:
         if [first, second, third] != sorted((first, second, third), reverse=score.lower_is_better):
             order = "falling: a smaller score is better" if score.lower_is_better else "rising"
             raise self.wrong(f"stars = {shown(file.stars)}: must be {order}")
-        most, wanted = self.most(score), {"pass": passing, "stars[2]": third}
-        for what, value in wanted.items():
-            if value > most:
-                raise self.wrong(f"{what} = {value:g}: {counted(file.attempts, 'attempt')} can reach {most:g} at most")
-        if score.how == "nearest":
-            score = replace(score, farthest=FARTHEST * passing)
+        best, end = score.best_total(file.attempts, file.shots), "least" if score.lower_is_better else "most"
+        for what, value in {"pass": passing, "stars[2]": third}.items():
+            if not score.reaches(best, value):
+                number, bound = (f"{each:g} {score.total_unit}".rstrip() for each in (value, best))
+                attempts = counted(file.attempts, "attempt")
+                raise self.wrong(f"{what} = {number}: {attempts} can reach {bound} at {end}")
         return score, (first, second, third), passing
-
-    def most(self, score: Score) -> float:
-        """The highest score that all attempts together can reach; inf where that is up to the shots."""
-        shots = self.file.attempts * self.file.shots
-        if score.how == "points":
-            return shots * max(points for _, points in score.rings)
-        return shots if score.how == "sum" and score.fact == self.scene.controls.scores else inf
 
     def wrong(self, message: str) -> RequestError:
         return RequestError(f"{self.where}: {message}")
@@ -184,16 +174,28 @@ class _Reader:
         return name
 
     def score(self, entry: ScoreEntry) -> Score:
+        kind = KINDS.get(entry.how)
+        if kind is None:
+            *others, last = (f'"{name}"' for name in KINDS)
+            raise self.wrong(f"score.how = {shown(entry.how)}: must be {', '.join(others)} or {last}")
         name = self.fact("score.fact", entry.fact)
-        unit = self.scene.facts[name].unit
-        target = self.number("score.target", entry.target, unit)
-        rings = sorted((self.number("score.rings", distance, unit), points) for distance, points in entry.rings)
-        if (entry.how == "points") != bool(rings):
-            need = "needs rings, such as [[0.1, 10], [0.5, 5]]" if entry.how == "points" else "has no rings"
-            raise self.wrong(f'score.how = "{entry.how}": {need}')
+        fact, takes = self.scene.facts[name], {each.name for each in fields(kind)}
+        given: dict[str, Any] = {}
+        if entry.target is not None:
+            given["target"] = self.number("score.target", entry.target, fact.unit)
+        if entry.rings is not None:
+            rings = sorted(
+                (self.number("score.rings", distance, fact.unit), points) for distance, points in entry.rings
+            )
+            given["rings"] = tuple(rings)
+        for key in given:
+            if key not in takes:
+                raise self.wrong(f'score.how = "{entry.how}": has no {key}')
+        if "rings" in takes and not given.get("rings"):
+            raise self.wrong(f'score.how = "{entry.how}": needs rings, such as [[0.1, 10], [0.5, 5]]')
+        most = fact.most if fact.most is not None else 1.0 if name == self.scene.controls.scores else inf
         wanted = tuple(self.wanted("score.wanted", entry.wanted))
-        word = {"points": "points", "fewest": "shots"}.get(entry.how, self.scene.facts[name].label or "made")
-        return Score(name, unit, entry.how, target, tuple(rings), wanted, word=word)
+        return kind(name, fact.unit, wanted=wanted, word=fact.label or "made", most=most, **given)
 
     def wanted(self, what: str, table: Mapping[str, Any]) -> Iterator[Wanted]:
         """The facts of a table, each with its value or range. Raises RequestError."""

@@ -108,9 +108,7 @@ class Session:
     def result(self) -> str:
         """The score in words, and at the end whether it passes: ``4 of 5 made: passed``."""
         score, played = self.task.score, [attempt.worth for attempt in self.attempts if attempt.over]
-        said = score.text(self.total)
-        if score.how == "sum" and score.word == "made" and self.task.shots == 1 and {0.0, 1.0}.issuperset(played):
-            said = f"{score.number(self.total or 0.0)} of {len(played)} made"
+        said = score.total_text(played, self.task.shots)
         if not self.over:
             return f"{said} so far"
         enough = score.number(self.task.passing) + " or less" * score.lower_is_better

@@ -149,15 +149,17 @@ class Task:
         """True if an attempt ends with a shot that has these facts, its ``shots``-th."""
         if shots >= self.shots or not all(wanted.met(result) for wanted in self.goes_on):
             return True
-        if self.score.how == "fewest" and self.score.of_shot(result):
+        if self.score.ends_attempt(self.score.of_shot(result)):
             return True
         return bool(self.ends) and all(wanted.met(result) for wanted in self.ends)
 
     def is_made(self, worth: float | None) -> bool:
-        """True if a shot of this worth is a success: as good as the mean of those that pass, or as the one."""
-        if worth is None or self.score.how in ("greatest", "nearest"):
-            return self.score.reaches(worth, self.passing)
-        return worth > 0.0 and (self.score.how == "fewest" or worth >= self.passing / self.attempts)
+        """True if a shot of this worth is a success."""
+        return self.score.is_made(worth, self.passing, self.attempts)
+
+    def reward(self, worth: float | None, over: bool) -> float:
+        """The reward of a shot of this worth, with which its attempt is ``over`` or not."""
+        return self.score.reward(worth, self.passing, over and not self.is_made(worth))
 
     def passed(self, total: float | None) -> bool:
         """True if a session with this score passes."""

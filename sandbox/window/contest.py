@@ -195,7 +195,7 @@ class AtTask(Contest):
         session, attempt = self.session, self.session.attempt
         shot = session.record(self._set, run)
         self.worths.append(shot.worth)
-        self.said, self.good, self.counts = shot.said, shot.made, self.task.score.counted(shot.worth)
+        self.said, self.good, self.counts = shot.said, shot.made, self.task.score.shot_text(shot.worth)
         if self.players > 1:
             self.said = f"{PLAYERS[self.turn]}: {self.said}"
         if attempt.over and not self.over:
@@ -245,10 +245,7 @@ class AtTask(Contest):
 
     @property
     def best_shots(self) -> Sequence[int]:
-        lower, all_count = self.task.score.how == "nearest", self.task.score.how in ("nearest", "greatest")
-        known = [(worth if lower else -worth, i) for i, worth in enumerate(self.worths)
-                 if worth is not None and (worth > 0.0 or all_count)]  # fmt: skip
-        return [i for _, i in sorted(known)[:3]]
+        return self.task.score.best_shots(self.worths)[:3]
 
     @property
     def following(self) -> str:

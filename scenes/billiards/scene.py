@@ -396,7 +396,7 @@ FACTS = (
     Fact("rails", "cushions, all balls", "", _cushion_contacts),
     Fact("driven", "", "", driven),
     Fact("potted", "", "", lambda run, parameters: list(removed_by(run)), in_order=False, names=True),
-    Fact("scratch", "", "", lambda run, parameters: parameters.cue.ball in removed_by(run)),
+    Fact("scratch", "", "", lambda run, parameters: parameters.cue.ball in removed_by(run), most=1),
     Fact("point", "", "", point),
     Fact("scored", "", "", scored),
     Fact("positions", "", "m", lambda run, parameters: {name: [*place] for name, place in in_play(run).items()}),

@@ -149,7 +149,7 @@ def _entry(run: Run, parameters: Parameters) -> Moment | None:
 
 
 FACTS = (
-    Fact("pins", "pins", "", lambda run, it: len(run.setup.balls) - 1 - len(_leaves(run, it))),
+    Fact("pins", "pins", "", lambda run, it: len(run.setup.balls) - 1 - len(_leaves(run, it)), most=10),
     Fact("leaves", "leaves", "", _leaves, names=True),
     Fact("entry_angle", "entry", "deg", fact_from(_entry, "direction"), sides=ASIDE),
     Fact("offset", "off the centre", "m", fact_from(_entry, "y"), sides=ASIDE),

@@ -252,7 +252,7 @@ SIDES = ("right", "left")
 
 FACTS = (
     Fact("goal", "", "", scored),
-    Fact("saved", "", "", lambda run, it: outcome(run, it) == "saved"),
+    Fact("saved", "", "", lambda run, it: outcome(run, it) == "saved", most=1),
     Fact("verdict", "", "", outcome),
     Fact("deviation", "bend", "m", fact_from(at_goal, deviation), sides=SIDES),
     Fact("inside_post", "nearer post", "m", fact_from(at_goal, inside_post), sides=("outside", "inside")),

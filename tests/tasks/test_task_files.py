@@ -31,6 +31,10 @@ high = 10
 """
 
 
+#: The lines of it that say what counts.
+COUNTED = 'pass = 2\nstars = [1, 2, 3]\nscore = "made"'
+
+
 @pytest.fixture
 def file(tmp_path: Path) -> Path:
     path = tmp_path / "mine.toml"
@@ -97,6 +101,27 @@ def test_an_attempt_is_run_from_what_is_drawn_for_it(call, file: Path):
         ("stars = [1, 2, 3]", "stars = [3, 2, 1]", "stars = [3, 2, 1]: must be rising"),
         ("pass = 2", "pass = 20", "pass = 20: 3 attempts can reach 3 at most"),
         ("stars = [1, 2, 3]", "stars = [1, 2, 4]", "stars[2] = 4: 3 attempts can reach 3 at most"),
+        (
+            COUNTED,
+            'pass = 9\nstars = [1, 2, 3]\nscore = { fact = "made", how = "streak" }',
+            "pass = 9: 3 attempts can reach 3 at most",
+        ),
+        (
+            COUNTED,
+            'pass = 2\nstars = [5, 4, 3]\nscore = { fact = "made", how = "fewest" }',
+            "pass = 2: 3 attempts can reach 3 at least",
+        ),
+        (
+            COUNTED,
+            'pass = -1\nstars = [5, 3, 1]\nscore = { fact = "entry_angle", how = "nearest", target = 45 }',
+            "pass = -1 deg: 3 attempts can reach 0 deg at least",
+        ),
+        (
+            'score = "made"',
+            'score = { fact = "made", how = "best" }',
+            'score.how = "best": must be "sum", "greatest", "nearest", "points", "fewest" or "streak"',
+        ),
+        ('score = "made"', 'score = { fact = "made", target = 3 }', 'score.how = "sum": has no target'),
         ("attempts = 3", "colour = 1\nattempts = 3", "stars, pass, goes_on"),
         ('"Throw it in"', '"Throw\\nit in"', "must be one line of printable characters"),
         (

@@ -227,9 +227,9 @@ class TestATask:
 
     def test_where_a_distance_counts_it_is_said(self, thrower):
         score = tasks.load("stop-dead").score
-        assert [score.counted(worth) for worth in (0.338, None)] == ["off by 0.34 m/s", ""]
+        assert [score.shot_text(worth) for worth in (0.338, None)] == ["off by 0.34 m/s", ""]
         score = tasks.load("hold-over").score
-        assert [score.counted(worth) for worth in (1.0, 5.0)] == ["counts 1 point", "counts 5 points"]
+        assert [score.shot_text(worth) for worth in (1.0, 5.0)] == ["counts 1 point", "counts 5 points"]
         contest = AtTask(tasks.load("stop-dead"), seed=SEED)
         thrower.game.referee.begin(contest)
         thrower.settle()
