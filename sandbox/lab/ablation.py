@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, is_dataclass, replace
 from functools import partial
 from math import hypot, isclose
 from typing import Any, NamedTuple
@@ -13,20 +13,20 @@ from sandbox.engine.model.ball import Ball, Force
 from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.surface import Bounce, BounceLaw, ConstantBounce, Surface
 from sandbox.engine.motion.forces_on_ball import cause
-from sandbox.errors import SandboxError
 from sandbox.lab.reference import Reference, apart, places, until
 from sandbox.lab.tables import length_or_below, table
 from sandbox.lab.timing import Timed, repeat
 from sandbox.lab.verdicts import verdict
 from sandbox.physics.air import UniformWind
 from sandbox.physics.coefficients import Constant, spin_ratio_lift
-from sandbox.physics.forces import Drag, Magnus, SpinDecay
+from sandbox.physics.forces import Drag, Inside, Magnus, Parts, SpinDecay, Thinning
 from sandbox.physics.of_ball import on_ball
 from sandbox.physics.plane import without
 from sandbox.scene import compare
 from sandbox.scene.running import simulate_at
 from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.amounts import significant
+from sandbox.tracebacks import one_line_error
 
 #: Shifts below this, in m, do not matter to a player.
 NOTHING = 1e-4
@@ -44,8 +44,9 @@ _FLOWS = tuple((reynolds, spin_ratio) for reynolds in (3e4, 1e5, 3e5) for spin_r
 #: its unit, below which it is zero but for rounding.
 _SHOWN, _SAME, _ZERO = 2, 1e-6, 1e-9
 
-#: A saving is shown from this fraction on, and from this multiple of its noise.
-_LEAST_SAVED, _NOISES = 0.01, 2.0
+#: A saving is shown from this fraction on, and from this multiple of its noise. A run that takes more than twice as
+#: long without a part, a saving of less than -1, has become another one: its time says nothing of the part.
+_LEAST_SAVED, _NOISES, _ANOTHER_RUN = 0.01, 2.0, -1.0
 
 
 class Variant(NamedTuple):
@@ -95,8 +96,9 @@ class Ablated:
     def cells(self) -> list[str]:
         """A row of the table: the part, the change, both shifts, and what it saves."""
         shifts = [length_or_below(shift, self.resolution_m) for shift in (self.flight_m, self.shift_m)]
-        seen = abs(self.saves or 0.0) >= max(_LEAST_SAVED, _NOISES * self.saves_noise)
-        saved = "" if self.saves is None else f"{100.0 * self.saves:.0f} %" if seen else "-"
+        saves = self.saves or 0.0
+        seen = abs(saves) >= max(_LEAST_SAVED, _NOISES * self.saves_noise) and saves >= _ANOTHER_RUN
+        saved = "" if self.saves is None else f"{100.0 * saves:.0f} %" if seen else "-"
         return [self.part, self.change, *shifts, saved]
 
 
@@ -148,8 +150,8 @@ def ablation(reference: Reference) -> list[Ablated]:
         )
         try:
             run = simulate_at(scene, precise, setup)
-        except SandboxError as error:
-            rows.append(replace(row, problem=str(error)))
+        except Exception as error:  # of the scene's own code, too
+            rows.append(replace(row, problem=one_line_error(error)))
             continue
         touch = min([reference.first_touch, *(event.t for event in run.events)])
         row = replace(
@@ -198,9 +200,12 @@ def _of_balls(setup: Setup) -> Iterator[Variant]:
         start = [_at_start(first, force) for force in first.forces if isinstance(force, kind) and _varies(force)]
         if any(start):
             yield variant(part, f"{start[0]:.3f} as at the start", partial(_steady, kind=kind))
-    yield variant("wind", "left out", partial(_in_wind, wind=None))
-    if all(getattr(term, "wind", None) is None for term in terms):
-        yield variant("wind", "added, 1 m/s headwind", partial(_in_wind, wind=UniformWind(-1.0, 0.0)))
+    declared = {part: value for term in map(_in_medium, terms) for part, value in _parts_of(term).items()}
+    for part, value in declared.items():
+        yield variant(part.replace("_", " "), "left out", partial(_with_part, part=part, value=value))
+    if all(getattr(term, "wind", None) is None for term in map(_in_medium, terms) if "wind" in _parts_of(term)):
+        headwind = partial(_with_part, part="wind", value=UniformWind(-1.0, 0.0))
+        yield variant("wind", "added, 1 m/s headwind", headwind)
     lifted = [ball for ball in setup.balls if any(isinstance(force, Magnus) for force in ball.forces)]
     if not lifted:
         yield variant("lift", "added, equal to the spin ratio", _with_lift)
@@ -233,13 +238,25 @@ def _steady(ball: Ball, kind: type[Drag | Magnus]) -> Ball:
     return replace(ball, forces=[steady(force) for force in ball.forces])
 
 
-def _in_wind(ball: Ball, wind: UniformWind | None) -> Ball:
-    def blown(term: Any) -> Any:
-        if hasattr(term, "force"):  # in a medium
-            return replace(term, force=blown(term.force))
-        return replace(term, wind=wind) if hasattr(term, "wind") else term
+def _parts_of(term: Any) -> Parts:
+    """The fields of a force or torque that its class declares as parts, each with the value that leaves it out."""
+    return getattr(term, "PARTS", {}) if is_dataclass(term) else {}
 
-    forces, torques = ([blown(term) for term in terms] for terms in (ball.forces, ball.torques))
+
+def _in_medium(term: Any) -> Any:
+    """The force that acts in a medium; any other force or torque itself."""
+    return _in_medium(term.force) if isinstance(term, Inside | Thinning) else term
+
+
+def _with_part(ball: Ball, part: str, value: Any) -> Ball:
+    """The ball with a field of its forces and torques changed, where their classes declare it as a part."""
+
+    def changed(term: Any) -> Any:
+        if isinstance(term, Inside | Thinning):
+            return replace(term, force=changed(term.force))
+        return replace(term, **{part: value}) if part in _parts_of(term) else term
+
+    forces, torques = ([changed(term) for term in terms] for terms in (ball.forces, ball.torques))
     return replace(ball, forces=forces, torques=torques)
 
 

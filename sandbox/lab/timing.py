@@ -12,8 +12,8 @@ from sandbox.engine import simulate
 from sandbox.engine.model.accuracy import Accuracy
 from sandbox.engine.model.setup import Setup
 from sandbox.engine.paths.run import Run
-from sandbox.errors import SandboxError
 from sandbox.lab.runs import Progress, no_progress
+from sandbox.tracebacks import one_line_error
 
 #: Most runs of each that count, after a first one that only warms caches. The shortest counts, since other load only
 #: adds time.
@@ -37,8 +37,8 @@ class Timed(Generic[Seen]):
         started = perf_counter()
         try:
             run = simulate(self.setup, self.accuracy)
-        except SandboxError as error:
-            self.problem = str(error)
+        except Exception as error:  # of the scene's own code, too
+            self.problem = one_line_error(error)
             return
         finally:
             self.walls.append(perf_counter() - started)

@@ -9,10 +9,10 @@ from functools import cache
 from itertools import pairwise
 from math import pi
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 from sandbox.physics.elementwise import clip
-from sandbox.physics.forces import Wind, in_wind
+from sandbox.physics.forces import IN_WIND, Parts, Wind, in_wind
 
 #: kg/m^2 of a ballistic coefficient of 1 lb/in^2.
 POUND_PER_INCH = 703.0696
@@ -82,6 +82,7 @@ class BulletDrag:
     density: float  # kg/m^3, of the air
     sound: float  # m/s, speed of sound
     wind: Wind | None = None
+    PARTS: ClassVar[Parts] = IN_WIND
     _k: float = field(init=False, repr=False)
 
     def __post_init__(self) -> None:

@@ -8,10 +8,10 @@ any callable of this form.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from math import pi
-from typing import Any, Protocol
+from typing import Any, ClassVar, Protocol
 
 from sandbox.physics.air import DENSITY, VISCOSITY, density_share
 from sandbox.physics.checks import check
@@ -21,6 +21,11 @@ from sandbox.physics.of_ball import OfBall, on_ball
 
 Wind = Callable[[float, Any], tuple[Any, Any]]
 Force = Callable[[float, Any, Any, Any], tuple[Any, Any]]
+
+#: The fields of a force that ``sandbox trade`` may leave out, each with the value that leaves it out; the ``PARTS`` of
+#: its class. Nothing else of a force is changed.
+Parts = Mapping[str, Any]
+IN_WIND: Parts = {"wind": None}
 
 #: Avoids division by a speed of zero; negligible compared with any other speed (m/s).
 _ALMOST_ZERO = 1e-30
@@ -93,6 +98,7 @@ class _InAir(OfBall):
     wind: Wind | None = None
     area: float | None = None  # m^2; default: the sphere's cross-section
     viscosity: float = VISCOSITY  # Pa s
+    PARTS: ClassVar[Parts] = IN_WIND
     _radius: float = _computed()  # m
     _law: Coefficient = _computed()
     _half_density_area: float = _computed()
@@ -255,6 +261,7 @@ class SpinDecay(OfBall):
     radius: float | None = None  # m; default: the ball's
     rate: float = 2e-5  # k
     wind: Wind | None = None
+    PARTS: ClassVar[Parts] = IN_WIND
     _k: float = _computed()
 
     def __post_init__(self) -> None:

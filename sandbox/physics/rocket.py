@@ -6,10 +6,10 @@ from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
-from typing import Any
+from typing import Any, ClassVar
 
 from sandbox.physics.elementwise import clip, smooth, where
-from sandbox.physics.forces import Wind, in_wind
+from sandbox.physics.forces import IN_WIND, Parts, Wind, in_wind
 
 
 @dataclass(frozen=True)
@@ -85,6 +85,7 @@ class Thrust:
     along: tuple[Any, Any]  # unit vector of the rail
     rail: Any  # m
     wind: Wind | None = None
+    PARTS: ClassVar[Parts] = IN_WIND
 
     def __call__(self, t: Any, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
         (x, y), (ex, ey) = position, self.along

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import cos, sin
-from typing import Any
+from typing import Any, ClassVar
 
 from sandbox.physics.elementwise import clip, hypot
-from sandbox.physics.forces import Wind, in_wind
+from sandbox.physics.forces import IN_WIND, Parts, Wind, in_wind
 
 
 @dataclass(frozen=True)
@@ -21,6 +21,7 @@ class DragByAngle:
     side: float  # Cs
     wind: Wind | None
     spiral: bool
+    PARTS: ClassVar[Parts] = IN_WIND
 
     def __call__(self, t: Any, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
         ux, uy = velocity if self.wind is None else in_wind(self.wind, t, position, velocity)

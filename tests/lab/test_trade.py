@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 from PIL import Image
@@ -15,6 +16,7 @@ from sandbox.engine import simulate
 from sandbox.engine.model.accuracy import LEVELS
 from sandbox.engine.model.ball import Ball
 from sandbox.engine.model.setup import Setup
+from sandbox.engine.model.surface import Segment, Surface
 from sandbox.lab import timing, verdicts
 from sandbox.lab import trade as lab
 from sandbox.lab.ablation import Ablated, ablation, variants
@@ -24,8 +26,9 @@ from sandbox.lab.tables import length_or_below
 from sandbox.lab.verdicts import shot_map, verdict
 from sandbox.new import new_scene
 from sandbox.physics.coefficients import Constant
-from sandbox.physics.forces import Drag
+from sandbox.physics.forces import Drag, Gravity
 from sandbox.scene import load
+from sandbox.scene.setup_scene import scene_of
 from tests.own_scene import DROP
 
 #: A free throw that rattles in the ring: every impact on the round tube multiplies errors.
@@ -265,6 +268,48 @@ def test_what_a_scene_has_is_left_out_and_not_put_in():
     (windy, burning) = (list(variants(load(name).build())) for name in ("golf/headwind", "rocket"))
     assert [v.change for v in windy if v.part in ("wind", "spin decay")] == ["left out", "left out"]
     assert "loss of mass" in [v.part for v in burning]
+
+
+@dataclass(frozen=True)
+class Gust:
+    """A force of a user's own, with a field of a name that forces of the sandbox have."""
+
+    wind: Callable[[float], float] | None
+
+    def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
+        return self.wind(t), 0.0
+
+
+class DeclaredGust(Gust):
+    PARTS = {"wind": None}
+
+
+def blows(t: float) -> float:
+    return 0.3
+
+
+def blown(*forces: Gust) -> Setup:
+    ball = Ball("ball", 0.5, 0.1, (0.0, 1.0), (3.0, 4.0), forces=[Gravity(9.81), Drag(coefficient=0.4), *forces])
+    return Setup([ball], [Surface("floor", Segment((-50.0, 0.0), (50.0, 0.0)), 0.8, 0.4)], duration=0.5)
+
+
+def test_own_forces_are_changed_only_where_they_declare_it():
+    own, declared = (list(variants(blown(kind(blows)))) for kind in (Gust, DeclaredGust))
+    assert all(Gust(blows) in v.setup.balls[0].forces for v in own if v.part != "gust")
+    assert [v.change for v in own if v.part == "wind"] == ["added, 1 m/s headwind"]  # to the drag alone
+    (without,) = (v for v in declared if v.part == "wind")
+    assert (without.change, without.setup.balls[0].forces[-1]) == ("left out", DeclaredGust(None))
+
+
+def test_a_part_that_fails_does_not_cost_the_table():
+    rows = parts(ablation(converge(scene_of(blown(DeclaredGust(blows))))))
+    assert "'NoneType' object is not callable (lab/test_trade.py, line" in rows["wind"].effect
+    assert rows["declared gust"].flight_m > 0.01
+
+
+@pytest.mark.parametrize(("saves", "said"), [(0.25, "25 %"), (-0.25, "-25 %"), (-4.36, "-"), (-103.73, "-")])
+def test_a_run_that_became_another_saves_nothing(saves: float, said: str):
+    assert Ablated("lift", "left out", ("in", "in"), 1.0, 1.0, saves=saves).cells()[-1] == said
 
 
 def test_throw_and_cloth_on_a_table():
