@@ -118,12 +118,21 @@ HANDED_OVER = [
         for what, said in (
             (
                 "x",
-                "the fact odd must return a number, a text of at most 400 characters, true or false, or a list of "
-                "those, but returned [[...]]",
+                "the fact odd must return a number, a text of at most 400 characters, true or false, or a list or "
+                "dictionary of those, but returned [[...]]",
             ),
-            ("[1j]", "or a list of those, but returned [1j]"),
+            ("[1j]", "or a list or dictionary of those, but returned [1j]"),
             ("10**400", "the fact odd must return a num"),
-            ("run", "or a list of those, but returned <Run"),
+            ("run", "or a list or dictionary of those, but returned <Run"),
+        )
+    ),
+    *(
+        (OF_DROP, "FACTS = (", f"FACTS = (Fact('odd', '{label}', 'm', lambda run, _: {what}),", said)
+        for label, what, said in (
+            ("odd", "'far'", "the fact odd must return a number in m, a list of them, or None, but returned 'far'"),
+            ("odd", "{'a': 1.0}", "a list of them, or None, but returned {'a': 1.0}"),
+            ("odd", "True", "a list of them, or None, but returned True"),
+            ("", "{'a': [1.0, 'far']}", "a list of them, or None, but returned {'a': [1.0, 'far']}"),
         )
     ),
 ]

@@ -10,6 +10,7 @@ from bisect import bisect_right
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
+from itertools import pairwise
 from math import copysign, inf, sqrt
 from typing import Any, NamedTuple, Protocol
 
@@ -158,8 +159,12 @@ class Strips:
     laws: Sequence[Plane]
 
     def __post_init__(self) -> None:
-        if len(self.laws) != len(self.edges) + 1 or list(self.edges) != sorted(self.edges):
-            raise ValueError(f"strips: {len(self.laws)} laws need {len(self.laws) - 1} edges in order: {self.edges}")
+        in_order = all(edge < following for edge, following in pairwise(self.edges))
+        if len(self.laws) != len(self.edges) + 1 or not in_order:
+            needed = f"{len(self.laws)} laws need {len(self.laws) - 1} edges in growing order"
+            raise ValueError(f"strips: {needed}, and these are {self.edges}")
+        if len({law.rolls for law in self.laws}) > 1:
+            raise ValueError("strips: bodies must roll on all of them, as on Cloth, or slide on all, as on Glide")
 
     @property
     def name(self) -> str:

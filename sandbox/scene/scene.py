@@ -35,13 +35,11 @@ if TYPE_CHECKING:
 REQUIRED = ("Parameters", "build")
 #: Keys of a scene file beside its parameters.
 NOT_PARAMETERS = ("scene", "measured")
-#: Types of facts that cards, JSON and tables can always show.
-_PLAIN = {bool, float, type(None)}
 #: Types of facts that hold others.
 _CONTAINERS = (Mapping, list, tuple)
 #: Most characters of a fact or a verdict, for which cards and pictures have room.
 LONGEST_TEXT = 400
-_REPORTABLE = f"a number, a text of at most {LONGEST_TEXT} characters, true or false, or a list of those"
+_REPORTABLE = f"a number, a text of at most {LONGEST_TEXT} characters, true or false, or a list or dictionary of those"
 #: The arguments with which the functions of a scene, and its picture, are called.
 CALLS = {
     "build": (("parameters",),),
@@ -149,6 +147,7 @@ class Scene:
     def reader(self, asked: Collection[str] = ()) -> Callable[[Run, Any], dict[str, Any]]:
         """The function that reads these facts from a run of this scene with any parameters; all facts by default."""
         computed = [(key, fact.compute) for key, fact in self.facts.items() if not asked or key in asked]
+        measured = {key for key, fact in self.facts.items() if fact.unit}
 
         def read(run: Run, parameters: Any) -> dict[str, Any]:
             with sys_exit_as_error():
@@ -157,7 +156,7 @@ class Scene:
                 if type(value) is float:
                     if not isfinite(value):
                         result[key] = None
-                elif type(value) not in _PLAIN:
+                elif value is not None and (type(value) is not bool or key in measured):
                     result[key] = self._reported(key, value)
             return result
 
@@ -169,8 +168,11 @@ class Scene:
             value = value.tolist()
         if isinstance(value, float) and not isfinite(value):
             return None
+        fact = self.facts[key]
         if not _is_reportable(value):
             raise self._wrong(f"the fact {key}", _REPORTABLE, value)
+        if fact.unit and not (_is_numeric(value) and not (fact.label and isinstance(value, Mapping))):
+            raise self._wrong(f"the fact {key}", f"a number in {fact.unit}, a list of them, or None", value)
         return value
 
     def final_when(self, asked: Collection[str]) -> frozenset[FinalWhen] | None:
@@ -243,6 +245,13 @@ def _is_reportable(value: Any, deepest: int = 9) -> bool:
     if isinstance(value, int) and not isinstance(value, bool):
         return value.bit_length() < 1000  # a float holds it
     return value is None or isinstance(value, bool | float) or hasattr(value, "tolist")  # numpy's
+
+
+def _is_numeric(value: Any) -> bool:
+    """True if a value is a number, or holds only numbers, as one in a unit must."""
+    if isinstance(value, _CONTAINERS):
+        return all(map(_is_numeric, value.values() if isinstance(value, Mapping) else value))
+    return value is None or (isinstance(value, int | float) and not isinstance(value, bool))
 
 
 def _revived(

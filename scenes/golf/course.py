@@ -148,6 +148,15 @@ def _check(ground: Ground, pin: Pin, radius: float) -> None:
     for kind, start, end in ((strip.kind, strip.start, strip.end) for strip in ground.strips):
         if end <= start:
             raise RequestError(f"ground.strips: the {kind} from {start:g} m to {end:g} m has no length")
+    for place, strip in enumerate(ground.strips):
+        reached = strip.start
+        for over in sorted(ground.strips[place + 1 :], key=lambda over: over.start):
+            reached = max(reached, over.end) if over.start <= reached else reached
+        if reached >= strip.end:
+            raise RequestError(
+                f"ground.strips: the {strip.kind} from {strip.start:g} m to {strip.end:g} m lies under later ones: "
+                "give it after them, or leave it out"
+            )
     left, right = pin.around(pin.cup_width)
     if left < right and left < radius and right > -radius:
         raise RequestError(f"pin.distance: the cup at {pin.distance:g} m is where the ball starts, at 0 m")

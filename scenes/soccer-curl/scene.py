@@ -166,7 +166,7 @@ def build(parameters: Parameters) -> Setup:
     check_apart(parameters, start, *players, line)
     forces = flight.forces_in_flight(ball, air, lift_share=launch.lift_share)
     kicked = flight.launched_ball(launch, ball, air, (0.0, 0.0), forces)
-    balls, saves = [kicked], []
+    balls, pairs, saves = [kicked], [], []
     if keeper.present:
         standing = disc("the keeper", ("keeper.distance", "keeper.offset"), *stand, keeper.radius)
         check_apart(parameters, start, *players, standing)
@@ -176,6 +176,7 @@ def build(parameters: Parameters) -> Setup:
             saves = [diving_keeper(parameters, kicked)]
         else:
             balls.append(Ball("keeper", keeper.mass, keeper.radius, stand, (0.0, keeper.speed)))
+            pairs.append(("ball", "keeper", keeper.bounce))
     back = goal.distance + goal.depth
     boards = rectangle(BOARDS_BEHIND, -BOARDS_ASIDE, goal.distance + BOARDS_BEYOND, BOARDS_ASIDE)
     surfaces = [
@@ -187,7 +188,6 @@ def build(parameters: Parameters) -> Setup:
         *saves,
     ]
     longest = min(LONGEST, PATIENCE * (goal.distance / max(launch.speed, 0.1)) + MOMENT)
-    pairs = [] if saves else [("ball", "keeper", keeper.bounce)]
     return Setup(balls, surfaces, longest, is_over, pairs=pairs)
 
 

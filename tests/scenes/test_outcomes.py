@@ -270,6 +270,17 @@ def test_an_effect_left_out_is_an_absent_term(source: str, changes: dict[str, An
             {"ground.strips": [{"kind": "rough", "start": 9, "end": 3}]},
             ["the rough from 9 m to 3 m has no length"],
         ),
+        (
+            "golf",
+            {
+                "ground.strips": [
+                    {"kind": "bunker", "start": 230, "end": 242},
+                    {"kind": "water", "start": 235, "end": 250},
+                    {"kind": "rough", "start": 200, "end": 236},
+                ]
+            },
+            ["ground.strips: the bunker from 230 m to 242 m lies under later ones"],
+        ),
         ("golf", {"start": "club", "club.loft": 80, "club.attack": -45}, ["the face moves away from the ball"]),
         (
             "tennis",

@@ -202,6 +202,8 @@ class Setup:
         for name in names:
             if names.count(name) > 1:
                 raise ValueError(f"two balls are named {name!r}: names must be unique")
+        self._check_names("pairs", 2, names)
+        self._check_names("planes", 1, names)
         if self.planes and self.plane is None:
             raise ValueError("a setup with planes for some balls needs a plane for all others")
         if any(ball.rotates for ball in self.balls):
@@ -234,6 +236,23 @@ class Setup:
         for plane in (self.plane, *(law for _, law in self.planes)):
             if plane is not None and not hasattr(plane, "rolls"):
                 raise ValueError(f"setup: {short(plane)} is no plane, such as a Cloth")
+
+    def _check_names(self, what: str, count: int, balls: Sequence[str]) -> None:
+        """Raise ValueError unless each law is for so many balls, and the only one for them."""
+        form, known = ("(ball, ball, law)", "(ball, law)")[2 - count], ", ".join(map(repr, balls))
+        seen: list[set[str]] = []
+        for entry in getattr(self, what):
+            if not isinstance(entry, list | tuple) or len(entry) != count + 1:
+                raise ValueError(f"setup: {what}: {short(entry)} must be {form}")
+            *named, _ = entry
+            for name in named:
+                if name not in balls:
+                    raise ValueError(f"setup: {what}: there is no ball {name!r}; there are {known}")
+            if len({*named}) < count:
+                raise ValueError(f"setup: {what}: {short(entry)} names one ball twice")
+            if {*named} in seen:
+                raise ValueError(f"setup: {what}: two laws for {' and '.join(map(repr, named))}")
+            seen.append({*named})
 
     @property
     def names(self) -> list[str]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 
 from sandbox.engine import simulate
@@ -10,6 +12,7 @@ from sandbox.engine.model.ball import Ball
 from sandbox.engine.model.setup import Setup, Touches
 from sandbox.engine.model.surface import Bounce, ConstantBounce, Segment, Surface
 from sandbox.physics.forces import Gravity
+from sandbox.physics.ice import Glide
 
 FLOOR = Surface("floor", Segment((-100.0, 0.0), (100.0, 0.0)), restitution=0.8, friction=0.0)
 
@@ -41,3 +44,23 @@ def test_a_run_ends_at_the_touch_that_was_asked_for(method: str, times: int):
     fall = (2.0 * h / g) ** 0.5
     assert run.ended == "until"
     assert run.duration == pytest.approx(fall * (1.0 + 2.0 * sum(e**n for n in range(1, times))), abs=2e-3)
+
+
+LAW = ConstantBounce(Bounce(0.4, 0.0))
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"pairs": [("a", "frog", LAW)]}, "setup: pairs: there is no ball 'frog'; there are 'a', 'b'"),
+        ({"pairs": [("a", "a", LAW)]}, "setup: pairs: .* names one ball twice"),
+        ({"pairs": [("a", "b", LAW), ("b", "a", LAW)]}, "setup: pairs: two laws for 'b' and 'a'"),
+        ({"pairs": [("a", "b")]}, "setup: pairs: .* must be \\(ball, ball, law\\)"),
+        ({"planes": [("frog", Glide(0.1))]}, "setup: planes: there is no ball 'frog'"),
+        ({"planes": [("a", Glide(0.1)), ("a", Glide(0.2))]}, "setup: planes: two laws for 'a'"),
+    ],
+)
+def test_laws_are_for_balls_that_there_are(given: dict[str, Any], said: str):
+    balls = [Ball("a", 1.0, 0.1, (0.0, 0.0)), Ball("b", 1.0, 0.1, (1.0, 0.0))]
+    with pytest.raises(ValueError, match=said):
+        Setup(balls, plane=Glide(0.2), **given)

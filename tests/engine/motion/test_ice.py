@@ -228,7 +228,7 @@ def test_ice_does_not_push(law, value):
 
 
 def test_strips_need_a_law_each_and_edges_in_order():
-    for edges, laws in (((1.0,), [ICE]), ((2.0, 1.0), [ICE] * 3)):
+    for edges, laws in (((1.0,), [ICE]), ((2.0, 1.0), [ICE] * 3), ((1.0, 1.0), [ICE] * 3), ((1.0,), [PUCK, Cloth()])):
         with pytest.raises(ValueError, match="strips"):
             Strips(edges, laws)
 
@@ -244,7 +244,7 @@ def test_a_stone_that_spins_in_place_stops_turning():
 def test_strips_of_one_law_are_that_law(law, seed):
     """Also for bodies that start on an edge, along one, or at rest, and through impacts; energy is accounted for."""
     chance = random.Random(seed)
-    edges = sorted(chance.choice([0.0, 1.0, chance.uniform(-3.0, 3.0)]) for _ in range(3))
+    edges = sorted(chance.sample([0.0, 1.0, *(chance.uniform(-3.0, 3.0) for _ in range(3))], 3))
     corners = [(-4.0, -3.0), (4.0, -3.0), (4.0, 4.0), (-4.0, 4.0), (-4.0, -3.0)]
     walls = [Surface("wall", Segment(a, b), 0.7, 0.2) for a, b in pairwise(corners)]
     balls = [
