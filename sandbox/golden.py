@@ -28,20 +28,23 @@ from typing import TYPE_CHECKING, NoReturn, TypeVar
 
 import pytest
 
-from sandbox import record
+from sandbox import record, resources
 from sandbox.errors import RequestError, RunError
 from sandbox.files import check_size, write_together
 from sandbox.picture.difference import coarser, compare, side_by_side, what_changed
 from sandbox.record import Record
 from sandbox.text import printable
+from sandbox.tracebacks import is_hidden
 
 if TYPE_CHECKING:
     import pygame
     from PIL import Image
 
+    from sandbox.engine.paths.run import Run
     from sandbox.scene.scene_run import SceneRun
+    from sandbox.sport.facts import Fact
 
-    Subject = SceneRun | pygame.Surface | Image.Image
+    Subject = Run | pygame.Surface | Image.Image
 
 #: Size of the picture of a run, in px: its PNG takes less than 60 kB.
 SIZE = (480, 270)
@@ -56,6 +59,8 @@ WRITTEN, CHECKED, USED, FAILED = "golden file written", "golden name", "golden f
 HOW_TO_ACCEPT = "if the change is intended: pytest --golden-update"
 FOLDER = "golden"
 REPORT = Path("out", "golden")
+#: The folder of the sandbox itself, whose tests show its own frames.
+CHECKOUT = resources.PACKAGE.parent
 
 
 class Golden:
@@ -80,17 +85,20 @@ class Golden:
     ) -> None:
         """Fail unless the subject matches the golden one of that name.
 
-        The subject is a picture, or a run of a scene: its poster is drawn in a ``size`` in px, or with ``until`` the
-        frame at that time in s. The run's numbers may differ by ``tolerance`` in s, m, m/s or rad/s, or by that share
-        of themselves; with ``picture_only`` they are not compared.
+        The subject is a picture, or a run of a scene or a setup: its poster is drawn in a ``size`` in px, or with
+        ``until`` the frame at that time in s. The run's numbers may differ by ``tolerance`` in s, m, m/s or rad/s, or
+        by that share of themselves; with ``picture_only`` they are not compared.
         """
-        from sandbox.scene.scene_run import SceneRun
+        from sandbox.engine.paths.run import Run
+        from sandbox.scene.setup_scene import with_scene
 
         _check_request(name, until, size, tolerance)
         self.note(CHECKED, str(self.folder / name))
-        update = self.update and name not in self.checked  # a second check in one test must match the first
+        if name in self.checked:
+            _fail(f"{name} is checked twice in one test: each check needs a golden name of its own")
         self.checked.add(name)
-        run = subject if isinstance(subject, SceneRun) and not picture_only else None
+        subject = with_scene(subject) if isinstance(subject, Run) else subject
+        run = subject if isinstance(subject, Run) and not picture_only else None
         image = _as_image(name, subject, until, size)
         png, text = self.folder / f"{name}.png", self.folder / f"{name}.json"
         for path in [png] if run is None else [png, text]:
@@ -99,14 +107,18 @@ class Golden:
         drawing = _changed_drawing(expected, image)
         known = None if run is None else self._known(name, image, text, record.read)
         actual = {} if run is None else record.record(run, until, (known or {}).get("duration"))
-        physics = None if run is None else _changed_physics(known, actual, tolerance)
-        if drawing is None and physics is None:
-            return
-        if update:
+        facts = {} if run is None else run.scene.facts
+        physics = None if run is None else _changed_physics(known, actual, tolerance, facts)
+        if self.update:
             written = {} if drawing is None else {png: (_png(coarser(image)), drawing)}
             if run is not None and physics is not None:
                 written[text] = _recorded(name, run, until, tolerance), physics
+            elif known is not None and known.get("parameters") != actual["parameters"]:
+                cause = {key: actual[key] for key in ("parameters", "versions")}
+                written[text] = record.as_text({**known, **cause}).encode(), "the same run, with its parameters"
             self._write(written)
+        elif drawing is None and physics is None:
+            return
         elif expected is None or physics == NEW:
             what, path = ("picture", png) if expected is None else ("run", text)
             said = f"{name} has no golden {what} at {path}"
@@ -114,7 +126,10 @@ class Golden:
             _fail(f"{said}; make it with pytest --golden-update")
         else:
             lines = list(_kind_of_change(name, known, actual, physics, drawing, tolerance))
-            self._report(name, lines, image, expected, [] if known is None else _all_changes(known, actual, tolerance))
+            if run is not None and known is not None:
+                lines += _cause(known, actual, run)
+            changes = [] if known is None else _all_changes(known, actual, tolerance, facts)
+            self._report(name, lines, image, expected, changes)
             _fail(*lines, *self._shown(name, expected, image, drawing), HOW_TO_ACCEPT)
 
     def _write(self, written: Mapping[Path, tuple[bytes, str]]) -> None:
@@ -199,6 +214,21 @@ def _kind_of_change(
         yield f"{name} differs from its golden picture: {'same physics, the drawing changed: ' * bool(actual)}{drawing}"
 
 
+def _cause(known: Record, actual: Record, run: SceneRun) -> Iterator[str]:
+    """Yield where a difference may come from, as far as the golden record has it: parameters, versions."""
+    from sandbox.parameters import walk
+
+    units = {parameter.key: parameter.unit for parameter in walk(run.scene.parameters, entries=True)}
+    changed = record.changed_parameters(known, actual, units)
+    if changed:
+        shown, more = changed[:MOST_CHANGES], changed[MOST_CHANGES:]
+        yield f"other parameters: {'; '.join([*shown, *([f'{len(more)} more'] if more else [])])}"
+    elif "parameters" in known:
+        yield "the parameters are the same"
+    if known.get("versions", actual["versions"]) != actual["versions"]:
+        yield f"recorded with {known['versions']}; this is {actual['versions']}"
+
+
 def _difference_below_tolerance(known: Record, actual: Record) -> str | None:
     """The first event or result whose digits differ from those of the golden run, in words; None if there is none.
 
@@ -223,7 +253,7 @@ def _changed_drawing(expected: Image.Image | None, actual: Image.Image) -> str |
     return str(difference) if difference.matters else None
 
 
-def _changed_physics(known: Record | None, actual: Record, tolerance: float) -> str | None:
+def _changed_physics(known: Record | None, actual: Record, tolerance: float, facts: Mapping[str, Fact]) -> str | None:
     """Return the difference from the golden run in words; None if it is the same."""
     if known is None:
         return NEW
@@ -231,7 +261,7 @@ def _changed_physics(known: Record | None, actual: Record, tolerance: float) -> 
     if before != now:
         return f"recorded until {before} and checked until {now}"
     first = record.first_change(known, actual, tolerance)
-    results = record.changed_results(known, actual, tolerance)
+    results = record.changed_results(known, actual, tolerance, facts)
     if first is None and not results:
         return None
     moved = "same motion, different result" if first is None else f"the physics changed: first at {first[1]}"
@@ -239,10 +269,10 @@ def _changed_physics(known: Record | None, actual: Record, tolerance: float) -> 
     return "; ".join([moved, *shown, *(more if len(more) < 2 else [f"{len(more)} more"])])
 
 
-def _all_changes(known: Record, actual: Record, tolerance: float) -> list[str]:
+def _all_changes(known: Record, actual: Record, tolerance: float, facts: Mapping[str, Fact] | None = None) -> list[str]:
     """Return all differences from the golden run in words: of each ball, the events and the results."""
     moved = [text for _, text in record.changes(known, actual, tolerance)]
-    return [*moved, *record.changed_results(known, actual, tolerance)]
+    return [*moved, *record.changed_results(known, actual, tolerance, facts)]
 
 
 def _as_image(name: str, subject: Subject, until: float | None, size: tuple[int, int]) -> Image.Image:
@@ -258,8 +288,8 @@ def _as_image(name: str, subject: Subject, until: float | None, size: tuple[int,
         return to_image(subject)
     if not isinstance(subject, SceneRun):
         _fail(
-            f"{name}: only a run of a scene, a pygame surface or a Pillow image can be checked, not "
-            f"{type(subject).__name__}: sandbox.simulate(scene) returns such a run, and an array of pixels becomes an "
+            f"{name}: only a run, a pygame surface or a Pillow image can be checked, not "
+            f"{type(subject).__name__}: sandbox.simulate returns a run, and an array of pixels becomes an "
             "image by PIL.Image.fromarray"
         )
     picture = subject.scene.picture(subject, size)
@@ -302,8 +332,26 @@ def pytest_configure(config: pytest.Config) -> None:
     page = config.getoption("--golden-report")
     if page is not None and Path(page).suffix.lower() != ".html":
         raise pytest.UsageError(f"--golden-report {page}: its name must end in .html")
+    if config.getoption("--golden-unused") and (chosen := _selection(config)) is not None:
+        raise pytest.UsageError(f"--golden-unused needs all tests of a folder to run, not some by {chosen}")
     if config.getoption("--golden-update") and os.environ.get("CI", "").lower() not in ("", "0", "false"):
         raise pytest.UsageError("--golden-update: golden files are never written on CI, and the variable CI is set")
+
+
+def _selection(config: pytest.Config) -> str | None:
+    """The option by which only some of the tests are run; None if there is none."""
+    options = {"keyword": "-k", "markexpr": "-m", "lf": "--last-failed", "deselect": "--deselect", "maxfail": "-x"}
+    chosen = (shown for option, shown in options.items() if config.getoption(option, None))
+    return next(chosen, next((arg for arg in config.args if "::" in arg), None))
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtest_makereport(item: pytest.Item, call: pytest.CallInfo[None]) -> None:
+    """Hide the sandbox's own frames, so that a traceback shows the author's; --full-trace shows all of them."""
+    if call.excinfo is not None and item.config.rootpath != CHECKOUT:
+        for entry in call.excinfo.traceback:
+            if is_hidden(str(entry.path)):
+                entry.frame.f_globals["__tracebackhide__"] = True  # pytest looks for it there
 
 
 @pytest.fixture
@@ -348,6 +396,7 @@ def _unused(config: pytest.Config) -> list[str]:
         for top in (test if test.is_dir() else test.parent for test in tests)
         for folder in top.rglob(FOLDER)
         if not any(part.startswith(".") for part in folder.relative_to(top).parts)
+        and folder.parts[-len(REPORT.parts) :] != REPORT.parts  # pictures of failures
     }
     files = {str(file) for folder in folders for file in folder.glob("*") if file.suffix in (".png", ".json")}
     return sorted(files - set(_noted(config, USED)))

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from importlib.metadata import version
 from pathlib import Path
+from platform import python_version
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from sandbox.files import json_ready
@@ -12,6 +14,7 @@ from sandbox.text import shortened
 
 if TYPE_CHECKING:
     from sandbox.scene.scene_run import SceneRun
+    from sandbox.sport.facts import Fact
 
 #: Two numbers are the same when they differ by no more than this, in s, m, m/s or rad/s, or by this share of
 #: themselves. Rounding on another processor stays below 1e-9, unless the scene is chaotic; a force that is wrong by one
@@ -37,6 +40,8 @@ Record = dict[str, Any]
 def record(run: SceneRun, until: float | None = None, duration: float | None = None) -> Record:
     """Return what happened, in JSON's types: up to ``until`` s, or to the end and with the results.
 
+    The parameters and the versions of what computed it say where a difference may come from.
+
     States are spread evenly over the run, or over ``duration`` s, that of a record to compare with.
     """
     end = run.duration if until is None else min(until, run.duration)
@@ -46,6 +51,8 @@ def record(run: SceneRun, until: float | None = None, duration: float | None = N
     recorded: Record = {} if until is None else {"until": until}
     if until is None:
         recorded |= {"ended": run.ended, "duration": run.duration, "result": json_ready(run.result)}
+    recorded["parameters"] = run.scene.parameters.model_dump(mode="json", exclude_none=True)
+    recorded["versions"] = versions()
     recorded["events"] = [
         [event.t, event.kind, event.ball, event.partner, event.speed] for event in run.events if event.t <= end
     ]
@@ -57,6 +64,35 @@ def record(run: SceneRun, until: float | None = None, duration: float | None = N
         for ball in balls
     }
     return _rounded(recorded)
+
+
+def versions() -> str:
+    """The versions on which numbers and pictures depend: ``"Python 3.11.2, numpy 2.1.0, ..."``."""
+    packages = ", ".join(f"{name} {version(name)}" for name in ("numpy", "pymunk", "pygame-ce"))
+    return f"Python {python_version()}, {packages}"
+
+
+def changed_parameters(expected: Record, actual: Record, units: Mapping[str, str | None]) -> list[str]:
+    """Return the parameters that differ: ``"launch.speed 60 -> 60.6 m/s"``; [] for a record without them."""
+    before, after = (_flat(recorded.get("parameters", {})) for recorded in (expected, actual))
+    if not before:
+        return []
+    return [
+        f"{key} {_word(before.get(key))} -> {_word(after.get(key))} {units.get(key) or ''}".rstrip()
+        for key in before | after
+        if before.get(key) != after.get(key)
+    ]
+
+
+def _flat(value: Any, key: str = "") -> dict[str, Any]:
+    """Nested parameters by key: ``launch.speed``, ``air.wind[0]``."""
+    if isinstance(value, Mapping):
+        inside = [(f"{key}.{name}" if key else name, entry) for name, entry in value.items()]
+    elif isinstance(value, list):
+        inside = [(f"{key}[{place}]", entry) for place, entry in enumerate(value)]
+    else:
+        return {key: value}
+    return {name: one for inner, entry in inside for name, one in _flat(entry, inner).items()}
 
 
 def read(path: Path) -> Record:
@@ -100,15 +136,22 @@ def changes(expected: Record, actual: Record, tolerance: float = TOLERANCE) -> l
     return sorted(change for change in found if change is not None)
 
 
-def changed_results(expected: Record, actual: Record, tolerance: float = TOLERANCE) -> list[str]:
-    """Return the other differences in words: results, and how the run ended."""
-    found = []
+def changed_results(
+    expected: Record, actual: Record, tolerance: float = TOLERANCE, facts: Mapping[str, Fact] | None = None
+) -> list[str]:
+    """Return the other differences in words: results, with label and unit by the ``facts``, and how the run ended."""
+    found, facts = [], facts or {}
     before, after = ({**recorded.get("result", {}), "ended": recorded.get("ended")} for recorded in (expected, actual))
     for name in [*before, *(name for name in after if name not in before)]:
         if name not in after or name not in before:
             found.append(f"{name} is {'new' if name in after else 'gone'}")
         elif not _same(before[name], after[name], tolerance):
-            found.append(f"{name} is {_word(after[name])}, was {_word(before[name])}")
+            now, then = (
+                f"{_word(value[name])} {facts[name].unit if name in facts else ''}" for value in (after, before)
+            )
+            label = facts[name].label if name in facts else ""
+            shown = name if label in ("", name.replace("_", " ")) else f"{name} ({label})"
+            found.append(f"{shown} is {now.rstrip()}, was {then.rstrip()}")
     return found
 
 

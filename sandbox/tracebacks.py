@@ -23,7 +23,7 @@ def of_user_code(error: BaseException) -> str | None:
     is_users_syntax = isinstance(error, SyntaxError) and error.filename is not None and not is_ours(error.filename)
     if first is None and not is_users_syntax:
         return None
-    shown = [frame for frame in frames[first:] if not _is_hidden(frame.filename)] if first is not None else []
+    shown = [frame for frame in frames[first:] if not is_hidden(frame.filename)] if first is not None else []
     head = ["your scene failed\n", "Traceback (most recent call last):\n"] if shown else ["your scene failed\n"]
     said = [_short(line) for line in traceback.format_exception_only(error)]
     return "".join([*head, *traceback.format_list(shown), *said])
@@ -57,7 +57,7 @@ def is_of_library(filename: str | Path) -> bool:
     return any(_inside(filename, sysconfig.get_path(name)) for name in ("stdlib", "purelib", "platlib"))
 
 
-def _is_hidden(filename: str) -> bool:
+def is_hidden(filename: str) -> bool:
     """True if a file is the sandbox's, generated code, or pydantic's, which validates a scene's parameters."""
     import pydantic
 

@@ -2,10 +2,11 @@
 
 A pixel has changed if a channel is more than ROUNDING_LEVELS away from every level that its golden level can stand for,
 since golden pictures store 6 bits. So a colour that is off by 6 levels or more is noticed wherever more than
-STRAY_PIXELS of its pixels are close together, in a gradient from 4 levels on; a level or two everywhere, as another
-machine's rounding gives, is not. Pixelmatch was tried instead: it ignores what it takes for anti-aliasing, so it misses
-a small white ball on a pale sky that is a pixel larger all around (it counts 0 pixels, this comparison 44), and it
-takes 0.8 s for 640x360.
+STRAY_PIXELS of its pixels are close together, in a gradient from 4 levels on, and a single pixel from STRAY_LEVELS on;
+a level or two everywhere, as another machine's rounding gives, is not. A line that stands out by less than 30 levels
+from what is around it may be half a pixel thicker. Pixelmatch was tried instead: it ignores what it takes for
+anti-aliasing, so it misses a small white ball on a pale sky that is a pixel larger all around (it counts 0 pixels, this
+comparison 44), and it takes 0.8 s for 640x360.
 """
 
 from __future__ import annotations
@@ -23,9 +24,10 @@ LOWEST, HIGHEST = -(1 << (7 - COLOUR_BITS)), (1 << (7 - COLOUR_BITS)) - 1
 #: Levels, of 255, by which another machine's rounding may move a pixel; a ball moved by a quarter of a pixel moves it
 #: by 20 and more.
 ROUNDING_LEVELS = 2
-#: Most changed pixels allowed within NEIGHBOURHOOD px of each other: an edge pixel or two that was rounded the other
-#: way. A ball of 7 px that is moved by half a pixel changes a dozen.
-STRAY_PIXELS = 3
+#: Most changed pixels allowed within NEIGHBOURHOOD px of each other, and the most levels by which they may have
+#: changed: an edge pixel or two rounded the other way, by a quarter of a pixel, as shapes are drawn four times larger
+#: and scaled down. A ball of 7 px that is moved by half a pixel changes a dozen.
+STRAY_PIXELS, STRAY_LEVELS = 3, 64
 NEIGHBOURHOOD = 9
 #: Largest share of pixels that may have changed, spread over the picture.
 STRAY_SHARE = 0.0005
@@ -43,7 +45,7 @@ class Difference:
     @property
     def matters(self) -> bool:
         """True if it is more than another machine's rounding."""
-        return self.together > STRAY_PIXELS or self.share > STRAY_SHARE
+        return self.together > STRAY_PIXELS or self.largest > STRAY_LEVELS or self.share > STRAY_SHARE
 
     def __str__(self) -> str:
         return (

@@ -16,6 +16,7 @@ from sandbox.picture.difference import LOWEST, NEIGHBOURHOOD, ROUNDING_LEVELS, c
 from sandbox.picture.frames import to_image
 from sandbox.picture.painter import Painter, blank
 from sandbox.record import SAMPLES, TOLERANCE, as_text, changed_results, first_change, record
+from sandbox.sport.facts import Fact
 
 pytest_plugins = ["pytester"]
 
@@ -50,6 +51,25 @@ def test_one_edge_pixel_smoothed_differently_passes():
     difference = compare(ball(), other)
     assert difference.largest > 3 * ROUNDING_LEVELS
     assert not difference.matters
+
+
+def test_one_pixel_of_another_colour_fails():
+    other = ball()
+    other.putpixel((20, 20), (255, 0, 0))
+    difference = compare(ball(), other)
+    assert difference.together == 1
+    assert difference.matters
+
+
+@pytest.mark.parametrize(("contrast", "wider", "matters"), [(15, 0.4, False), (15, 1.0, True), (30, 0.25, True)])
+def test_a_thicker_line_fails_by_how_much_it_stands_out(contrast: int, wider: float, matters: bool):
+    def line(width: float) -> Image.Image:
+        surface = blank((160, 90))
+        surface.fill((50, 50, 50))
+        Painter(surface).line([(20.0, 45.0), (140.0, 45.0)], width, (50 + contrast,) * 3)
+        return to_image(surface)
+
+    assert compare(coarser(line(2.0)), line(2.0 + wider)).matters == matters
 
 
 def test_rounding_of_every_pixel_passes():
@@ -290,21 +310,57 @@ class TestRuns:
         result.stdout.fnmatch_lines(["*picture.py, line *: Picture.poster must return a pygame.Surface*"])
         result.stdout.no_fnmatch_line("*frames.py*")
 
-    def test_a_run_of_no_scene_is_refused(self, pytester):
+    def test_the_numbers_of_a_setup_are_guarded_too(self, pytester, monkeypatch):
+        monkeypatch.delenv("CI", raising=False)
         pytester.makepyfile(
             """
-            from sandbox.engine import simulate
-            from sandbox.engine.model.accuracy import resolve
-            from sandbox.engine.model.ball import Ball
-            from sandbox.engine.model.setup import Setup
+            import os
+            import sandbox
+            from sandbox import Ball, Setup
 
             def test_it(golden):
-                golden.check("it", simulate(Setup([Ball("ball", 1.0, 0.1, (0.0, 0.0))], duration=1.0), resolve()))
+                ball = Ball("ball", 1.0, 0.1, (0.0, 0.0), (1.0 + float(os.environ.get("MORE", 0.0)), 0.0))
+                golden.check("it", sandbox.simulate(Setup([ball], duration=1.0)))
             """
         )
-        again(pytester).stdout.fnmatch_lines(
-            ["*only a run of a scene, a pygame surface or a Pillow image can be checked, not Run:*"]
+        again(pytester, "--golden-update").assert_outcomes(passed=1)
+        again(pytester).assert_outcomes(passed=1)
+        monkeypatch.setenv("MORE", "1e-4")
+        told = (
+            "it differs from its golden run: the physics changed: first at t = 0 s, ball, vx is 1.0001 m/s, was 1 m/s*"
         )
+        again(pytester).stdout.fnmatch_lines([told])
+
+    def test_a_failure_says_which_parameters_and_versions_differ(self, scene_project, monkeypatch):
+        result = self.changed(scene_project, monkeypatch, '{"gravity": 9.9, "air.wind": [1, 0]}')
+        said = "other parameters: gravity 9.81 -> 9.9 m/s^2; air.wind[[]0[]] 0 -> 1 m/s"
+        result.stdout.fnmatch_lines(["*; final_height is * m, was * m*", said])
+        record = scene_project.path / "golden" / "it.json"
+        record.write_text(re.sub(r"numpy [^,]+", "numpy 1.26.4", record.read_text()))
+        scene = scene_project.path / "drop" / "scene.py"
+        scene.write_text(scene.read_text().replace("-self.mass *", "-1.01 * self.mass *"))
+        monkeypatch.setenv("CHANGES", "{}")
+        said = "recorded with Python *, numpy 1.26.4, pymunk *, pygame-ce *; this is Python *, numpy 2*, *"
+        again(scene_project).stdout.fnmatch_lines(["the parameters are the same", said])
+
+    def test_update_refreshes_parameters_and_keeps_the_numbers(self, scene_project, monkeypatch):
+        self.changed(scene_project, monkeypatch, '{"air.wind": [1, 0]}').assert_outcomes(passed=1)
+        record = scene_project.path / "golden" / "it.json"
+        before = json.loads(record.read_text())
+        told = "*it.json: the same run, with its parameters"
+        again(scene_project, "--golden-update").stdout.fnmatch_lines([told])
+        after = json.loads(record.read_text())
+        assert after["parameters"]["air"]["wind"] == [1.0, 0.0]
+        assert {**after, "parameters": 0} == {**before, "parameters": 0}
+
+    def test_a_traceback_has_the_frames_of_the_author_alone(self, scene_project):
+        scene = scene_project.path / "drop" / "scene.py"
+        scene.write_text(scene.read_text().replace("return 0.0 * velocity[0]", "return self.unknown"))
+        result = scene_project.runpytest_subprocess("-p", "no:cacheprovider", "--tb=short")
+        files = re.findall(r"^(\S+\.py):\d+: in ", str(result.stdout), re.MULTILINE)
+        assert files == ["test_it.py", "drop/scene.py"]
+        whole = scene_project.runpytest_subprocess("-p", "no:cacheprovider", "--full-trace")
+        assert "running.py" in str(whole.stdout)
 
     def test_the_tolerance_is_that_of_the_check(self, scene_project, monkeypatch):
         test = scene_project.path / "test_it.py"
@@ -417,6 +473,11 @@ class TestRecords:
         for one, other in ((before, after), (after, before)):
             assert (changed_results({"result": {"it": one}}, {"result": {"it": other}}) == []) is same
 
+    def test_results_have_the_label_and_unit_of_their_fact(self):
+        facts = {"clearance": Fact("clearance", "over the net", "m", lambda run, parameters: 0.0)}
+        found = changed_results({"result": {"clearance": 0.3}}, {"result": {"clearance": 0.25}}, facts=facts)
+        assert found == ["clearance (over the net) is 0.25 m, was 0.3 m"]
+
     def test_text_reads_back(self):
         kept = self.records() | {"events": [], "result": {"spots": [1.0, {"a": "Fußball"}]}}
         assert json.loads(as_text(kept)) == kept
@@ -438,11 +499,14 @@ class TestThePlugin:
         if options:
             result.stdout.fnmatch_lines(["*own.png: new"])
 
-    def test_a_second_check_in_one_test_is_compared_with_the_first(self, project):
+    def test_a_name_that_is_checked_twice_in_one_test_is_refused(self, project):
         text = (project.path / "test_it.py").read_text()
-        twice = text + '\n    golden.check("it", Image.new("RGB", (40, 30), "black"))\n'
-        (project.path / "test_it.py").write_text(twice)
-        run(project, "--golden-update").assert_outcomes(failed=1)
+        (project.path / "test_it.py").write_text(
+            text + '\n    golden.check("it", Image.new("RGB", (40, 30), "white"))\n'
+        )
+        result = run(project, "--golden-update")
+        result.assert_outcomes(failed=1)
+        result.stdout.fnmatch_lines(["it is checked twice in one test: each check needs a golden name of its own"])
 
     def test_a_time_that_is_none_is_refused(self, project):
         test = project.path / "test_it.py"
@@ -460,7 +524,7 @@ class TestThePlugin:
             ('"../it", image', "'../it': the name of a golden picture is that of a file*"),
             (
                 '"it", np.asarray(image)',
-                "it: only a run of a scene, a pygame surface or a Pillow image can be checked, not ndarray:*",
+                "it: only a run, a pygame surface or a Pillow image can be checked, not ndarray:*",
             ),
             ('"it", image, size=(3, 2)', "it: size = (3, 2): must be between *"),
             ('"it", image, tolerance=0.0', "it: tolerance = 0.0: must be greater than 0, in s, m, m/s and rad/s"),
@@ -489,6 +553,22 @@ class TestThePlugin:
         result.stdout.no_fnmatch_line("*notes.txt*")
         result.stdout.no_fnmatch_line("*it.png*")
         run(project).stdout.no_fnmatch_line("*no test has used*")
+
+    def test_pictures_of_failures_are_no_golden_files(self, project, monkeypatch):
+        run(project, "--golden-update")
+        with monkeypatch.context() as changed:
+            changed.setenv("COLOUR", "red")
+            run(project).assert_outcomes(failed=1)
+        assert (project.path / "out" / "golden" / "it.png").exists()
+        run(project, "--golden-unused").stdout.no_fnmatch_line("*no test has used*")
+
+    @pytest.mark.parametrize(
+        "chosen", [["-k", "it"], ["test_it.py::test_it"], ["--last-failed"], ["-x"], ["-m", "slow"]]
+    )
+    def test_unused_files_are_not_listed_of_a_selection(self, project, chosen: list[str]):
+        result = project.runpytest("-p", "sandbox.golden", "--golden-unused", *chosen)
+        assert result.ret == pytest.ExitCode.USAGE_ERROR
+        result.stderr.fnmatch_lines([f"*--golden-unused needs all tests of a folder to run, not some by {chosen[0]}"])
 
     def test_a_missing_picture_fails_and_says_how_to_make_it(self, project):
         result = run(project)
