@@ -165,7 +165,7 @@ def validate(
     """Compare results with published numbers and their sources.
 
     Each row is exact, fitted, of another program, of a model, measured, or held out of a fit. Only measured and
-    held-out rows are counted.
+    held-out rows are counted. The exit code is 0 however many hold: a number that the models miss is a finding.
 
     A table of your own has the columns result, value and tolerance, and as you like scene, case, set, unit, source,
     kind and the others of the published tables; or one launch in each row, with its columns named by --map.

@@ -181,7 +181,7 @@ def as_text(rows: Sequence[Compared], given: str = "published") -> list[str]:
     for row in rows:
         tables.setdefault(f"{row.scene.partition('/')[0]}, {row.kind}: {row.source}", []).append(row)
     headings = ("case", "result", given, "computed", "off by", "allowed", "")
-    lines = []
+    lines = [*counts_by_kind(rows), ""]
     for title, own in tables.items():
         lines += [*paragraph(title, ""), *table(headings, [cells(row) for row in own], "llrrrrl")]
         for row in own:
@@ -189,10 +189,15 @@ def as_text(rows: Sequence[Compared], given: str = "published") -> list[str]:
                 case, result, *_ = cells(row)
                 lines += paragraph(f"{case}, {result}, does not hold: {row.reason or 'no reason known'}")
         lines.append("")
-    kinds = {kind: [row for row in rows if row.kind == kind] for kind in KINDS if kind not in COUNTED}
-    others = ", ".join(f"{kind} {_holding(own)}" for kind, own in kinds.items() if own)
-    lines += paragraph(f"{counted(rows)} hold", "")
-    return [*lines, *paragraph(f"not counted: {others}", "")] if others else lines
+    return lines[:-1]
+
+
+def counts_by_kind(rows: Sequence[Compared]) -> list[str]:
+    """The counts of rows that hold, those that say how true the models are first."""
+    own = {kind: [row for row in rows if row.kind == kind] for kind in sorted(KINDS, key=lambda it: it not in COUNTED)}
+    body = [(kind, _holding(those), KINDS[kind]) for kind, those in own.items() if those]
+    others = "; those of the other kinds do not count" if any(row.kind not in COUNTED for row in rows) else ""
+    return [*paragraph(f"{counted(rows)} hold{others}", ""), *table(("kind", "hold", ""), body, "lrl")]
 
 
 def counted(rows: Sequence[Compared]) -> str:

@@ -70,8 +70,12 @@ def coefficient_at_start(force: str) -> Callable[[Run, Any], float | None]:
 
 
 def words_of(run: Run, event: Event, several: bool = True) -> tuple[str, ...]:
-    """An event for people: when, which ball if there are ``several``, what, with what, and how fast the two met."""
-    speed = f"at {amount(run.closing_speed(event), 'm/s', 1)}" if event.kind == "impact" else ""
+    """An event for people: when, which ball if there are ``several``, what, with what, and how fast the two met; of two
+    that move, the part of that speed along the normal too, if they met aslant."""
+    speed = ""
+    if event.kind == "impact":
+        closing, normal = (amount(speed, "m/s", 1) for speed in (run.closing_speed(event), event.speed))
+        speed = f"at {closing}" + (f", normal {normal}" if event.partner in run.arcs and normal != closing else "")
     return amount(event.t, "s"), *([event.ball] if several else []), event.kind, event.partner, speed
 
 

@@ -51,7 +51,7 @@ from sandbox.kit import (
     sin,
     wind_in,
 )
-from sandbox.physics.ballistics import BulletDrag, speed_of_sound
+from sandbox.physics.ballistics import POUND_PER_INCH, BulletDrag, drag_by_mach, speed_of_sound
 
 MUZZLE_SPEED = replace(BALL_SPEED, label="muzzle speed")
 HUNDRED_YARDS = 91.44  # m
@@ -185,6 +185,14 @@ def table(run: Run, parameters: Parameters) -> list[dict[str, float]]:
     return [{"range": it.x, "speed": it.speed, "height": it.y, "time": it.t} for it in moments if it is not None]
 
 
+def drag_coefficient(run: Run, parameters: Parameters) -> float:
+    """The bullet's own, as it leaves the barrel in still air: ``Cd(M) m / (BC d^2)``, Cd(M) of the standard shape."""
+    bullet = parameters.bullet
+    mach = parameters.launch.speed / speed_of_sound(parameters.air.temperature + 273.15)
+    density = bullet.mass / (2.0 * bullet.radius) ** 2  # kg/m^2
+    return drag_by_mach(bullet.drag.model, mach) * density / (bullet.coefficient * POUND_PER_INCH)
+
+
 FACTS = (
     Fact("height", "at the target", "m", fact_from(at_target, "y"), final_when="target", sides=SIDES),
     Fact("hold", "hold", "moa", fact_from(at_target, lambda it, _: -MOA * atan2(it.y, it.x)), "target", sides=HOLDS),
@@ -197,6 +205,7 @@ FACTS = (
         "elevation", "barrel up", "moa", lambda run, parameters: 60.0 * LAUNCH_ANGLE.compute(run, parameters), "start"
     ),
     Fact("table", "", "", table),
+    Fact("drag_coefficient", "", "", drag_coefficient, "start"),
     ENDED,
 )
 

@@ -288,8 +288,8 @@ def _sums(what: str) -> tuple[Fact, Fact]:
 
 FACTS = (
     Fact("lost", "energy lost", "%", _lost),
-    Fact("approach", "approach", "m/s", fact_from(blow, lambda met, _: met.touching(met.before).closing)),
-    Fact("separation", "separation", "m/s", fact_from(blow, lambda met, _: -met.touching(met.after).closing)),
+    Fact("approach", "approach, normal", "m/s", fact_from(blow, lambda met, _: met.touching(met.before).closing)),
+    Fact("separation", "separation, normal", "m/s", fact_from(blow, lambda met, _: -met.touching(met.after).closing)),
     Fact(
         "first_after", "first ball", "m/s", fact_from(blow, lambda met, _: hypot(*next(iter(met.after.values()))[2:4]))
     ),
