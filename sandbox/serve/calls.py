@@ -3,7 +3,9 @@ scenes, is never imported in its own process."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from time import monotonic
 from typing import Any, Literal, NamedTuple, TypedDict
 
 Changes = Mapping[str, Any]
@@ -35,6 +37,21 @@ class Reply(TypedDict, total=False):
     message: bytes  # JSON, deflated
     kept: dict[str, Any]
     error: str
+
+
+def timed(work: Callable[..., Reply], *args: Any) -> tuple[Reply, float]:
+    """The reply of ``work(*args)``, and the time in s that it took, without that in which others had the core."""
+    began, waited = monotonic(), _waited_for_core()
+    reply = work(*args)
+    return reply, monotonic() - began - (_waited_for_core() - waited)
+
+
+def _waited_for_core() -> float:
+    """The time in s in which this process was ready to go on and had no core; 0 where the system does not say."""
+    try:
+        return int(Path("/proc/self/schedstat").read_text("ascii").split()[1]) / 1e9
+    except (OSError, ValueError, IndexError):
+        return 0.0
 
 
 def described(source: str, is_task: bool) -> Reply:

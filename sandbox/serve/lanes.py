@@ -1,5 +1,5 @@
-"""Processes that compute for many players: one job a player at a time, the newest wins, and long ones never keep short
-ones waiting."""
+"""Processes that compute for many players: one job a player at a time, the newest wins, long ones never keep short ones
+waiting, and whoever has had the least of the time is next."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from time import monotonic
 from typing import Any
 
-from sandbox.serve.calls import Reply
+from sandbox.serve.calls import Reply, timed
 from sandbox.serve.limits import LONG, RUN
 from sandbox.workers.pool import WorkerLost, cores
 from sandbox.workers.processes import Processes
@@ -20,20 +20,30 @@ from sandbox.workers.processes import Processes
 SPARE = 2
 #: By so much those for long jobs give way to the others.
 NICE = 10
-#: Share of the last time in the time that a job is expected to take.
-LEARNED = 0.5
+#: Share of the last time in the time that a job is expected to take; and of how many kinds of jobs that is kept.
+LEARNED, KINDS = 0.5, 4096
+#: What a player has had counts half after so long, in s.
+HALF_LIFE = 20.0
+#: What is wanted besides the rest: of a player, one of these and one of the others run at a time.
+ASIDE = {"fan"}
 
 
 @dataclass(eq=False)
 class Job:
     """A call for a player, who is waiting for ``reply``; it is None if a newer one took its place."""
 
-    turn: Hashable  # of jobs with the same one, one runs at a time
+    player: Hashable
+    want: Hashable
     alike: Hashable  # what takes about as long
     work: Callable[..., Reply]
     args: tuple[Any, ...]
     reply: asyncio.Future[Reply | None]
     began: float = field(default=0.0)  # s, on the clock of monotonic
+
+    @property
+    def turn(self) -> Hashable:
+        """Of jobs with the same turn one runs at a time."""
+        return self.player, self.want in ASIDE
 
 
 class Lanes:
@@ -48,28 +58,29 @@ class Lanes:
         self._idle: list[Processes] = []
         self._running: dict[Hashable, Job] = {}  # by turn
         self._waiting: dict[Hashable, Job] = {}  # the newest of each want, in the order in which they came
-        self._takes: dict[Hashable, float] = {}  # s, by what takes about as long
+        self._takes: dict[Hashable, float] = {}  # s, of what is alike, of a player or of anybody; the oldest first
+        self._had: dict[Hashable, tuple[float, float]] = {}  # s of computing by player, when that was true
         self._tasks: set[asyncio.Task[None]] = set()
         for process in self._processes:
             self._follow(self._warm_up(process))
 
     async def compute(
-        self, turn: Hashable, want: Hashable, alike: Hashable, work: Callable[..., Reply], *args: Any
+        self, player: Hashable, want: Hashable, alike: Hashable, work: Callable[..., Reply], *args: Any
     ) -> Reply | None:
-        """The reply of ``work(*args)``, computed once no other job with this ``turn`` runs; None if something newer was
-        wanted by then, of the same ``want``. One that takes too long is ended, which its reply says. Jobs that are
-        ``alike`` take about as long."""
-        job = Job(turn, alike, work, args, asyncio.get_running_loop().create_future())
-        older = self._waiting.get((turn, want))
+        """The reply of ``work(*args)``, computed once no other job runs for this ``player``; None if something newer
+        was wanted by then, of the same ``want``. One that takes too long is ended, which its reply says. Jobs that are
+        ``alike`` take about as long, above all for the same player."""
+        job = Job(player, want, alike, work, args, asyncio.get_running_loop().create_future())
+        older = self._waiting.get((player, want))
         if older is not None and not older.reply.done():
             older.reply.set_result(None)
-        self._waiting[turn, want] = job  # in the place of the older one
+        self._waiting[player, want] = job  # in the place of the older one
         self._start()
         return await job.reply
 
-    def forget(self, turn: Hashable) -> None:
-        """Drop what is waited for with this turn: who wanted it has left."""
-        for key in [key for key, job in self._waiting.items() if job.turn == turn]:
+    def forget(self, player: Hashable) -> None:
+        """Drop what a player waits for, who has left."""
+        for key in [key for key, job in self._waiting.items() if job.player == player]:
             job = self._waiting.pop(key)
             if not job.reply.done():
                 job.reply.set_result(None)
@@ -80,22 +91,52 @@ class Lanes:
             process.close(abandon=True)
 
     def _start(self) -> None:
-        """Start what can be started: long jobs only as long as enough processes are left for short ones."""
+        """Start what can be started, first for whoever has had the least. Of long jobs so many run at once as there are
+        more processes than cores; they, and what its player has not tried, never take the last of the quick processes.
+        """
         now = monotonic()
         long = sum(self._is_long(job, now) for job in self._running.values())
-        for key, job in list(self._waiting.items()):
+        for key, job in sorted(self._waiting.items(), key=lambda each: self._share(each[1].player, now)):
             if not self._idle:
                 return
             is_long = self._is_long(job, now)
+            is_short = not is_long and self._expected(job) is not None
             if job.turn in self._running or (is_long and long >= max(1, self.width - cores())):
+                continue
+            process = max(self._idle, key=lambda each: (each in self._slow) != is_short)
+            if not is_short and process not in self._slow and sum(each not in self._slow for each in self._idle) < 2:
                 continue
             del self._waiting[key]
             long += is_long
             job.began = now
             self._running[job.turn] = job
-            process = max(self._idle, key=lambda each: (each in self._slow) == is_long)
             self._idle.remove(process)
             self._follow(self._run(job, process))
+
+    def _share(self, player: Hashable, now: float) -> float:
+        """The time in s that was computed for a player; what was long ago counts less."""
+        had, then = self._had.get(player, (0.0, now))
+        return had * 0.5 ** ((now - then) / HALF_LIFE)
+
+    def _learn(self, job: Job, took: float) -> None:
+        """Note how long a job took: for its player and for all, and what its player has had."""
+        now = monotonic()
+        for key in ((job.player, job.alike), (None, job.alike)):
+            self._takes[key] = LEARNED * took + (1 - LEARNED) * self._takes.pop(key, took)
+        self._takes[job.player, job.want, "last"] = took
+        self._had[job.player] = self._share(job.player, now) + took, now
+        for kept in (self._takes, self._had):
+            while len(kept) > KINDS:
+                del kept[next(iter(kept))]
+
+    def _expected(self, job: Job) -> float | None:
+        """The time in s that a job is expected to take: as this player's that were alike; else as his last one or as
+        anybody's, if that was long. None for what may be short."""
+        known = self._takes.get((job.player, job.alike))
+        if known is not None:
+            return known
+        others = self._takes.get((job.player, job.want, "last"), 0.0), self._takes.get((None, job.alike), 0.0)
+        return max(others) if max(others) > LONG else None
 
     def _follow(self, work: Coroutine[Any, Any, None]) -> None:
         task = asyncio.create_task(work)
@@ -114,15 +155,15 @@ class Lanes:
 
     def _is_long(self, job: Job, now: float) -> bool:
         """True if a job is expected to take long, or has done so."""
-        return self._takes.get(job.alike, 0.0) > LONG or (job.began > 0.0 and now - job.began > LONG)
+        return (self._expected(job) or 0.0) > LONG or (job.began > 0.0 and now - job.began > LONG)
 
     async def _run(self, job: Job, process: Processes) -> None:
         reply: Reply
-        lost = False
-        call = process.submit(job.work, *job.args)
+        lost, took = False, None
+        call = process.submit(timed, job.work, *job.args)
         ending = asyncio.get_running_loop().call_later(RUN, process.abandon, call)
         try:
-            reply = await asyncio.wrap_future(call)
+            reply, took = await asyncio.wrap_future(call)
         except WorkerLost:
             lost, late = True, monotonic() - job.began >= RUN
             why = f"this takes more than {RUN:g} s to compute, and was ended"
@@ -130,8 +171,7 @@ class Lanes:
         except Exception as error:
             reply = {"error": f"this could not be computed: {type(error).__name__}"}
         ending.cancel()
-        took = monotonic() - job.began
-        self._takes[job.alike] = LEARNED * took + (1 - LEARNED) * self._takes.get(job.alike, took)
+        self._learn(job, monotonic() - job.began if took is None else took)
         del self._running[job.turn]
         if not job.reply.done():
             job.reply.set_result(reply)

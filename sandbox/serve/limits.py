@@ -22,6 +22,8 @@ PINGS, PARTS = 1.0, 100
 TOLD = 2.0
 #: A run may take so long, in s; it is then ended, and the player is told.
 RUN = 8.0
+#: The run of a path may take so much processor time, in s; the player is then told to let go, which may take RUN.
+PATH = 3.0
 #: A fan goes on for so many s of processor time at most: it then has fewer shots.
 FAN = 0.8
 #: Runs that take longer than this, in s, wait for each other, and never keep others waiting.

@@ -187,8 +187,7 @@ class Room:
 
     def _leave(self, player: Player) -> None:
         player.connection, player.seen = None, monotonic()
-        for is_fan in (False, True):
-            self.lanes.forget((player.session, is_fan))
+        self.lanes.forget(player.session)
         self._tell_teachers()
 
     def _forget(self) -> None:
@@ -261,14 +260,12 @@ class Room:
 
     async def _computed(self, player: Player, kind: calls.Kind, message: Any, done: Any) -> None:
         source, changes, tries = player.source, dict(message.changes), player.tries
+        setting = await self._unaimed(source, changes)
         if kind == "stage" and self.lead.predict:  # where the picture ends would tell where the shot does
-            pull = (await self.described(source))["pull"] or {}
-            changes = {
-                key: value for key, value in changes.items() if key not in (pull.get("speed"), pull.get("angle"))
-            }
+            changes = setting
         ask = self._ask(source, changes, message, calls.Game(self.seed, player.number, tuple(tries)))
-        turn = player.session, kind == "fan"
-        reply = await self.lanes.compute(turn, kind, (kind, source), calls.computed, kind, ask)
+        alike = kind, source, frozenset(setting.items())
+        reply = await self.lanes.compute(player.session, kind, alike, calls.computed, kind, ask)
         connection = player.connection
         if kind == "shot":
             player.shooting = False
@@ -283,6 +280,11 @@ class Room:
             connection.send("path" if kind == "hidden" else kind, reply["message"])
         if done is not None:
             done(source, reply["kept"])
+
+    async def _unaimed(self, source: str, changes: Mapping[str, Any]) -> dict[str, Any]:
+        """The changes without those of a pull: shots of one setting take about as long."""
+        pull = (await self.described(source))["pull"] or {}
+        return {key: value for key, value in changes.items() if key not in (pull.get("speed"), pull.get("angle"))}
 
     def _shot_done(self, player: Player, message: messages.Shoot) -> Any:
         """Return the function that puts a computed shot into the teacher's table."""
@@ -326,7 +328,7 @@ class Room:
                 source = lead.source or self.first
                 await self._checked(source, message.changes)
                 ask = self._ask(source, message.changes, message, calls.Game(self.seed, 0))
-                alike = message.do, source
+                alike = message.do, source, frozenset((await self._unaimed(source, message.changes)).items())
                 reply = await self.lanes.compute(connection, message.do, alike, calls.computed, message.do, ask)
                 if reply is not None and "error" in reply:
                     connection.tell(reply["error"])

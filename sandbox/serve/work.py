@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import hashlib
 import json
+import signal
 import zlib
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from functools import lru_cache, wraps
 from typing import Any, ParamSpec
 
@@ -30,7 +32,7 @@ from sandbox.scene import Scene, load, simulate
 from sandbox.scene.scene_run import SceneRun
 from sandbox.serve import sessions
 from sandbox.serve.calls import Ask, Kind, Reply
-from sandbox.serve.limits import FAN, MEMORY, RESULT
+from sandbox.serve.limits import FAN, MEMORY, PATH, RESULT
 from sandbox.sport.amounts import shown_in
 from sandbox.tasks import Session
 from sandbox.tracebacks import one_line_error
@@ -70,6 +72,32 @@ def replying(work: Callable[Arguments, Reply]) -> Callable[Arguments, Reply]:
             return {"error": one_line_error(error)}
 
     return safe
+
+
+@contextmanager
+def _limited(seconds: float) -> Iterator[None]:
+    """End what takes more processor time, where the system can. Raises RunError."""
+    over = False
+
+    def end(*_: object) -> None:
+        nonlocal over
+        over = True
+        raise TimeoutError
+
+    if not hasattr(signal, "SIGPROF"):
+        yield
+        return
+    signal.signal(signal.SIGPROF, end)
+    signal.setitimer(signal.ITIMER_PROF, seconds, 0.1)  # again, where pymunk's callbacks swallow it
+    try:
+        yield
+    except Exception:  # an error of a force is another one by now
+        if not over:
+            raise
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0.0)
+    if over:
+        raise RunError(f"this path takes more than {seconds:g} s to compute: let go to see the shot")
 
 
 @lru_cache(maxsize=1)
@@ -199,12 +227,10 @@ def shot(ask: Ask) -> Reply:
     """The run that a player let go: with forces, events and energy, and what the others see of it."""
     with shown_in(ask.units):
         session = sessions.session_of(ask)
-        if session is None:
-            scene, run, view, _ = _flown(ask)
-        else:
-            scene = session.aimed(dict(ask.changes))
-            run = simulate(scene)
-            view = scene.picture(run, LAYOUTS[ask.narrow][0])
+        scene = _scene(ask.source).changed(ask.changes, "") if session is None else session.aimed(dict(ask.changes))
+        run = simulate(scene)
+        view = scene.picture(run, LAYOUTS[ask.narrow][0])
+        if session is not None:
             sessions.recorded(ask, session, run)
         standing = _standing(session)
         more = {**force_data(view, run), "told_events": told_events(run), "energy": _energy(run), **standing}
@@ -261,7 +287,8 @@ def _flown(ask: Ask, size: tuple[int, int] | None = None) -> tuple[Scene, SceneR
         scene = _scene(ask.source).changed(ask.changes, "")
     else:
         scene = session.scene.changed(session.task.aimed(dict(ask.changes)), "")
-    run = simulate(scene)
+    with _limited(PATH):
+        run = simulate(scene)
     return scene, run, scene.picture(run, size or LAYOUTS[ask.narrow][0]), session
 
 

@@ -76,6 +76,49 @@ def test_long_jobs_never_keep_others_waiting(monkeypatch: pytest.MonkeyPatch, tm
     run(play, 3)
 
 
+def test_slow_players_keep_no_quiet_one_waiting(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
+    """Six whose paths of the same scene never end, and one whose paths are known to be short: he waits for none."""
+    monkeypatch.setattr(lanes, "cores", lambda: 2)
+    monkeypatch.setattr(lanes, "RUN", 120.0)
+    go = str(tmp_path / "go")
+
+    async def play(made: Lanes) -> None:
+        await made.compute("quiet", "path", "golf", dict, [("kept", 0)])
+        await made.compute("slow 0", "path", "golf", time.sleep, 1.1 * lanes.LONG)
+        alike = ["golf", "golf", "golf", "storm 1", "storm 2", "storm 3"]
+        slow = [asyncio.create_task(made.compute(f"slow {n}", "path", alike[n], held_until, go)) for n in range(6)]
+        for n in range(20):
+            path = made.compute("quiet", "path", "golf", dict, [("kept", n)])
+            assert await asyncio.wait_for(path, 60.0) == {"kept": n}
+        assert len(made._running) >= 2
+        assert not any(each.done() for each in slow)
+        Path(go).touch()
+        await asyncio.gather(*slow)
+
+    run(play, 4)
+
+
+def test_whoever_has_had_the_least_is_next(tmp_path: Path):
+    async def play(made: Lanes) -> list[str]:
+        order: list[str] = []
+
+        async def ask(player: str, want: str) -> None:
+            await made.compute(player, want, "x", dict, [("kept", 1)])
+            order.append(player)
+
+        await made.compute("greedy", "path", "x", time.sleep, 0.05)
+        first = asyncio.create_task(made.compute("holder", "path", "hold", held_until, str(tmp_path / "go")))
+        asked = [asyncio.create_task(ask("greedy", want)) for want in ("path", "stage")]
+        await asyncio.sleep(0)
+        asked.append(asyncio.create_task(ask("new", "path")))
+        await asyncio.sleep(0)
+        (tmp_path / "go").touch()
+        await asyncio.gather(first, *asked)
+        return order
+
+    assert run(play, 1) == ["new", "greedy", "greedy"]
+
+
 def test_what_takes_too_long_or_breaks_is_ended(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(lanes, "RUN", 0.2)
 

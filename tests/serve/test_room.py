@@ -58,6 +58,16 @@ def test_place_fan_and_shot_come_as_asked(player):
     assert run["forces"]["causes"]
 
 
+def test_a_path_may_take_so_much_processor_time(monkeypatch: pytest.MonkeyPatch):
+    """A balloon in a storm: its path takes many seconds. The process goes on with the next one."""
+    monkeypatch.setattr(work, "PATH", 0.05)
+    storm = {"ball.radius": 0.19, "air.wind[0]": -100.0, "air.wind[1]": -14.0}
+    said = {"error": "this path takes more than 0.05 s to compute: let go to see the shot"}
+    assert work.path(calls.Ask("golf", storm, 1)) == said
+    monkeypatch.setattr(work, "PATH", 60.0)
+    assert "message" in work.path(calls.Ask("golf", {}, 2))
+
+
 def test_a_link_and_a_lost_connection_give_the_state_back(player):
     first = player(source="golf/driver", changes={"launch.angle": 15.5}, name="Ann")
     session = first.hear("welcome")["session"]
