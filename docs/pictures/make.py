@@ -17,8 +17,9 @@ from sandbox.picture.frames import to_image
 from sandbox.scene.finding import installed_folders
 from sandbox.window.app import App
 from sandbox.window.canvas import Canvas
-from sandbox.window.front import TILE, TILE_FILE
+from sandbox.window.front import TILE
 from sandbox.window.game import Game
+from sandbox.window.menu import TILE_FILE
 from sandbox.window.session import Session
 from sandbox.window.shots import Shot
 from sandbox.window.stage import Stage

@@ -27,7 +27,7 @@ from sandbox.window.history import Changes
 from sandbox.window.memory import Memory, usual_place
 from sandbox.window.opening import limit_of
 from sandbox.window.pointer import Pointer
-from sandbox.window.screen import SIZE
+from sandbox.window.screen import size_for
 from sandbox.window.session import Session
 from sandbox.window.sound import Sound
 from sandbox.window.view import View
@@ -74,7 +74,8 @@ class App:
         started, clock = perf_counter(), pygame.time.Clock()
         self.view.draw()  # that it loads
         pygame.display.flip()
-        while self.game.running and perf_counter() - started < FIRST and not self.view.stages.complete:
+        waits = self.view.shown.overlay is None  # under the tiles nothing is missed
+        while self.game.running and waits and perf_counter() - started < FIRST and not self.view.stages.complete:
             self.tick(clock.tick(FRAMES) / 1000)
         self.view.changed = True
         steady()
@@ -222,7 +223,7 @@ def play(
         first = replay.read(Path(shown), scene).changes if recorded else Changes(shown, dict(changes))
         session = Session(first.source, first.values)
         played = Game(session, worker, helper=helper, memory=Memory(usual_place()), best=BestList(usual_file()))
-        with opened(SIZE, f"{session.title} – Sports sandbox") as screen:
+        with opened(f"{session.title} – Sports sandbox") as screen:
             if recorded:
                 played.opening.open_replay(Path(shown), scene)
             app = App(played, screen, Sound(), page_of=page_of)
@@ -266,8 +267,8 @@ def _load_there(worker: Processes, source: str, changes: Mapping[str, Any]) -> N
 
 
 @contextmanager
-def opened(size: tuple[int, int], title: str) -> Iterator[pygame.Surface]:
-    """A window that can be resized. Raises RequestError if there is no display."""
+def opened(title: str) -> Iterator[pygame.Surface]:
+    """A window that can be resized, as large as suits the desktop. Raises RequestError if there is no display."""
     os.environ.setdefault("SDL_WINDOWS_DPI_AWARENESS", "permonitorv2")  # no scaling on high-resolution displays
     if sys.platform == "linux" and not any(os.environ.get(name) for name in SEEN_BY):
         raise RequestError(NO_DISPLAY)
@@ -276,7 +277,8 @@ def opened(size: tuple[int, int], title: str) -> Iterator[pygame.Surface]:
             pygame.display.init()
             if "SDL_VIDEODRIVER" not in os.environ and pygame.display.get_driver() in HEADLESS_DRIVERS:
                 raise RequestError(NO_DISPLAY)
-            screen = pygame.display.set_mode(size, pygame.RESIZABLE)
+            desktop = min(pygame.display.get_desktop_sizes())  # of several the smallest: it may be moved there
+            screen = pygame.display.set_mode(size_for(desktop), pygame.RESIZABLE)
         except pygame.error:
             raise RequestError(NO_DISPLAY) from None
         pygame.display.set_caption(title)

@@ -21,14 +21,15 @@ from sandbox.text import title_of
 from sandbox.window.best import BestList
 from sandbox.window.contest import AtMatch, AtTask, Contest
 from sandbox.window.game import Game
+from sandbox.window.menu import tile_of
 from sandbox.window.overlay import HOVERED, Overlay
 from sandbox.window.prediction import Prediction
 from sandbox.window.scoreboard import SMALL_STAR, star, stars
 
 CARD = palette("card")
 
-#: The picture of a tile, in px, and its name in a scene's folder.
-TILE, TILE_FILE = (320, 180), "tile.jpg"
+#: The size of the picture of a tile, in px.
+TILE = (320, 180)
 #: Width of a tile in px on 720 rows, at most.
 WIDEST = 240
 START_HERE = "Start here"
@@ -130,7 +131,7 @@ class Front(Overlay):
         if self.best.of(first):
             self.first_sport = None  # it was played
         self.chosen = self.all[0]
-        self._images: dict[tuple[str, tuple[int, int]], pygame.Surface] = {}
+        self._images: dict[tuple[str, tuple[int, int]], pygame.Surface | None] = {}
 
     @property
     def rows(self) -> Sequence[Sport | Entry]:
@@ -254,11 +255,7 @@ class Front(Overlay):
     def _image(self, sport: Sport, size: tuple[int, int]) -> pygame.Surface | None:
         key = sport.name, size
         if key not in self._images:
-            try:
-                image = pygame.image.load(sport.folder / TILE_FILE)
-            except (OSError, pygame.error):
-                return None
-            self._images[key] = pygame.transform.smoothscale(image.convert(24), size)
+            self._images[key] = tile_of(sport.folder, size)
         return self._images[key]
 
     def _page(self, sport: Sport, room: pygame.Rect) -> None:

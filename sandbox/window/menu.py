@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
+from pathlib import Path
 
 import pygame
 
@@ -11,6 +12,7 @@ from sandbox.errors import SandboxError
 from sandbox.picture.palette import palette
 from sandbox.scene import load, simulate
 from sandbox.scene.finding import folder_of, is_installed
+from sandbox.window.canvas import Canvas
 from sandbox.window.overlay import HOVERED, Overlay, Row
 from sandbox.workers import Processes
 
@@ -18,6 +20,16 @@ CARD = palette("card")
 
 #: Size of a thumbnail in px, and width of the column of groups in px on 720 rows.
 THUMBNAIL, COLUMN = (160, 90), 170
+#: The picture of a scene in its folder; and its opacity (of 255) in place of a thumbnail that is still made.
+TILE_FILE, UNTIL_THEN = "tile.jpg", 90
+
+
+def tile_of(folder: Path | None, size: tuple[int, int]) -> pygame.Surface | None:
+    """The picture in the folder of a scene, in px of that size; None if there is none."""
+    try:
+        return pygame.transform.smoothscale(pygame.image.load((folder or Path()) / TILE_FILE).convert(24), size)
+    except (OSError, pygame.error):
+        return None
 
 
 def thumbnail(source: str) -> bytes:
@@ -42,6 +54,11 @@ class Thumbnails:
         if source not in self.made:
             folder = folder_of(source)
             safe = folder is not None and is_installed(folder)
+            tile = tile_of(folder, THUMBNAIL) if folder is not None and source == folder.name else None
+            if tile is not None:  # of the scene itself
+                self.made[source] = Future()
+                self.made[source].set_result(pygame.image.tobytes(tile, "RGB"))
+                return self.made[source]
             self.made[source] = self.worker.submit(thumbnail, source) if safe else self.worker.submit(bytes)
         return self.made[source]
 
@@ -98,9 +115,12 @@ class Menu(Overlay):
             self.choose(what.action)
         return isinstance(what, str)
 
+    def place(self, sheet: Canvas) -> pygame.Rect:
+        return sheet.surface.get_rect().inflate(-4 * sheet.gap, -4 * sheet.gap)
+
     def compose(self) -> None:
         sheet, letters, gap, unit = self.sheet, self.sheet.lettering, self.sheet.gap, self.sheet.unit
-        rect = sheet.surface.get_rect().inflate(-4 * gap, -4 * gap)
+        rect = self.place(sheet)
         sheet.board(rect)
         small, top = letters.height("small"), rect.top + letters.height("medium") + 3 * gap
         at, title = (rect.left + 3 * gap, rect.top + 2 * gap), letters.cut(self.title, "medium", rect.width, bold=True)
@@ -166,5 +186,9 @@ class Menu(Overlay):
         if pixels:
             image = pygame.image.frombuffer(pixels, THUMBNAIL, "RGB")
             self.sheet.surface.blit(pygame.transform.smoothscale(image, frame.size), frame)
-        else:
-            self.sheet.painter.panel(frame, CARD["quiet"], 0.12, 4 * self.sheet.unit)
+            return
+        self.sheet.painter.panel(frame, CARD["quiet"], 0.12, 4 * self.sheet.unit)
+        tile = None if picture.done() else tile_of(folder_of(source), frame.size)
+        if tile is not None:
+            tile.set_alpha(UNTIL_THEN)
+            self.sheet.surface.blit(tile, frame)

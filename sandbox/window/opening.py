@@ -38,6 +38,7 @@ class Loading(NamedTuple):
     said: str
     began: float  # perf_counter, in s
     limit: float  # in s, after which it is given up
+    again: bool  # the same scene, whose files were saved
 
     @property
     def takes(self) -> float:
@@ -83,7 +84,7 @@ class Opening:
         code = any(file.suffix == ".py" for file in files)
         names, changes = ", ".join(str(file) for file in files), self.session.changes
         work = self.workers.path.submit(checked, changes.source, changes.values, self.session.base.folder, code)
-        self._load(work, lambda: self._read_again(names, code), self.messages.files_are_bad, names, LOADING)
+        self._load(work, lambda: self._read_again(names, code), self.messages.files_are_bad, names, LOADING, again=True)
 
     def _read_again(self, names: str, code: bool) -> None:
         """Read saved files in the window, too."""
@@ -112,11 +113,12 @@ class Opening:
         failed: Callable[[BaseException], object],
         what: str,
         limit: float,
+        again: bool = False,
     ) -> None:
         """Do something with a scene once the worker has loaded it; or say why it could not be."""
         if self.loading is not None:  # of what is no longer wanted
             self.workers.path.abandon(self.loading.work)
-        self.loading = Loading(work, then, failed, f"loading {what}", perf_counter(), limit)
+        self.loading = Loading(work, then, failed, f"loading {what}", perf_counter(), limit, again)
         self.take(self.workers.patience)
 
     def take(self, patience: float | None) -> None:

@@ -68,9 +68,11 @@ class Overlay:
         return next((what for rect, what in self.places if rect.collidepoint(position)), None)
 
     def pressed(self, at: tuple[int, int]) -> bool:
-        """Do what a click does; returns whether the overlay stays."""
+        """Do what a click does; returns whether the overlay stays, as it does for a click between its choices."""
         what = self.at(at)
-        return what is not None and self.do(what)
+        if what is None:
+            return bool(self.places) and self.place(self.sheet).collidepoint(at)
+        return self.do(what)
 
     def key(self, key: int) -> bool | None:
         """Do what a key does; returns whether the overlay stays, or None if the key does nothing here."""

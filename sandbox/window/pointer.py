@@ -108,6 +108,9 @@ class Pointer:
 
     def _on_picture(self, at: Pixel) -> Callable[[Pixel], object] | None:
         view, game = self.view, self.view.game
+        if not view.stages.ready:
+            game.messages.tell("the scene is still loading")
+            return None
         if "tape" in view.shown.on:
             return self._lay(at)
         if pygame.key.get_mods() & pygame.KMOD_CTRL:

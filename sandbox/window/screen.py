@@ -10,8 +10,20 @@ from sandbox.window.canvas import Canvas
 from sandbox.window.panel import Panel
 
 SIZE = (1280, 720)
+#: A window takes this share of the desktop's width and height, or SIZE if that is more, and leaves so many px of them,
+#: for its title and what else lies along the edges of a desktop.
+SHARE, EDGES = 2 / 3, (16, 80)
 #: Everything is drawn at least this large, and shrunk for a smaller window.
 SMALLEST = (480, 400)
+
+
+def size_for(desktop: tuple[int, int]) -> tuple[int, int]:
+    """The size of a new window on a desktop, both in px."""
+    width, height = (
+        max(1, min(max(usual, round(SHARE * room)), room - edges))
+        for usual, room, edges in zip(SIZE, desktop, EDGES, strict=True)
+    )
+    return width, height
 
 
 class Screen:
@@ -22,7 +34,7 @@ class Screen:
         self.surface = surface  # of the window
         self.area = pygame.Rect(0, 0, 0, 0)
         self.frame_cost = 0.0  # s, smoothed
-        self._windowed = SIZE  # its size before full screen
+        self._windowed = surface.get_size()  # its size before full screen
         self._caption = ""
         self.lay_out(None)
 

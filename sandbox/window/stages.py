@@ -69,6 +69,13 @@ class Stages:
         return failed or (self.game.shot is not None and self.up_to_date)
 
     @property
+    def ready(self) -> bool:
+        """True once the scene that is played is seen, or cannot be drawn, and no other is on its way."""
+        loading, latest, scene = self.game.opening.loading, self.latest, self.game.session.base
+        seen = latest is not None and latest.shot.scene.folder == scene.folder
+        return (loading is None or loading.again) and (seen or self.game.failure is not None or bool(self.undrawable))
+
+    @property
     def undrawable(self) -> str | None:
         """The reason why there is no stage for the shot; None if there is one."""
         if self.job.error is None or self.job.key != self._key:

@@ -20,7 +20,8 @@ from sandbox.window import commands, keeping
 from sandbox.window.app import play
 from sandbox.window.best import MOST, Best, BestList, usual_file
 from sandbox.window.contest import AtMatch, AtTask
-from sandbox.window.front import START_HERE, TILE, TILE_FILE, Front, entries_of, first_task, sports
+from sandbox.window.front import START_HERE, TILE, Front, entries_of, first_task, sports
+from sandbox.window.menu import TILE_FILE
 from sandbox.window.panel import SLIDER_OF
 from sandbox.window.prediction import Prediction
 from sandbox.window.referee import AFTER, decided_at, deciding_ball
@@ -112,6 +113,21 @@ class TestTheFirstScreen:
         player.key(pygame.K_RETURN)  # the last row: the scene itself
         player.settle()
         assert (player.game.session.title, player.game.referee.contest) == (front.all[0].name, None)
+
+    def test_a_drag_on_a_sports_page_belongs_to_that_page(self, player):
+        player = player("golf", (900, 560))
+        player.game.referee.begin(AtTask(tasks.load("free-throw"), seed=SEED))
+        player.settle()
+        player.key(pygame.K_1)
+        front = player.view.shown.overlay
+        player.click(next(rect.center for rect, what in front.places if what.name == "golf"))
+        assert front.sport.name == "golf"
+        before = player.game.session.changes
+        player.press((300, 480))  # where nothing can be chosen
+        player.move((200, 500))
+        player.release((200, 500))
+        assert player.view.shown.overlay is front
+        assert (player.game.session.changes, player.game.watching.playback) == (before, None)
 
     def test_a_damaged_task_says_so_in_its_row(self, tmp_path):
         (tmp_path / "tasks").mkdir()

@@ -11,10 +11,11 @@ import pytest
 
 from sandbox.new import new_scene
 from sandbox.scene import listings
+from sandbox.scene.finding import installed_folders
 from sandbox.window.app import App
 from sandbox.window.game import Game
 from sandbox.window.memory import HINTS, MOST, Memory, usual_place
-from sandbox.window.menu import THUMBNAIL, thumbnail
+from sandbox.window.menu import THUMBNAIL, thumbnail, tile_of
 from sandbox.window.session import Session
 
 from .test_play import Unanswered
@@ -93,6 +94,29 @@ def test_the_menu_shows_thumbnails_texts_and_own_files(remembering, tmp_path, mo
     remembering.click(next(rect.center for rect, what in menu.places if what == "in this folder"))
     remembering.settle()
     assert menu.pictures["./ours"].result() == b""  # no code runs only because it lies here
+
+
+def test_sports_in_the_menu_have_their_pictures_at_once(remembering):
+    remembering.key(pygame.K_l)
+    menu = remembering.view.shown.overlay
+    shown = [what.action for _, what in menu.places if not isinstance(what, str)]
+    assert len(shown) > 10
+    assert [name for name in shown if not menu.pictures[name].done()] == []
+
+
+def test_until_there_is_a_thumbnail_the_sport_is_seen(remembering, monkeypatch):
+    waiting: Future[bytes] = Future()
+    remembering.key(pygame.K_l)
+    menu = remembering.view.shown.overlay
+    monkeypatch.setattr(menu, "picture_of", lambda source: waiting)
+    menu.turn_to("golf")
+    remembering.frames(1)
+    remembering.view.draw()
+    tile = tile_of(installed_folders()["golf"], THUMBNAIL)
+    row = next(rect for rect, what in menu.places if not isinstance(what, str))
+    sky, ground = (menu.sheet.surface.get_at((row.left + 20, row.centery + dy)) for dy in (-25, 25))
+    assert tile.get_at((20, 20))[2] > tile.get_at((20, 70))[2]
+    assert sky[2] > ground[2]
 
 
 def test_thumbnails_that_nobody_waits_for_are_not_drawn(remembering):

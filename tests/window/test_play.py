@@ -72,6 +72,24 @@ def test_letting_go_shoots_what_was_shown(player):
     assert again.result == shot.run.result
 
 
+def test_no_pull_is_taken_while_another_scene_loads(player, monkeypatch):
+    """Nor while the picture is still that of the one before; files that are read again do not get in the way."""
+    player = player("golf")
+    game, at = player.game, (300, 300)
+    monkeypatch.setattr(game.workers, "path", Unanswered())
+    monkeypatch.setattr(game.workers, "patience", 0.0)
+    game.opening.open("soccer")
+    player.press(at)
+    player.move((200, 320))
+    assert game.grasp.pull is None
+    assert game.notices[-1][0] == "the scene is still loading"
+    player.release((200, 320))
+    assert game.watching.playback is None
+    game.opening.loading = game.opening.loading._replace(again=True)
+    player.press(at)
+    assert game.grasp.pull is not None
+
+
 def test_with_shift_a_pull_aims_ten_times_as_finely(player, monkeypatch):
     player = player("curling")
     session, (x, y) = player.game.session, (600, 300)

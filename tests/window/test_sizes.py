@@ -13,6 +13,7 @@ from sandbox.picture.lettering import Lettering
 from sandbox.picture.sheet import rows_of
 from sandbox.scene import listings
 from sandbox.window import commands
+from sandbox.window.app import opened
 from sandbox.window.bar import HEIGHT, ICONS, LEAST, WORDS, Bar
 from sandbox.window.canvas import Canvas
 from sandbox.window.commands import TABLE
@@ -27,6 +28,23 @@ SIZES = [
 ]
 TITLES = ("golf", "billiards/three-rail-carom *", "soccer-curl/roberto-carlos-1997 *")
 PUTT = "golf/putt"
+
+
+@pytest.mark.parametrize(
+    ("desktop", "window"),
+    [
+        ((800, 480), (784, 400)),
+        ((1024, 600), (1008, 520)),
+        ((1366, 768), (1280, 688)),
+        ((1920, 1080), (1280, 720)),
+        ((3840, 2160), (2560, 1440)),
+        ((1080, 1920), (1064, 1280)),
+    ],
+)
+def test_a_new_window_fits_its_desktop(desktop, window, monkeypatch):
+    monkeypatch.setattr(pygame.display, "get_desktop_sizes", lambda: [(5000, 3000), desktop])
+    with opened("golf") as screen:
+        assert screen.get_size() == window
 
 
 def bar_of(size: tuple[int, int], title: str, duration: float, t: float | None = None) -> Bar:
