@@ -17,6 +17,7 @@ from sandbox.lab.many import Runs
 from sandbox.lab.spread import Spread, report
 from sandbox.lab.spread.causes import Cause, points_of, shares_of
 from sandbox.lab.spread.statistics import Ellipse, Share, shots_for_mean, shots_for_share, wilson
+from sandbox.sport.amounts import shown_in
 
 GOLF = {"launch.speed": "1%", "launch.angle": "1deg"}
 
@@ -122,6 +123,21 @@ def test_picture_and_page_are_written(throws: Spread, tmp_path: Path):
     assert "sandbox spread basketball --by launch.speed=" in page
     assert page.count("<section>") == 4
     assert throws.page() == page  # without a date, and with names that are the same each time
+
+
+@pytest.mark.parametrize(
+    ("units", "mean", "sd", "expected"),
+    [
+        (None, -0.019, 0.14, "−0.02 m ± 0.14 m"),
+        (None, 0.019, 0.0042, "1.9 cm ± 0.42 cm"),
+        (None, 252.3, 4.61, "252.3 m ± 4.6 m"),
+        ("us", 252.3, 4.61, "276 yd ± 5 yd"),
+    ],
+)
+def test_mean_and_deviation_are_in_one_unit(throws, units, mean, sd, expected):
+    fact = next(key for key, fact in throws.scene.facts.items() if fact.unit == "m" and fact.digits is None)
+    with shown_in(units):
+        assert report.mean_and_deviation(throws, fact, mean, sd) == expected
 
 
 def test_every_column_is_in_the_chosen_units(capsys):

@@ -10,7 +10,7 @@ import numpy as np
 from sandbox.lab.axes import result_label
 from sandbox.lab.chart import figure
 from sandbox.lab.spread import Spread
-from sandbox.lab.spread.report import about, deviation, name_of, percent, title, value
+from sandbox.lab.spread.report import about, mean_and_deviation, name_of, percent, title
 
 #: Most histograms, and most rows of causes.
 _MOST, _ROWS = 6, 7
@@ -73,8 +73,7 @@ def _histogram(axes: Any, spread: Spread, name: str, colours: dict[str, Any]) ->
     axes.axvline(found.mean, color=card["ink"], linewidth=1.0)
     for end in found.quantiles((0.025, 0.975)).values():
         axes.axvline(end, color=card["ink"], linewidth=0.9, linestyle=(0, (2, 2)))
-    axes.set_title(f"{value(spread, name, found.mean)} ± {deviation(spread, name, found.sd)}", loc="left", fontsize=11,
-                   fontweight="bold")  # fmt: skip
+    axes.set_title(mean_and_deviation(spread, name, found.mean, found.sd), loc="left", fontsize=11, fontweight="bold")
     axes.set_xlabel(result_label(spread.scene, name))
     axes.set(yticks=[], ylim=(0, 1.08 * max(float(base.max()), 1.0)))
     axes.spines["left"].set_visible(False)

@@ -9,7 +9,7 @@ from sandbox.lab.spread import Indices, Spread
 from sandbox.lab.spread.needs import Need
 from sandbox.lab.spread.statistics import QUANTILES, Ellipse, Numbers, Share
 from sandbox.lab.tables import paragraph, table
-from sandbox.sport.amounts import amount, in_chosen_unit, margin, signed, significant
+from sandbox.sport.amounts import amount, in_chosen_unit, ladder, margin, signed, significant, written
 from sandbox.text import one_line
 from sandbox.units import convert
 
@@ -120,6 +120,18 @@ def deviation(spread: Spread, fact: str, sd: float) -> str:
     """A standard deviation in a fact's unit or the chosen one, to two digits."""
     size, unit = in_chosen_unit(sd, spread.scene.units[fact])
     return f"{significant(size)} {unit}".rstrip().replace(" deg", "°")
+
+
+def mean_and_deviation(spread: Spread, fact: str, mean: float, sd: float) -> str:
+    """Both in the unit of the larger: ``−0.02 m ± 0.14 m``."""
+    it = spread.scene.facts[fact]
+    steps = ladder(it.unit)
+    step = next((step for step in steps if max(abs(mean), sd) >= step.least), None)
+    if step is None:
+        return f"{value(spread, fact, mean)} ± {deviation(spread, fact, sd)}"
+    size = convert(sd, it.unit, step.unit) if it.unit != step.unit else sd
+    deviates = f"{significant(size)} {step.unit}".replace(" deg", "°")
+    return f"{written(float(mean), it.unit, [step], it.digits)} ± {deviates}"
 
 
 def percent(share: float) -> str:
