@@ -6,6 +6,8 @@ from __future__ import annotations
 PLAYERS = 60
 #: Players who left are remembered so long, in s, to come back to their state; at most four times PLAYERS are.
 REMEMBERED = 3600.0
+#: The teacher sees them for so long, in s: a line that was lost is there again by then.
+AWAY = 60.0
 #: Characters of a name.
 NAME = 20
 #: Bytes of a message from a browser; a longer one closes its connection.

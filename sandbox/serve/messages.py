@@ -77,6 +77,13 @@ class Lead(Message):
     changes: Changes = {}
 
 
+class See(Message):
+    """The teacher looks at another scene, which nobody else notices."""
+
+    do: Literal["see"]
+    source: Key
+
+
 class Freeze(Message):
     """The teacher stops everybody, or lets them go on."""
 
@@ -99,7 +106,7 @@ class Clear(Message):
 
 _PUPIL: TypeAdapter[Any] = TypeAdapter(Annotated[Hello | Name | Play | Aim | Shoot, Field(discriminator="do")])
 _TEACHER: TypeAdapter[Any] = TypeAdapter(
-    Annotated[Hello | Aim | Lead | Freeze | Predict | Clear, Field(discriminator="do")]
+    Annotated[Hello | Aim | Lead | See | Freeze | Predict | Clear, Field(discriminator="do")]
 )
 
 

@@ -154,7 +154,10 @@ const heard = {
     const other = state.source !== scene.source || scene.task;
     Object.assign(state, { source: scene.source, changes: { ...scene.changes }, scene, shot: false });
     scene.by = new Map(scene.parameters.map((each) => [each.key, each]));
-    if (other || !state.stage) Object.assign(state, { stage: null, run: null, compared: [] });
+    if (other || !state.stage) {
+      Object.assign(state, { stage: null, run: null, compared: [] });
+      waiting(`Loading ${scene.title} ...`);
+    }
     if (player) player.fan = null;
     compare();
     document.title = `${scene.title}: sports sandbox`;
@@ -206,6 +209,7 @@ const heard = {
       told("refused", text);
       later("refused", READ, () => told("refused", ""));
     } else tell(text);
+    if (!state.stage || !state.run) waiting(text);
     for (const each of Object.values(ask)) if (n !== null && each.awaited === n) each.answered(n);
   },
 };
@@ -225,6 +229,7 @@ function show(run, composed = false) {
   else if (state.shot) player.watch(data);
   else player.aim(data);
   if (composed) player.reach = player.extent;
+  if (fits(stage)) waiting("");
   const goal = state.lead.predict ? `Predict the ${fact()?.label ?? "result"}, then shoot` : scene.about;
   $("verdict").textContent = run.hidden ? goal : run.verdict;
   standing(run.task);
@@ -232,8 +237,7 @@ function show(run, composed = false) {
   $("notes").textContent = stage.view.notes.join("   ·   ");
   player.heading($("picture").clientWidth);
   card(run, ghosts);
-  const small = stage.view.size[0] < 1000;
-  if (!composed && (run.place !== stage.place || small !== narrow() || !(run.hidden || player.inSight))) later("stage", STILL, askStage);
+  if (!composed && (run.place !== stage.place || !fits(stage) || !(run.hidden || player.inSight))) later("stage", STILL, askStage);
   $("keep").disabled = Boolean(run.hidden);
 }
 
@@ -362,7 +366,10 @@ function begin() {
     later("copied", 1500, () => ($("copy").textContent = "Copy"));
   });
   addEventListener("resize", () => {
-    if (state.stage && (state.stage.view.size[0] < 1000) !== narrow()) later("stage", STILL, askStage);
+    if (state.stage && !fits(state.stage)) {
+      waiting("Turning the picture ...");
+      later("stage", STILL, askStage);
+    } else if (state.run) waiting("");
     if (state.shot && state.run.energy) drawEnergy($("energy"), $("energy-legend"), state.run.energy);
   });
   addEventListener("hashchange", () => {

@@ -14,7 +14,7 @@ from sandbox.errors import RequestError
 from sandbox.serve import calls, messages
 from sandbox.serve.connection import LATER, Connection
 from sandbox.serve.lanes import Lanes
-from sandbox.serve.limits import HELLO, PLAYERS, REMEMBERED, ROWS
+from sandbox.serve.limits import AWAY, HELLO, PLAYERS, REMEMBERED, ROWS
 
 
 class Listed(NamedTuple):
@@ -77,7 +77,7 @@ class Room:
         self.scenes, self.lanes, self.units = scenes, lanes, units
         self.first = next(iter(scenes))
         self.players: dict[str, Player] = {}  # by session
-        self.teachers: set[Connection] = set()
+        self.teachers: dict[Connection, str] = {}  # the scene that each looks at; "" for that of all
         self.lead = Lead()
         self.rows: deque[Row] = deque(maxlen=ROWS)
         self.counted = 0
@@ -188,6 +188,7 @@ class Room:
     def _leave(self, player: Player) -> None:
         player.connection, player.seen = None, monotonic()
         self.lanes.forget(player.session)
+        asyncio.get_running_loop().call_later(AWAY, self._tell_teachers)
         self._tell_teachers()
 
     def _forget(self) -> None:
@@ -306,7 +307,7 @@ class Room:
 
     async def teach(self, connection: Connection) -> None:
         """Follow a teacher's connection to its end."""
-        self.teachers.add(connection)
+        self.teachers[connection] = ""
         try:
             while (text := await connection.receive()) is not None:
                 try:
@@ -314,7 +315,7 @@ class Room:
                 except RequestError as error:
                     connection.tell(str(error))
         finally:
-            self.teachers.discard(connection)
+            del self.teachers[connection]
             self.lanes.forget(connection)
 
     async def _taught(self, connection: Connection, message: Any) -> None:
@@ -325,7 +326,7 @@ class Room:
                 connection.send("welcome", {"scenes": self._listed()})
                 await self._show(connection)
             case messages.Aim():
-                source = lead.source or self.first
+                source = self._seen(connection)
                 await self._checked(source, message.changes)
                 ask = self._ask(source, message.changes, message, calls.Game(self.seed, 0))
                 alike = message.do, source, frozenset((await self._unaimed(source, message.changes)).items())
@@ -344,8 +345,14 @@ class Room:
                     if message.source:
                         player.last = None
                         await self._open(player, message.source, message.changes)
-                for teacher in self.teachers:
+                self.teachers = dict.fromkeys(self.teachers, "")
+                for teacher in list(self.teachers):
                     await self._show(teacher)
+            case messages.See():
+                await self.described(message.source)
+                self.teachers[connection] = message.source
+                await self._show(connection)
+                return
             case messages.Freeze():
                 lead.frozen = message.on
             case messages.Predict():
@@ -362,19 +369,25 @@ class Room:
                 player.connection.send("lead", self.lead.as_message())
         self._tell_teachers()
 
+    def _seen(self, teacher: Connection) -> str:
+        """The scene that a teacher looks at."""
+        return self.teachers.get(teacher) or self.lead.source or self.first
+
     async def _show(self, teacher: Connection) -> None:
         """Tell a teacher which scene is shown."""
-        source = self.lead.source or self.first
-        teacher.send("scene", _scene_message(source, self.lead.changes, await self.described(source)))
+        source = self._seen(teacher)
+        changes = self.lead.changes if source == (self.lead.source or self.first) else {}
+        teacher.send("scene", _scene_message(source, changes, await self.described(source)))
 
     def _tell_teachers(self) -> None:
-        """Tell the teachers what has changed: who is there, and all shots."""
+        """Tell the teachers what has changed: who is there, or left a moment ago, and all shots."""
         if not self.teachers:
             return
         players = [
             {"number": each.number, "name": each.name, "here": each.connection is not None, "shots": each.shots,
              "source": each.source, "last": each.last}
             for each in self.players.values()
+            if each.connection is not None or monotonic() - each.seen < AWAY
         ]  # fmt: skip
         rows = [row._asdict() for row in list(self.rows)[-200:]]
         for teacher in self.teachers:

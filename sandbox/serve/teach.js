@@ -76,7 +76,8 @@ const heard = {
     fillScenes($("scene"), scenes);
   },
   scene(scene) {
-    Object.assign(state, { source: scene.source, changes: { ...scene.changes }, scene });
+    if (scene.source !== state.source) waiting(`Loading ${scene.title} ...`);
+    Object.assign(state, { source: scene.source, changes: { ...scene.changes }, scene, stage: null, run: null });
     scene.by = new Map(scene.parameters.map((each) => [each.key, each]));
     $("scene").value = scene.source;
     settings.build(scene.parameters);
@@ -88,6 +89,7 @@ const heard = {
     ask.path.ask({ changes: state.changes });
     [state.seen, state.asked] = [state.changes, ""];
     askStage();
+    shown();
   },
   async stage({ n, stage }) {
     if (!ask.stage.answered(n)) return;
@@ -109,6 +111,7 @@ const heard = {
   error({ text }) {
     $("told").textContent = text;
     $("told").hidden = false;
+    if (!state.stage || !state.run) waiting(text);
     clearTimeout(state.clearing);
     state.clearing = setTimeout(() => ($("told").hidden = true), 6000);
   },
@@ -120,6 +123,7 @@ function show() {
   if (!board) window.board = board = new Board(data);
   board.load(data);
   board.resized();
+  waiting("");
 }
 
 const cell = (kind, text, name = "") => Object.assign(document.createElement(kind), { textContent: text, className: name });
@@ -138,12 +142,29 @@ function shown() {
   $("players").replaceChildren(...players.map((each) => {
     const item = cell("li", "", each.here ? "" : "away"), dot = document.createElement("i");
     dot.style.background = colourOf(each.number);
-    item.append(dot, each.name, cell("span", ` ${each.shots ? counted(each.shots) : ""}${each.last?.task ? `, ${each.last.task.total}${each.last.task.over ? ` ${"★".repeat(each.last.task.stars)}` : ""}` : ""}${each.here ? "" : " away"}`));
+    item.append(dot, each.name, cell("span", ` ${each.shots ? counted(each.shots) : ""}${each.last?.task ? `, ${each.last.task.total}${each.last.task.over ? ` ${"★".repeat(each.last.task.stars)}` : ""}` : ""}${each.source === state.source ? "" : `, in ${each.source}`}${each.here ? "" : ", away"}`));
     return item;
   }));
+  elsewhere(rows);
   table(rows);
-  board?.draw();
+  if (state.stage) board?.draw();
 }
+
+/** Which other scenes have shots, each with a button that shows them. */
+function elsewhere(rows) {
+  const by = new Map();
+  for (const { scene } of rows) if (scene !== state.source) by.set(scene, (by.get(scene) ?? 0) + 1);
+  $("others").hidden = !by.size;
+  $("others").replaceChildren("In other scenes: ", ...[...by].flatMap(([source, count]) => {
+    const button = cell("button", `${source}: ${counted(count)}`);
+    button.type = "button";
+    button.addEventListener("click", () => see(source));
+    return [button, " "];
+  }));
+}
+
+/** Show another scene here, and its shots. */
+const see = (source) => wire.send({ do: "see", source });
 
 function table(rows) {
   const { scene } = state, fact = scene?.facts.find(({ key }) => key === $("fact").value);
@@ -183,12 +204,17 @@ function begin() {
     const source = $("scene").value;
     wire.send({ do: "lead", source, changes: source === state.source ? state.changes : {} });
   });
+  $("scene").addEventListener("change", () => see($("scene").value));
   $("free").addEventListener("click", () => wire.send({ do: "lead", source: "", changes: {} }));
   $("freeze").addEventListener("click", () => wire.send({ do: "freeze", on: !state.room.lead.frozen }));
   $("predict").addEventListener("change", () => wire.send({ do: "predict", fact: $("predict").value }));
   $("clear").addEventListener("click", () => wire.send({ do: "clear" }));
   $("fact").addEventListener("change", () => table(state.room.rows));
-  addEventListener("resize", () => (shown(), state.scene && askStage()));
+  addEventListener("resize", () => {
+    if (state.stage && !fits(state.stage)) waiting("Turning the picture ...");
+    shown();
+    askStage();
+  });
 }
 
 begin();

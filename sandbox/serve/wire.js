@@ -106,8 +106,17 @@ class Latest {
 }
 Latest.number = 0;
 
+/** A line in place of the picture, until it is there; the picture where it is empty. */
+function waiting(line) {
+  $("waiting").textContent = line;
+  $("waiting").hidden = !line;
+}
+
 /** True for a phone that is held upright. */
 const narrow = () => $("picture").clientWidth < 700 && innerHeight > innerWidth;
+
+/** True if a stage was composed for the page as it is held now. */
+const fits = (stage) => (stage.view.size[0] < 1000) === narrow();
 
 /** A stage as it came, with its images. */
 async function staged(stage) {

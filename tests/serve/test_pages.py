@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Iterator, Sequence
 from itertools import combinations
 from pathlib import Path
 from typing import Any
@@ -282,6 +283,71 @@ def test_a_teacher_and_two_pupils(pages, browser: Browser, served: Served):
     other.close()
     assert pupil.complaints() == []
     assert teacher.at().complaints() == []
+
+
+def test_a_line_says_what_is_waited_for(pages, browser: Browser):
+    """In place of the picture: never a black box, nor one that is stretched once a phone was turned."""
+    page = pages("", width=390, height=844)
+    page.aimed()
+    line = "document.getElementById('waiting')"
+    page.until(f"{line}.hidden")
+    browser.run("(ask.stage.ask = () => {})")  # a server that takes long
+    browser.resize(844, 390)
+    page.until(f"!{line}.hidden")
+    assert browser.text("#waiting") == ["Turning the picture ..."]
+    browser.run("(delete ask.stage.ask, askStage())")
+    page.until(f"{line}.hidden && state.stage.view.size[0] === 1600")
+    browser.run("(ask.stage.ask = () => {})")
+    Select(page.find("scene")).select_by_value("golf")
+    page.until(f"!{line}.hidden && state.source === 'golf'")
+    assert browser.text("#waiting") == ["Loading golf ..."]
+    browser.run("(delete ask.stage.ask, askStage())")
+    page.until(f"{line}.hidden")
+
+
+def test_a_teacher_finds_the_shots_of_other_scenes(pages, browser: Browser, served: Served):
+    ann = Client(served.url, name="Ann", source="golf")
+    ann.hear("shot", n=ann.ask("shoot"))
+    teacher = pages(served.teacher)
+    teacher.until("state.scene && board && state.source === 'basketball'")
+    teacher.until(
+        "[...document.querySelectorAll('#others button')].some((each) => each.textContent.startsWith('golf: '))"
+    )
+    assert any("Ann" in item and "in golf" in item for item in browser.text("#players li"))
+    browser.run(
+        "[...document.querySelectorAll('#others button')].find((each) => each.textContent.startsWith('golf: ')).click()"
+    )
+    teacher.until("state.source === 'golf' && state.run && document.querySelectorAll('#shots tbody tr').length")
+    assert any("Ann" in row for row in browser.text("#shots tbody tr"))
+    ann.close()
+
+
+def test_names_of_those_who_left_can_be_read(pages, browser: Browser, served: Served):
+    """With a contrast of 4.5 to 1 at least (WCAG AA), on light and on dark."""
+    gone = Client(served.url, name="Gone")
+    gone.hear("welcome")
+    teacher = pages(served.teacher)
+    teacher.until("state.room.players.some(({ name }) => name === 'Gone')")
+    gone.close()
+    teacher.until("document.querySelector('#players .away')")
+    for dark in (False, True):
+        browser.resize(1280, 900, dark=dark)
+        style = "getComputedStyle(document.querySelector('#players .away'))"
+        ink, opacity = browser.run(f"[{style}.color, Number({style}.opacity)]")
+        paper = browser.run("getComputedStyle(document.body).backgroundColor")
+        (one, two) = ([int(part) for part in re.findall(r"\d+", colour)[:3]] for colour in (ink, paper))
+        seen = [opacity * a + (1 - opacity) * b for a, b in zip(one, two, strict=True)]
+        assert contrast(seen, two) >= 4.5
+
+
+def contrast(one: Sequence[float], two: Sequence[float]) -> float:
+    """The ratio of the luminances of two colours, as WCAG 2 defines it."""
+    linear = (
+        [share / 12.92 if share <= 0.04045 else ((share + 0.055) / 1.055) ** 2.4 for share in np.array(colour) / 255]
+        for colour in (one, two)
+    )
+    low, high = sorted(float(np.dot([0.2126, 0.7152, 0.0722], each)) for each in linear)
+    return (high + 0.05) / (low + 0.05)
 
 
 def test_everything_has_a_label_and_fits(pages, browser: Browser):

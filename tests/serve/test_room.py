@@ -21,6 +21,8 @@ from sandbox import tasks
 from sandbox.cli import serve as cli
 from sandbox.page.replay import LAYOUTS
 from sandbox.serve import calls, server, sessions, tokens, work
+from sandbox.serve.limits import AWAY
+from sandbox.serve.room import Listed, Player, Room
 from tests.own_scene import DROP, copy_of
 from tests.serve.conftest import Client, serving
 
@@ -66,6 +68,38 @@ def test_a_path_may_take_so_much_processor_time(monkeypatch: pytest.MonkeyPatch)
     assert work.path(calls.Ask("golf", storm, 1)) == said
     monkeypatch.setattr(work, "PATH", 60.0)
     assert "message" in work.path(calls.Ask("golf", {}, 2))
+
+
+def test_who_left_is_soon_gone_from_the_teachers_list():
+    """And for an hour still the same player for whoever comes back."""
+    sent = []
+
+    class Teacher:
+        def send(self, kind, message):
+            sent.append(message)
+
+    room = Room({"golf": Listed("golf", "")}, None, "si")
+    for number, ago in ((1, AWAY + 1.0), (2, 1.0)):
+        gone = Player(number, f"session {number}", f"player {number}", "golf", {}, seen=time.monotonic() - ago)
+        room.players[gone.session] = gone
+    room.teachers[Teacher()] = ""
+    room._tell_teachers()
+    room._forget()
+    assert [(each["name"], each["here"]) for each in sent[-1]["players"]] == [("player 2", False)]
+    assert list(room.players) == ["session 1", "session 2"]
+
+
+def test_a_teacher_may_look_at_another_scene(player):
+    """Which no pupil notices."""
+    teacher, ann = player(teacher=True), player(name="Ann")
+    assert teacher.hear("scene")["source"] == ann.hear("scene")["source"] == "basketball"
+    teacher.say(do="see", source="golf")
+    assert teacher.hear("scene")["source"] == "golf"
+    run = teacher.hear("path", n=teacher.ask("path", {"launch.angle": 20.0}))["run"]
+    assert "carry" in run["verdict"]
+    ann.hear("path", n=ann.ask("path", {"launch.angle": 55.0}))  # of basketball, without another scene before it
+    teacher.say(do="see", source="nowhere")
+    assert teacher.hear("error")["text"] == "this scene is not played here"
 
 
 def test_a_link_and_a_lost_connection_give_the_state_back(player):
