@@ -18,7 +18,6 @@ at that time in s and records what happened until then.
 
 from __future__ import annotations
 
-import io
 import json
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -31,7 +30,7 @@ import pytest
 from sandbox import record, resources
 from sandbox.errors import RequestError, RunError
 from sandbox.files import check_size, write_together
-from sandbox.picture.difference import coarser, compare, side_by_side, what_changed
+from sandbox.picture.difference import SIZE, as_png, coarser, compare, side_by_side, what_changed
 from sandbox.record import Record
 from sandbox.text import printable
 from sandbox.tracebacks import is_hidden
@@ -46,8 +45,6 @@ if TYPE_CHECKING:
 
     Subject = Run | pygame.Surface | Image.Image
 
-#: Size of the picture of a run, in px: its PNG takes less than 60 kB.
-SIZE = (480, 270)
 #: Most changes of a run that a message lists.
 MOST_CHANGES = 5
 
@@ -110,7 +107,7 @@ class Golden:
         facts = {} if run is None else run.scene.facts
         physics = None if run is None else _changed_physics(known, actual, tolerance, facts)
         if self.update:
-            written = {} if drawing is None else {png: (_png(coarser(image)), drawing)}
+            written = {} if drawing is None else {png: (as_png(coarser(image)), drawing)}
             if run is not None and physics is not None:
                 written[text] = _recorded(name, run, until, tolerance), physics
             elif known is not None and known.get("parameters") != actual["parameters"]:
@@ -169,7 +166,7 @@ class Golden:
     def _shown(self, name: str, expected: Image.Image, actual: Image.Image, drawing: str | None) -> Iterator[str]:
         if drawing is not None:
             path = self.report / f"{name}.png"
-            write_together({path: _png(side_by_side(expected, actual))})
+            write_together({path: as_png(side_by_side(expected, actual))})
             yield f"expected, actual and difference, side by side: {path}"
 
 
@@ -304,12 +301,6 @@ def _read(path: Path) -> Image.Image:
 
     with Image.open(path) as file:
         return file.convert("RGB")
-
-
-def _png(image: Image.Image) -> bytes:
-    data = io.BytesIO()
-    image.save(data, "PNG", optimize=True)
-    return data.getvalue()
 
 
 def _folder_for(test: Path, root: Path) -> Path:

@@ -12,7 +12,7 @@ from pathlib import Path
 from sandbox import resources
 from sandbox.errors import RequestError, RunError
 from sandbox.files import check_writable, folder_of_parts, reason
-from sandbox.scene import listings, parameters_of
+from sandbox.scene import listings, load, parameters_of, simulate
 from sandbox.schema import json_schema
 
 #: The folder of each template, which is also the name of its scene, in file names and in the files.
@@ -33,11 +33,26 @@ def new_scene(folder: Path, template: str = FROM_SIDE) -> list[Path]:
                 _copy(file, scene / file.relative_to(source).parent, template, name)
             schema = json_schema(parameters_of(scene)[1], name)
             (scene / f"{name}.schema.json").write_text(json.dumps(schema, indent=2) + "\n", encoding="utf-8")
+            _make_golden(scene, name)
             shutil.rmtree(scene / "__pycache__", ignore_errors=True)
             scene.rename(folder)
     except OSError as error:
         raise RunError(f"{folder}: cannot be written: {reason(error)}") from None
     return sorted(file for file in folder.rglob("*") if file.is_file())
+
+
+def _make_golden(scene: Path, name: str) -> None:
+    """Write the golden files with which the scene's test passes at once."""
+    from sandbox import record
+    from sandbox.picture.difference import SIZE, as_png, coarser
+    from sandbox.picture.frames import to_image
+
+    loaded = load(scene)
+    run = simulate(loaded)
+    picture = coarser(to_image(loaded.picture(run, SIZE).poster()))
+    (scene / "golden").mkdir()
+    (scene / "golden" / f"{name}.png").write_bytes(as_png(picture))
+    (scene / "golden" / f"{name}.json").write_text(record.as_text(record.record(run)), encoding="utf-8")
 
 
 def next_steps(folder: Path) -> list[str]:
@@ -49,7 +64,7 @@ def next_steps(folder: Path) -> list[str]:
         f"  sandbox run {shown} --poster {folder.name}.png",
         f"  sandbox play {shown}    # the window: shows what you save at once",
         *([] if installed else ["  python -m pip install pytest    # for the next line"]),
-        f"  pytest {folder} --golden-update    # makes the golden picture: look at it; afterwards: pytest {folder}",
+        f"  pytest {folder}    # compares it with its golden picture; after a change: pytest {folder} --golden-update",
     ]
 
 

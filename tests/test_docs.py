@@ -14,6 +14,7 @@ import subprocess
 import sys
 import textwrap
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
 from typing import Any
@@ -198,7 +199,7 @@ def test_code_of_the_readme_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     (shot,) = re.findall(r"^    # A softer drive.\n((?:    .*\n|\n)+?)\n    sandbox run", README, re.MULTILINE)
     Path("my-shot.toml").write_text(textwrap.dedent("    # A softer drive.\n" + shot))
     assert sandbox.simulate(sandbox.load("my-shot.toml")).result["carry"] > 100
-    names: dict[str, Any] = {}
+    names: dict[str, Any] = {"dataclass": dataclass, "Any": Any}
     for language, text in blocks(README):
         if language == "python":
             exec(text, names)
@@ -208,7 +209,18 @@ def test_code_of_the_readme_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     chaotic = sandbox.simulate(sandbox.load(name))
     assert (diverges(chaotic, float(until)), diverges(chaotic) is None) == (None, False)
     assert f"# two: launch angles of {solutions[0]:.1f} and {solutions[1]:.1f} deg\n" in README
-    assert names["Fan"]()(0.0, (6.0, 1.0), (0.0, 0.0), 0.0) == (0.0, 4.0)
+    assert names["Fan"](6.0, 0.8, 4.0)(0.0, (6.0, 1.0), (0.0, 0.0), 0.0) == (0.0, 4.0)
+
+
+def test_the_readme_shows_the_force_of_a_new_scene():
+    shown, template = (
+        re.findall(r"class Fan:\n(.*?)\n\n\n|class Fan:\n(.*?)```", text, re.DOTALL)
+        for text in (README, (ROOT / "template" / "scene.py").read_text("utf-8"))
+    )
+    code = [
+        [line for line in "".join(found[0]).splitlines() if line and '"""' not in line] for found in (shown, template)
+    ]
+    assert code[0] == code[1]
 
 
 def test_code_of_the_page_on_scatter_runs(capsys: pytest.CaptureFixture[str]):

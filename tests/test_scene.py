@@ -293,7 +293,8 @@ def test_an_installed_package_may_offer_scenes(drop: Path, tmp_path: Path, monke
     assert sandbox.load("drop").folder == package / "droppings" / "drop"
     assert sandbox.load("drop/moon").parameters.gravity == 1.62
     assert {"drop", "drop/moon"} < {listing.name for listing in listings()}
-    assert "unknown scene gone" in refusal("gone")
+    said = "scene gone: droppings offers it as nowhere.scene, but that module is not installed with it"
+    assert refusal("gone") == said
 
 
 def test_a_scene_file_may_begin_from_a_preset(tmp_path: Path):
@@ -305,6 +306,28 @@ def test_a_scene_file_may_begin_from_a_preset(tmp_path: Path):
     assert own.parameters.ball.mass == game.parameters.ball.mass != sandbox.load("golf").parameters.ball.mass
     file.write_text('scene = "golf/golf-gane"')
     assert refusal(file) == f"{file}: golf has no preset golf-gane; did you mean golf/golf-game?"
+
+
+def test_a_scene_file_may_begin_from_another(tmp_path: Path, drop: Path):
+    (tmp_path / "one.toml").write_text('scene = "golf/golf-game"\n[launch]\nangle = 20\nspeed = 50\n')
+    (tmp_path / "more").mkdir()
+    (tmp_path / "more" / "two.toml").write_text('scene = "../one.toml"\n[launch]\nspeed = 60\n')
+    two = sandbox.load(tmp_path / "more" / "two.toml")
+    assert (two.name, two.preset) == ("golf", None)
+    assert two.parameters == sandbox.load("golf/golf-game", {"launch.angle": 20, "launch.speed": 60}).parameters
+    (tmp_path / "own.toml").write_text(f'scene = "./{drop.relative_to(tmp_path)}/moon"')
+    (tmp_path / "other.toml").write_text('scene = "./own.toml"\ngravity = 3')
+    assert sandbox.load(tmp_path / "other.toml").parameters == sandbox.load(drop, {"gravity": 3.0}).parameters
+    for name, text, said in (
+        ("silent", "gravity = 3", "silent.toml: needs a line that names its scene"),
+        ("mute", 'scene = "./silent.toml"', "silent.toml: needs a line that names its scene"),
+        ("loop", 'scene = "./loop.toml"', 'scene = "./loop.toml": is based on itself'),
+        ("lost", 'scene = "./nowhere.toml"', 'scene = "./nowhere.toml": there is no such file'),
+        ("bad", 'scene = "golf"\ngravity = -3', "bad.toml: gravity = -3: must be from"),
+        ("wrong", 'scene = "./bad.toml"', "bad.toml: gravity = -3: must be from"),
+    ):
+        (tmp_path / f"{name}.toml").write_text(text)
+        assert said in refusal(tmp_path / f"{name}.toml")
 
 
 def test_a_scene_file_elsewhere_says_what_it_is(tmp_path: Path):

@@ -36,6 +36,7 @@ PULL = (-111, 142)
 QUALITY = 88  # of JPEG: the smallest at which letters stay clean
 
 SWEEP = ("sweep", "basketball", "--over", "launch.speed=6.8:8.6:73", "--over", "launch.angle=40:70:61")
+NEW = "beachvolley"
 COMPARE = ("run", "golf", "--compare", "golf/headwind")
 
 
@@ -71,6 +72,16 @@ def compare() -> None:
         program([*COMPARE, "--poster", str(plot)])
         with Image.open(plot) as image:
             image.save(HERE / "compare.jpg", quality=QUALITY, subsampling=0, optimize=True, progressive=True)
+
+
+def new_scene() -> None:
+    """What ``sandbox new`` writes, by the commands that the README shows."""
+    with tempfile.TemporaryDirectory() as folder:
+        plot = Path(folder, "new.png")
+        program(["new", str(Path(folder, NEW))])
+        program(["run", str(Path(folder, NEW)), "--poster", str(plot), "--size", f"{SIZE[0]}x{SIZE[1]}"])
+        with Image.open(plot) as image:
+            image.save(HERE / "new-scene.jpg", quality=QUALITY, subsampling=0, optimize=True, progressive=True)
 
 
 def window() -> None:
@@ -121,5 +132,6 @@ if __name__ == "__main__":
     sports()
     free_throws()
     compare()
+    new_scene()
     window()
     tiles()

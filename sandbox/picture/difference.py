@@ -11,6 +11,7 @@ comparison 44), and it takes 0.8 s for 640x360.
 
 from __future__ import annotations
 
+import io
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
     import numpy as np
     from PIL import Image
 
+#: Size of the golden picture of a run, in px: its PNG takes less than 60 kB.
+SIZE = (480, 270)
 #: Bits per colour channel in a golden picture; a stored level stands for the levels from LOWEST to HIGHEST around it.
 COLOUR_BITS = 6
 LOWEST, HIGHEST = -(1 << (7 - COLOUR_BITS)), (1 << (7 - COLOUR_BITS)) - 1
@@ -113,6 +116,13 @@ def side_by_side(expected: Image.Image, actual: Image.Image) -> Image.Image:
         sheet.paste(image, (left, 0))
         left += image.width + 8
     return sheet
+
+
+def as_png(image: Image.Image) -> bytes:
+    """The bytes of a PNG file."""
+    data = io.BytesIO()
+    image.save(data, "PNG", optimize=True)
+    return data.getvalue()
 
 
 def coarser(image: Image.Image) -> Image.Image:

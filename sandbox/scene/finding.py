@@ -166,7 +166,7 @@ def _at(path: Path, given: str = "") -> SceneSource:
 def _in_folder(name: str, path: Path, preset: str = "") -> SceneSource:
     """The scene of that name in a folder, or a preset of it."""
     folder, file = path.resolve(), _preset(name, path, preset) if preset else default_file(path)
-    return SceneSource(name, folder, [] if file is None else _files(file, name, folder), preset or None)
+    return SceneSource(name, folder, [] if file is None else _files(file, (name, folder))[2], preset or None)
 
 
 def _is_word(name: str) -> bool:
@@ -176,6 +176,12 @@ def _is_word(name: str) -> bool:
 def _unknown(name: str) -> str:
     if _is_word(name) and any((folder / "tasks" / f"{name}.toml").is_file() for folder in installed_folders().values()):
         return f"{name}: {_TASK}"
+    from importlib.metadata import entry_points
+
+    for point in entry_points(group=ENTRY_POINTS):
+        if point.name == name.partition("/")[0]:
+            package, where = point.dist.name if point.dist else "a package", point.value.partition(":")[0]
+            return f"scene {point.name}: {package} offers it as {where}, but that module is not installed with it"
     near = nearest(name, [listing.name for listing in listings()])
     return f"unknown scene {shortened(name)}; " + (f"did you mean {near}?" if near else "sandbox list shows them all")
 
@@ -225,34 +231,44 @@ def _preset(name: str, folder: Path, preset: str, where: str = "") -> Path:
 
 def _of_file(path: Path) -> SceneSource:
     """The scene that a scene file is for."""
-    values = read_toml(path)
-    if "scene" not in values:
-        raise RequestError(f'{path}: needs a line that names its scene, such as scene = "golf"{_own_folder(path)}')
-    if isinstance(values.get("goal"), str) and "attempts" in values:
-        raise RequestError(f"{path}: {_TASK}")
-    name, folder, _ = _meant(path, values["scene"])
+    name, folder, files = _files(path)
     is_preset = path.resolve().parent == folder / "presets"
-    return SceneSource(name, folder, _files(path, name, folder), path.stem if is_preset else None)
+    return SceneSource(name, folder, files, path.stem if is_preset else None)
 
 
-def _files(file: Path, name: str, folder: Path, after: Sequence[Path] = ()) -> list[tuple[Path, dict[str, Any]]]:
-    """A file for the scene in a folder, with what is written in it, after those of the preset that it begins from."""
+def _files(
+    file: Path, own: tuple[str, Path] | None = None, after: Sequence[Path] = ()
+) -> tuple[str, Path, list[tuple[Path, dict[str, Any]]]]:
+    """Name and folder of the scene that a file is for, and the file with what is written in it, after those of the
+    preset or the file that it begins from. In the folder of its ``own`` scene it need not name it."""
     values = read_toml(file)
-    written = values.get("scene", name)
-    _, meant, preset = _meant(file, written, (name, folder))
-    if meant != folder:
-        raise RequestError(f"{from_here(file)}: scene = {shown(written)}, but a file in this folder is for {name}")
-    if not preset:
-        return [(file, values)]
-    base = _preset(name, folder, preset, f"{file}: ")
-    if base in (*after, file.resolve()):
-        raise RequestError(f"{from_here(file)}: scene = {shown(written)}: is based on itself")
-    if len(after) == MOST_FILES:
-        raise RequestError(f"{from_here(after[0])}: is based on more than {MOST_FILES} files, one on the other")
-    return [*_files(base, name, folder, (*after, file.resolve())), (file, values)]
+    if "scene" not in values and own is None:
+        raise RequestError(f'{file}: needs a line that names its scene, such as scene = "golf"{_own_folder(file)}')
+    if isinstance(values.get("goal"), str) and "attempts" in values:
+        raise RequestError(f"{file}: {_TASK}")
+    written = values.get("scene", own and own[0])
+    if isinstance(written, str) and _is_path(written) and written.endswith(".toml"):
+        base: Path | None = file.parent / written
+        name, folder = own or ("", Path())
+        if not is_given(file.parent / written):
+            raise RequestError(f"{file}: scene = {shown(written)}: there is no such file")
+    else:
+        name, folder, preset = _meant(file, written, own or ("", Path()))
+        base = _preset(name, folder, preset, f"{file}: ") if preset else None
+    if base is not None:
+        if base.resolve() in (*after, file.resolve()):
+            raise RequestError(f"{from_here(file)}: scene = {shown(written)}: is based on itself")
+        if len(after) == MOST_FILES:
+            raise RequestError(f"{from_here(after[0])}: is based on more than {MOST_FILES} files, one on the other")
+        name, folder, files = _files(base, (name, folder) if name else None, (*after, file.resolve()))
+    else:
+        files = []
+    if own is not None and folder != own[1]:
+        raise RequestError(f"{from_here(file)}: scene = {shown(written)}, but a file in this folder is for {own[0]}")
+    return name, folder, [*files, (file, values)]
 
 
-def _meant(file: Path, written: Any, own: tuple[str, Path] = ("", Path())) -> tuple[str, Path, str]:
+def _meant(file: Path, written: Any, own: tuple[str, Path]) -> tuple[str, Path, str]:
     """Name, folder and preset of the scene that a file names. A name means an installed scene, whatever is next to the
     file, or the file's ``own``; a path means the user's own."""
     if isinstance(written, str) and _is_path(written):
@@ -265,7 +281,7 @@ def _meant(file: Path, written: Any, own: tuple[str, Path] = ("", Path())) -> tu
     if not _is_word(name) or (slash and not _is_word(preset)):
         raise RequestError(
             f'{file}: scene = {shown(written)}: must be the name of a scene or preset, such as "golf" or '
-            '"golf/moon", or the path of a scene of your own, such as "./volleyball"'
+            '"golf/moon", or the path of a scene or scene file of your own, such as "./volleyball" or "./shot.toml"'
         )
     if name == own[0]:
         return *own, preset

@@ -25,6 +25,7 @@ from sandbox.sport.controls import Controls
 from sandbox.sport.facts import ENDED, FALLBACK_FACTS, Fact, FinalWhen, fallback_verdict, problem_with
 from sandbox.text import check_mapping, shortened
 from sandbox.toml import read_toml
+from sandbox.tracebacks import is_of_library
 
 if TYPE_CHECKING:
     from sandbox.engine.model.setup import Setup
@@ -347,6 +348,9 @@ def _parameters(
         if not files and named is not None:
             expected = f"{found.folder.resolve().name}.toml"
             raise RequestError(f"{where}: its numbers belong in {expected}; is {named.name} that file?") from None
+        if not files and is_of_library(found.folder):
+            said = f"it was installed without its file of numbers, {found.folder.name}.toml: declare it as package data"
+            raise RequestError(f"{where}: {said}") from None
         raise
 
 
