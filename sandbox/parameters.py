@@ -96,7 +96,9 @@ class Quantity:
         """Write the JSON schema of this number; ``schema`` is what pydantic knows of it."""
         number: dict[str, Any] = {"type": "number", "minimum": self.low, "maximum": self.high}
         ending = "|".join(other.replace("^", r"\^") for other in units.alternatives(self.unit) if other)
-        text = {"type": "string", "pattern": rf"^\s*{units.NUMBER}\s*({ending})?\s*$"}
+        signed = self.low < 0.0 or units.has_offsets(self.unit)
+        value = units.NUMBER if signed else units.NUMBER.replace("[+-]?", r"\+?", 1)
+        text = {"type": "string", "pattern": rf"^\s*{value}\s*({ending})?\s*$"}
         either: dict[str, Any] = {"anyOf": [number, text]}
         if self.length is not None:
             either = {"type": "array", "items": either, "minItems": self.length, "maxItems": self.length}

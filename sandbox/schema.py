@@ -10,6 +10,8 @@ from pydantic.json_schema import GenerateJsonSchema, JsonSchemaValue
 
 from sandbox.parameters import Group
 
+#: The draft that the TOML extensions of editors support.
+HEAD = {"$schema": "http://json-schema.org/draft-07/schema#"}
 #: The table of a scene file that names measured points.
 MEASURED = {
     "type": "object",
@@ -23,7 +25,7 @@ MEASURED = {
 def json_schema(parameters: Group, scene: str) -> dict[str, Any]:
     """JSON schema of the files of ``scene``; numbers may be strings with a unit. A file may leave every key out; the
     defaults are ``parameters``, the scene's own."""
-    body = type(parameters).model_json_schema(schema_generator=_OfFiles)
+    body = type(parameters).model_json_schema(schema_generator=OfFiles)
     path = r"|\.\.?(/.*)?|/.+"  # of a scene that is not installed
     named = {
         "anyOf": [{"const": scene}, {"type": "string", "pattern": f"^({scene}/[A-Za-z0-9_-]+{path})$"}],
@@ -31,9 +33,10 @@ def json_schema(parameters: Group, scene: str) -> dict[str, Any]:
     }
     _fill_in(body, body["$defs"], parameters, json.dumps(body))
     properties = {"scene": named, **body["properties"], "measured": MEASURED}
-    # The draft that the TOML extensions of editors support.
-    head = {"$schema": "http://json-schema.org/draft-07/schema#", "title": f"{scene} scene file"}
-    return {**head, **body, "properties": properties}
+    if chosen := _chosen_by_default(parameters):
+        own = {"properties": {"scene": {"const": scene}}}  # what begins from a preset may have chosen otherwise
+        body |= {"if": own, "then": {"properties": chosen}}
+    return {**HEAD, "title": f"{scene} scene file", **body, "properties": properties}
 
 
 def _fill_in(node: dict[str, Any], groups: dict[str, Any], values: Group, whole: str) -> None:
@@ -51,7 +54,22 @@ def _fill_in(node: dict[str, Any], groups: dict[str, Any], values: Group, whole:
             chosen.pop("required", None)
 
 
-class _OfFiles(GenerateJsonSchema):
+def _chosen_by_default(values: Group) -> dict[str, Any]:
+    """Schemas, by key, of groups in which the scene's own choice holds where a file does not make one."""
+    found: dict[str, Any] = {}
+    for name, field in type(values).model_fields.items():
+        inner, tag = getattr(values, name), field.discriminator
+        if not isinstance(inner, Group):
+            continue
+        if isinstance(tag, str):
+            chosen = {"$ref": f"#/$defs/{type(inner).__name__}"}
+            found[name] = {"if": {"not": {"required": [tag]}}, "then": chosen}
+        elif nested := _chosen_by_default(inner):
+            found[name] = {"properties": nested}
+    return found
+
+
+class OfFiles(GenerateJsonSchema):
     """Schemas for files that may leave the word of a choice out; without titles, which only repeat the key."""
 
     def field_title_should_be_set(self, schema: Any) -> bool:
@@ -60,5 +78,14 @@ class _OfFiles(GenerateJsonSchema):
     def model_schema(self, schema: Any) -> JsonSchemaValue:
         return {key: value for key, value in super().model_schema(schema).items() if key != "title"}
 
+    def nullable_schema(self, schema: Any) -> JsonSchemaValue:
+        return self.generate_inner(schema["schema"])  # TOML has no null: such a key is left out
+
+    def default_schema(self, schema: Any) -> JsonSchemaValue:
+        made = super().default_schema(schema)
+        return {key: value for key, value in made.items() if (key, value) != ("default", None)}
+
     def tagged_union_schema(self, schema: Any) -> JsonSchemaValue:
-        return {"anyOf": super().tagged_union_schema(schema)["oneOf"]}
+        words = {"type": "string", "enum": list(schema["choices"])}  # for editors, which do not look into anyOf
+        branches = super().tagged_union_schema(schema)["oneOf"]
+        return {"properties": {schema["discriminator"]: words}, "anyOf": branches}

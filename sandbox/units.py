@@ -101,6 +101,11 @@ def alternatives(unit: str) -> list[str]:
     return [unit, *(other for other in KINDS[KIND_OF[unit]] if other != unit)]
 
 
+def has_offsets(unit: str) -> bool:
+    """True if units of this kind do not have their zeros in common, as those of temperature."""
+    return any(offset for _, offset in KINDS[KIND_OF[unit]].values())
+
+
 def listed(unit: str) -> str:
     """The units of the same kind as ``unit``, for a message: ``"m/s, km/h, mph, kn or ft/s"``."""
     names = [other or "no unit" for other in alternatives(unit)]

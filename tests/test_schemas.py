@@ -11,8 +11,9 @@ import pytest
 from jsonschema import Draft7Validator
 
 from sandbox import resources
-from sandbox.scene import parameters_of
+from sandbox.scene import load, parameters_of
 from sandbox.schema import json_schema
+from sandbox.tasks.schema import task_schema
 
 SCENES = sorted(path.parent for path in resources.folder("scenes").glob("*/scene.py"))
 FILES = sorted(
@@ -69,6 +70,11 @@ def test_the_shipped_files_are_in_order(folder: Path):
         'scene = "chess"',
         'scene = "golf/"',
         "launches = 1",
+        '[launch]\nspeed = "-5 mph"',
+        "[ball.drag]\ncoefficient = 0.3",  # of another model than the scene's own
+        'scene = "golf"\n[ball.drag]\ncoefficient = 0.3',
+        '[ball.drag]\nmodel = "none"\ncoefficient = 0.3',
+        '[accuracy]\nmethod = "pymunk"',
     ],
 )
 def test_a_mistake_is_seen(text: str):
@@ -84,9 +90,53 @@ def test_a_mistake_is_seen(text: str):
         '[air]\nwind = ["-10 mph", 0]',
         '[ball.drag]\nmodel = "constant"\ncoefficient = 0.3',
         'scene = "golf/7-iron"',
+        'scene = "./my-shot.toml"',
+        'scene = "golf/golf-game"\n[ball.drag]\ncoefficient = 0.3',  # whose drag has one
+        '[launch]\nangle = "-2 deg"',
         "",
     ],
 )
 def test_what_is_right_is_let_pass(text: str):
     folder = next(folder for folder in SCENES if folder.name == "golf")
     assert [error.message for error in Draft7Validator(read(folder)).iter_errors(tomllib.loads(text))] == []
+
+
+def test_editors_see_the_words_allowed():
+    golf = read(next(folder for folder in SCENES if folder.name == "golf"))
+    drag = golf["$defs"]["GolfBall"]["properties"]["drag"]
+    assert drag["properties"]["model"]["enum"][-2:] == ["constant", "none"]
+    assert golf["$defs"]["Accuracy"]["properties"]["method"]["enum"] == ["exact", "plain"]
+
+
+TASKS = sorted(resources.folder("scenes").glob("*/tasks/*.toml"))
+
+
+@pytest.mark.parametrize("scene", sorted({file.parent.parent.name for file in TASKS}))
+def test_shipped_tasks_match_their_schema(scene: str):
+    schema = task_schema(load(scene))
+    Draft7Validator.check_schema(schema)
+    checker = Draft7Validator(schema)
+    for file in (file for file in TASKS if file.parent.parent.name == scene):
+        assert [error.message for error in checker.iter_errors(tomllib.loads(file.read_text("utf-8")))] == [], file
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("attempts = 5", "attempts = 0"),
+        ("attempts = 5", 'attempts = "5"'),
+        ("attempts = 5", "attempt = 5"),
+        ("pass = 3", "passing = 3"),
+        ("stars = [3, 4, 5]", "stars = [3, 4]"),
+        ('score = "made"', 'score = "mad"'),
+        ('score = "made"', 'score = { fact = "made", how = "least" }'),
+        ('score = "made"', "score = { fact = 'made', wanted = { verdikt = 'bank' } }"),
+        ('key = "launch.speed"', 'key = "launch.spede"'),
+        ('scene = "basketball/free-throw"', 'scene = "golf"'),
+        ("pass = 3", "pass = 3\nset = { gravity = -1 }"),
+    ],
+)
+def test_a_mistake_in_a_task_is_seen(old: str, new: str):
+    text = next(file for file in TASKS if file.stem == "free-throw").read_text("utf-8")
+    assert old in text
+    assert not Draft7Validator(task_schema(load("basketball"))).is_valid(tomllib.loads(text.replace(old, new)))

@@ -23,22 +23,30 @@ def list_scenes(scene: str | None) -> None:
 
 @click.command()
 @scene_argument
-def schema(scene: str) -> None:
+@click.option("--tasks", is_flag=True, help="Of the scene's task files instead.")
+def schema(scene: str, tasks: bool) -> None:
     """Print the JSON schema of a scene's file.
 
     It has every key with its unit, bounds and meaning.
 
     \b
-    Example:
+    Examples:
       sandbox schema golf > golf.schema.json     # an editor then completes and checks golf.toml
+      sandbox schema golf --tasks > task.schema.json
     """
     import json
 
     from sandbox.scene import parameters_of
     from sandbox.schema import json_schema
 
-    name, parameters = parameters_of(scene)
-    say(json.dumps(json_schema(parameters, name), indent=2))
+    if tasks:
+        from sandbox.tasks.schema import task_schema
+
+        made = task_schema(load(scene, {}))
+    else:
+        name, parameters = parameters_of(scene)
+        made = json_schema(parameters, name)
+    say(json.dumps(made, indent=2))
 
 
 @click.command()
