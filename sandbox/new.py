@@ -13,24 +13,27 @@ from sandbox import resources
 from sandbox.errors import RequestError, RunError
 from sandbox.files import check_writable, folder_of_parts, reason
 from sandbox.scene import listings, load, parameters_of, simulate
+from sandbox.scene.finding import find
 from sandbox.schema import json_schema
 
 #: The folder of each template, which is also the name of its scene, in file names and in the files.
 FROM_SIDE, FROM_ABOVE = "template", "template_above"
 
 
-def new_scene(folder: Path, template: str = FROM_SIDE) -> list[Path]:
+def new_scene(folder: Path, template: str = FROM_SIDE, copied: str | None = None) -> list[Path]:
     """Write a working scene into ``folder``, which must not exist yet; returns its files.
 
-    Raises RequestError for an invalid name, RunError if the folder cannot be written. Writes all files or none.
+    It is made from a template, or is the scene that is ``copied``, by name or path. Raises RequestError for an invalid
+    name, RunError if the folder cannot be written. Writes all files or none.
     """
     name = folder.name
     _check(folder, name)
+    source = resources.folder(template) if copied is None else _to_copy(copied)
     try:
         with folder_of_parts(folder.parent, name) as part:
-            scene, source = part / name, resources.folder(template)
-            for file in (*source.glob("*.py"), *source.rglob("*.toml")):
-                _copy(file, scene / file.relative_to(source).parent, template, name)
+            scene = part / name
+            for file in _files(source, has_tests=copied is None):
+                _copy(file, scene / file.relative_to(source).parent, source.name, name)
             schema = json_schema(parameters_of(scene)[1], name)
             (scene / f"{name}.schema.json").write_text(json.dumps(schema, indent=2) + "\n", encoding="utf-8")
             _make_golden(scene, name)
@@ -41,18 +44,59 @@ def new_scene(folder: Path, template: str = FROM_SIDE) -> list[Path]:
     return sorted(file for file in folder.rglob("*") if file.is_file())
 
 
+#: The test of a scene that is copied; ``until`` ends a chaotic run where it is still reproducible.
+TEST = '''"""Tests of the scene; ``pytest --golden-update`` makes the golden files, or makes them anew."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import sandbox
+from sandbox.golden import Golden
+
+SCENE = Path(__file__).parent
+
+
+def test_run(golden: Golden) -> None:
+    golden.check("{name}", sandbox.simulate(sandbox.load(SCENE)){until})
+'''
+
+
+def _to_copy(source: str) -> Path:
+    """The folder of a scene that was named. Raises RequestError."""
+    found = find(source)
+    if found.preset is not None or (found.files and found.files[-1][0].parent.resolve() != found.folder):
+        raise RequestError(f"--from {source}: name a scene, such as {found.name}: its presets come with it")
+    return found.folder
+
+
+def _files(source: Path, has_tests: bool) -> list[Path]:
+    """The files of a scene that make a new one: its code, numbers and data, without what is made from them."""
+    made = (".schema.json", ".pyc", "tile.jpg")
+    files = [file for file in source.rglob("*") if file.is_file() and not file.name.endswith(made)]
+    kept = [file for file in files if {"golden", "tasks"}.isdisjoint(file.relative_to(source).parts)]
+    return [file for file in kept if has_tests or not file.name.startswith("test_")]
+
+
 def _make_golden(scene: Path, name: str) -> None:
-    """Write the golden files with which the scene's test passes at once."""
+    """Write the golden files with which the scene's test passes at once, and a test where it has none."""
     from sandbox import record
     from sandbox.picture.difference import SIZE, as_png, coarser
     from sandbox.picture.frames import to_image
 
     loaded = load(scene)
     run = simulate(loaded)
-    picture = coarser(to_image(loaded.picture(run, SIZE).poster()))
+    diverges = record.diverges(run)
+    until = None if diverges is None else float(f"{0.8 * diverges:.2g}")
+    test = scene / f"test_{name.replace('-', '_')}.py"
+    if not test.exists():
+        given = "" if until is None else f", until={until}"
+        test.write_text(TEST.format(name=name, until=given), encoding="utf-8")
+    picture = loaded.picture(run, SIZE)
+    image = coarser(to_image(picture.poster() if until is None else picture.frame(until)))
     (scene / "golden").mkdir()
-    (scene / "golden" / f"{name}.png").write_bytes(as_png(picture))
-    (scene / "golden" / f"{name}.json").write_text(record.as_text(record.record(run)), encoding="utf-8")
+    (scene / "golden" / f"{name}.png").write_bytes(as_png(image))
+    (scene / "golden" / f"{name}.json").write_text(record.as_text(record.record(run, until)), encoding="utf-8")
 
 
 def next_steps(folder: Path) -> list[str]:
@@ -82,9 +126,20 @@ def _check(folder: Path, name: str) -> None:
     check_writable(f"new {folder}", folder.parent)
 
 
-def _copy(file: Path, folder: Path, template: str, name: str) -> None:
-    """Copy a file as ``<name>.toml`` for ``template.toml``, with the name in it; a test's must be importable."""
-    own = name.replace("-", "_") if file.suffix == ".py" else name
+def _copy(file: Path, folder: Path, source: str, name: str) -> None:
+    """Copy a file, in whose name and text the scene's own name becomes the new one: everywhere in a template, as in
+    ``template.toml``, and where scene files name their scene and schema in a scene that is copied."""
+    own = name.replace("-", "_") if file.suffix == ".py" else name  # a test's must be importable
+    is_template = source in (FROM_SIDE, FROM_ABOVE)
     folder.mkdir(parents=True, exist_ok=True)
-    text = re.sub(rf"\b{template}\b", name, file.read_text(encoding="utf-8"))
-    (folder / file.name.replace(template, own)).write_text(text, encoding="utf-8")
+    if file.suffix not in (".py", ".toml"):
+        shutil.copyfile(file, folder / file.name)
+        return
+    text = file.read_text(encoding="utf-8")
+    if is_template:
+        text = re.sub(rf"\b{source}\b", name, text)
+    elif file.suffix == ".toml":
+        named = rf'^(scene = "|#:schema (?:\./|\.\./)?){re.escape(source)}(?=["/.])'
+        text = re.sub(named, rf"\g<1>{name}", text, flags=re.MULTILINE)
+    named_after = is_template or file.name == f"{source}.toml"
+    (folder / (file.name.replace(source, own) if named_after else file.name)).write_text(text, encoding="utf-8")

@@ -530,7 +530,8 @@ def _explained(
         return f"{prefix}{key}: unknown key{_suggestion('.'.join(dotted), schema, values)}"
     if error["type"] == "missing":
         return f"{prefix}{key}: missing"
-    return f"{prefix}{key} = {shown(value)}: {_problem(error)}" if key else f"{prefix}{_problem(error)}"
+    problem = f"{_problem(error)}{_key_that_takes(value, schema, dotted)}"
+    return f"{prefix}{key} = {shown(value)}: {problem}" if key else f"{prefix}{problem}"
 
 
 def _path(loc: tuple[int | str, ...], values: Any, missing: bool) -> tuple[str, tuple[str, ...]]:
@@ -548,6 +549,18 @@ def _path(loc: tuple[int | str, ...], values: Any, missing: bool) -> tuple[str, 
             dotted.append(item)
             values = values.get(item) if isinstance(values, Mapping) else None
     return shown, tuple(dotted)
+
+
+def _key_that_takes(word: Any, schema: type[Group], path: Sequence[str]) -> str:
+    """The end of a message about a word in place of a group: its key that takes this word; "" if there is none."""
+    inside: list[type[Group]] = [schema]
+    for part in path:
+        inside = [
+            g for group in inside if part in group.model_fields for g in groups_of(group.model_fields[part].annotation)
+        ]
+    fields = ((name, field) for group in inside for name, field in group.model_fields.items())
+    name = next((name for name, field in fields if isinstance(word, str) and word in words_of(field.annotation)), None)
+    return f"; did you mean {'.'.join(path)}.{name} = {shown(word)}?" if name is not None else ""
 
 
 def _holds(tables: Any, path: tuple[str, ...]) -> bool:

@@ -89,17 +89,17 @@ def command_line(source: str, changes: Mapping[str, Any], does: str = "run", *op
 
 def argument(value: Any) -> str:
     """A value as ``--set`` and ``--over`` take it, without quotes where it needs none."""
-    return value if isinstance(value, str) and _WORD.fullmatch(value) else _toml(value).removesuffix(".0")
+    return value if isinstance(value, str) and _WORD.fullmatch(value) else toml_text(value).removesuffix(".0")
 
 
-def _toml(value: Any) -> str:
+def toml_text(value: Any) -> str:
     """A value as TOML on one line, a group of parameters as a table."""
     import tomlkit
 
     if hasattr(value, "model_dump"):
         value = value.model_dump(mode="json", exclude_none=True)
     if isinstance(value, Mapping):
-        return "{" + ", ".join(f"{key} = {_toml(item)}" for key, item in value.items()) + "}"
+        return "{" + ", ".join(f"{key} = {toml_text(item)}" for key, item in value.items()) + "}"
     if isinstance(value, list | tuple):
-        return "[" + ", ".join(map(_toml, value)) + "]"
+        return "[" + ", ".join(map(toml_text, value)) + "]"
     return str(tomlkit.item(value).as_string())

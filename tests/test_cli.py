@@ -25,6 +25,7 @@ import sandbox
 from sandbox.cli.interrupts import Interrupts
 from sandbox.engine.model.accuracy import LEVELS
 from sandbox.files import folder_of_parts
+from sandbox.parameters import every_key
 from tests.own_scene import BUILD, COMMAND, DROP, Outcome, assert_refused, change
 
 
@@ -740,3 +741,17 @@ def test_a_trajectory_of_several_runs_names_each(call, drop: Path, tmp_path: Pat
     rows = [line.split(",") for line in (tmp_path / "x.csv").read_text("utf-8").splitlines()]
     assert rows[0] == ["t", "ball", "x", "y", "vx", "vy", "spin", "run"]
     assert [*dict.fromkeys(row[-1] for row in rows[1:])] == ["drop", str(drop / "moon")]
+
+
+def test_all_keys_of_a_scene_are_listed(call, monkeypatch: pytest.MonkeyPatch):
+    """Also those that only another choice of model has."""
+    monkeypatch.setenv("COLUMNS", "200")
+    rows = [line.split("  ")[0] for line in call("list", "golf", "--keys").out.splitlines()[1:]]
+    assert {*every_key(type(sandbox.load("golf").parameters))} <= {row.strip("[]") for row in rows}
+    lines = call("list", "golf", "--keys").out.splitlines()
+    assert any(re.match(r"launch\.speed +76\.44\d* +m/s +0, 340 +ball speed$", line) for line in lines)
+    assert any(
+        re.match(r"ball\.drag\.coefficient +0\.25 +0, 10 .*\(with model = \"constant\"\)$", line) for line in lines
+    )
+    assert any(line.startswith("boxes[].width ") for line in call("list", "collisions", "--keys").out.splitlines())
+    assert call("list", "--keys").code == 2

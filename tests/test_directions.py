@@ -42,6 +42,7 @@ FLOORS = {
     "golden": 6,
     "window": 5,
     "progress": 6,
+    "keys": 6,
     "report": 6,
     "serve": 6,
     "rows": 6,

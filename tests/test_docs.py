@@ -213,13 +213,10 @@ def test_code_of_the_readme_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 
 
 def test_the_readme_shows_the_force_of_a_new_scene():
-    shown, template = (
-        re.findall(r"class Fan:\n(.*?)\n\n\n|class Fan:\n(.*?)```", text, re.DOTALL)
-        for text in (README, (ROOT / "template" / "scene.py").read_text("utf-8"))
-    )
-    code = [
-        [line for line in "".join(found[0]).splitlines() if line and '"""' not in line] for found in (shown, template)
-    ]
+    template = (ROOT / "template" / "scene.py").read_text("utf-8")
+    (shown,) = [text for language, text in blocks(README) if "class Fan" in text]
+    (own,) = re.findall(r"@dataclass\(frozen=True\)\nclass Fan:.*?(?=\n\n\n)", template, re.DOTALL)
+    code = [[line for line in text.splitlines() if line and '"""' not in line] for text in (shown, own)]
     assert code[0] == code[1]
 
 

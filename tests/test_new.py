@@ -14,6 +14,7 @@ import pytest
 from PIL import Image
 
 import sandbox
+from sandbox import resources
 from tests.own_scene import change
 from tests.picture.legible import assert_legible
 
@@ -116,6 +117,27 @@ def test_a_full_disk_is_told_and_nothing_stays_behind(call):
         resource.setrlimit(resource.RLIMIT_FSIZE, limits)
     assert (code, err) == (1, f"error: {NAME}: cannot be written: file too large\n")
     assert list(Path().iterdir()) == []
+
+
+@pytest.mark.parametrize("copied", ["golf", "pinball"])
+def test_a_scene_may_be_copied_to_begin_from(call, copied: str):
+    """The same numbers under another name, and a golden test that passes at once: of a chaotic run, its beginning."""
+    assert call("new", "my-own", "--from", copied).code == 0
+    own = {file.stem for file in Path("my-own", "presets").iterdir()}
+    assert own == {file.stem for file in resources.folder("scenes").joinpath(copied, "presets").glob("*.toml")}
+    assert sandbox.load("./my-own").parameters.model_dump() == sandbox.load(copied).parameters.model_dump()
+    for preset in sorted(own):
+        assert sandbox.load(f"./my-own/{preset}").name == "my-own"
+    assert Path("my-own/my-own.toml").read_text().startswith("#:schema ./my-own.schema.json\n")
+    assert ("until=" in Path("my-own/test_my_own.py").read_text()) == (copied == "pinball")
+    done = pytest_in(Path().resolve(), "my-own")
+    assert done.returncode == 0, done.stdout
+
+
+def test_what_cannot_be_copied_is_refused(call):
+    assert "--from golf/moon: name a scene, such as golf" in call("new", "own", "--from", "golf/moon").err
+    assert "give --from-above or --from golf" in call("new", "own", "--from", "golf", "--from-above").err
+    assert "did you mean golf?" in call("new", "own", "--from", "gulf").err
 
 
 # It works like those that come with the sandbox -----------------------------------------------------------------------

@@ -278,6 +278,7 @@ def test_a_bad_number_names_file_key_value_bound_and_unit(value: Any, expected: 
         # a value of the wrong kind
         ({"launch": 3}, "launch = 3: must be a group of keys, not a single value"),
         ({"ball": {"drag": 3}}, "ball.drag = 3: must be a group of keys"),
+        ({"accuracy": "fast"}, 'not a single value; did you mean accuracy.level = "fast"?'),
         ({"ball": {"drag": {"model": "ideal"}}}, 'ball.drag.model = "ideal": must be "none", "constant", "fitted" or'),
         ({"balls": [{"name": ""}]}, 'balls[0].name = "": must have at least 1 character'),
         ({"ball": {"drag": {"velocity": "water"}}}, 'ball.drag.velocity = "water": must be "air" or "ground"'),

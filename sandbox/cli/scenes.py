@@ -8,15 +8,30 @@ from typing import Any
 import click
 
 from sandbox.cli.arguments import changes_options, load, say, scene_argument
+from sandbox.errors import RequestError
 
 
 @click.command("list")
 @click.argument("scene", metavar="[SCENE]", required=False, help="Only this scene and its presets.")
-def list_scenes(scene: str | None) -> None:
-    """List all scenes and presets, and what is in this folder."""
+@click.option("--keys", is_flag=True, help="All keys of SCENE's file: default, unit, bounds, meaning.")
+def list_scenes(scene: str | None, keys: bool) -> None:
+    """List all scenes and presets, and what is in this folder.
+
+    \b
+    Examples:
+      sandbox list golf
+      sandbox list golf --keys
+    """
     from sandbox.lab.tables import table
     from sandbox.scene import listings, listings_in, listings_of
 
+    if keys:
+        from sandbox.keys import key_table
+
+        if scene is None:
+            raise RequestError("list --keys: of which scene? For example: sandbox list golf --keys")
+        say("\n".join(key_table(load(scene, {}).parameters)))
+        return
     found = [*listings(), *listings_in(Path())] if scene is None else listings_of(scene)
     say("\n".join(table(("", ""), [(listing.name, listing.about) for listing in found], "ll", indent="")))
 
@@ -52,17 +67,21 @@ def schema(scene: str, tasks: bool) -> None:
 @click.command()
 @click.argument("name", metavar="NAME", type=Path, help="Folder to create; it names the scene.")
 @click.option("--from-above", is_flag=True, help="Seen from above, not from the side.")
-def new(name: Path, from_above: bool) -> None:
+@click.option("--from", "copied", metavar="SCENE", help="A copy of this scene, instead of a simple one.")
+def new(name: Path, from_above: bool, copied: str | None) -> None:
     """Create a working scene to edit.
 
     \b
-    Example:
+    Examples:
       sandbox new beachvolley
       sandbox run ./beachvolley
+      sandbox new my-golf --from golf
     """
     from sandbox.new import FROM_ABOVE, FROM_SIDE, new_scene, next_steps
 
-    files = new_scene(name, FROM_ABOVE if from_above else FROM_SIDE)
+    if from_above and copied is not None:
+        raise RequestError(f"new {name}: give --from-above or --from {copied}, not both")
+    files = new_scene(name, FROM_ABOVE if from_above else FROM_SIDE, copied)
     say("\n".join([*(f"wrote {file}" for file in files), "", *next_steps(name)]))
 
 
