@@ -16,12 +16,13 @@ from sandbox.engine.model.ball import Ball, kinetic
 from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.tolerances import CLOSING, TOUCHING_GAP
 from sandbox.engine.motion.forces_on_ball import acceleration_function, by_cause
+from sandbox.engine.motion.leaning import Leaning
 from sandbox.engine.motion.moving_ball import InCluster, InHeap
 from sandbox.engine.motion.sustained_contact import SustainedContact
 from sandbox.engine.paths.arc import Arc
 from sandbox.engine.paths.phase import SetByHand
 from sandbox.engine.paths.run import Run
-from sandbox.physics.integrators import INTEGRATORS, State
+from sandbox.physics.integrators import INTEGRATORS, Acceleration, State
 from sandbox.physics.plane import Plane, strip
 from sandbox.physics.slope import Slope
 
@@ -86,11 +87,7 @@ class _Books:
         if isinstance(arc.contact, InCluster):
             self.impacts[self._met.partner(ball.name, *arc.contact) or ""] += gain
         elif setup.plane is not None:
-            plane = setup.plane_of(ball.name)
-            pulled = _pulled(strip(plane, arc.start)[0], ball, arc)
-            if pulled:
-                self.work["slope"] += pulled
-            self.contacts[plane.name] += gain - pulled
+            self.residue += gain - _book_on_plane(setup.plane_of(ball.name), ball, arc, self.work, self.contacts)
         elif isinstance(arc.contact, InHeap):
             lifted = -_work_of_forces(ball, arc, arc.contact)
             self.contacts["position correction"] += lifted
@@ -167,12 +164,39 @@ class _Impacts:
         return " and ".join(sorted((own.ball, own.partner))) if own.partner in self._balls else own.partner
 
 
-def _pulled(law: Plane, ball: Ball, arc: Arc) -> float:
-    """The work in J of the pull of a slope along an arc; 0 elsewhere."""
-    if not isinstance(law, Slope):
-        return 0.0
-    (x0, y0), (x1, y1) = arc.start[:2], arc.state(arc.t1)[:2]
-    return ball.mass * (law.pull_x * (x1 - x0) + law.pull_y * (y1 - y0))
+def _book_on_plane(plane: Plane, ball: Ball, arc: Arc, work: dict[str, float], contacts: dict[str, float]) -> float:
+    """Add the work done along an arc on a plane to ``work`` and ``contacts``; returns its sum in J.
+
+    What friction does is the power of the law in the state at each node, not the energy that the path has lost.
+    """
+    law, h, booked = strip(plane, arc.start)[0], arc.t1 - arc.t0, 0.0
+    acceleration_at, pushed = acceleration_function(ball), len(ball.forces) + len(ball.torques) > 0
+
+    def forces(t: float, state: State) -> Acceleration:
+        return acceleration_at(t, state[:5])
+
+    acting = arc.contact.applied(forces) if isinstance(arc.contact, Leaning) else forces
+
+    for node, weight in zip(_NODES, _WEIGHTS, strict=True):
+        t = arc.t0 + node * h
+        state = arc.state(t)
+        _, _, vx, vy, spin = seen = state[:5]
+        for name, (fx, fy) in by_cause(ball.forces, t, seen):
+            work[name] += weight * h * (fx * vx + fy * vy)
+        for name, torque in by_cause(ball.torques, t, seen):
+            work[name] += weight * h * torque * spin
+        px, py, turning = acting(t, state)
+        phase = law.phase_under(acting, t, state, ball.radius) if pushed else law.phase(state, ball.radius)
+        slope = (law.pull_x, law.pull_y) if isinstance(law, Slope) else (0.0, 0.0)
+        if slope != (0.0, 0.0):
+            work["slope"] += weight * h * ball.mass * (slope[0] * vx + slope[1] * vy)
+        spun = zip((phase.alpha_z - turning, phase.alpha_x, phase.alpha_y), state[4:], strict=False)
+        lost = ball.mass * ((phase.ax - px - slope[0]) * vx + (phase.ay - py - slope[1]) * vy)
+        lost += ball.inertia * sum(alpha * w for alpha, w in spun)
+        contacts[plane.name] += weight * h * lost
+        applied = ball.mass * ((px + slope[0]) * vx + (py + slope[1]) * vy) + ball.inertia * turning * spin
+        booked += weight * h * (applied + lost)
+    return booked
 
 
 def _driven_off(run: Run, ball: Ball, after: Arc) -> str | None:

@@ -93,7 +93,7 @@ def converge(scene: Scene) -> Reference:
         _size(first, time),
         growth,
         diverges_at,
-        setup.plane is not None and all(setup.plane_of(ball.name).in_closed_form for ball in setup.balls),
+        setup.plane is not None and all(map(setup.moves_in_closed_form, setup.balls)),
     )
 
 

@@ -13,6 +13,10 @@ The direction of u is constant, hence so are all accelerations: the path is a pa
 the ball **rolls**: u stays 0, and the ball decelerates by ``mu_r g`` on a straight path. Spin about the vertical decays
 independently, ``dwz/dt = -+ 5 mu_sp g / 2 r``, in every phase, at last with the ball spinning **in place**.
 
+A **force** F adds p = F/m to dv/dt of a ball that slides, and p / (1 + k) to that of one that rolls, which it does as
+long as p is below ``(1 + 1/k) mu_s g``; a ball at rest stays while p / (1 + k) is below ``mu_r g``. So a steady push
+along its path gives a rolling ball a constant acceleration.
+
 With another moment of inertia ``k m r^2`` than the 2/5 of a solid sphere, 5/2 becomes 1/k and 7/2 becomes 1 + 1/k.
 
 Valid for a sphere that never leaves level, dry cloth, with friction that does not depend on speed. Left out: the
@@ -26,11 +30,23 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import inf
-from typing import ClassVar
+from math import hypot, inf
+from typing import Any, ClassVar
 
 from sandbox.physics.checks import check
-from sandbox.physics.plane import STILL, PlaneMode, PlanePhase, PlaneState
+from sandbox.physics.plane import (
+    STILL,
+    Applied,
+    PlaneMode,
+    PlanePhase,
+    PlaneState,
+    against,
+    hold_margin,
+    holds,
+    side_of,
+    slip,
+    spun,
+)
 
 
 @dataclass(frozen=True)
@@ -80,8 +96,8 @@ class Cloth:
         Slides for ``2 |u| / (7 mu_s g)``, rolls for ``|v| / (mu_r g)``, spins for ``2 r |wz| / (5 mu_sp g)``.
         """
         turn = 1.0 / self.inertia
-        _, _, vx, vy, _, wx, wy = state
-        ux, uy = vx - radius * wy, vy + radius * wx
+        _, _, vx, vy, _, _, _ = state
+        ux, uy = slip(state, radius)
         mode, stop, alphas = PlaneMode.RESTING, (inf, 0.0, 0.0), (0.0, 0.0)
         if ux * ux + uy * uy > STILL * STILL:
             mode, stop = PlaneMode.SLIDING, PlanePhase.stopping(ux, uy, self.strongest, 1.0 + turn)  # as it also turns
@@ -91,3 +107,40 @@ class Cloth:
             mode, stop = PlaneMode.ROLLING, PlanePhase.stopping(vx, vy, self.rolling * self.gravity)
             alphas = -stop[2] / radius, stop[1] / radius
         return PlanePhase.slowed(mode, state, stop, turn * self.spinning * self.gravity / radius, alphas, radius)
+
+    def phase_under(self, applied: Applied, t: float, state: PlaneState, radius: float) -> PlanePhase:
+        """The phase that starts at time ``t`` in ``state`` for a ball of ``radius`` m, with what forces add."""
+        turn, share = 1.0 / self.inertia, 1.0 / (1.0 + self.inertia)
+        slowing, spin_slowing = self.rolling * self.gravity, turn * self.spinning * self.gravity / radius
+        gripping = (1.0 + turn) * self.strongest
+        px, py, torque = applied(t, state)
+        side = side_of(state[4])
+
+        def slides(t: float, state: PlaneState) -> tuple[Any, ...]:
+            px, py, torque = applied(t, state)
+            fx, fy = against(slip(state, radius), (px / (1.0 + turn), py / (1.0 + turn)), self.strongest)
+            spin = spun(side, torque, spin_slowing)
+            return px + fx, py + fy, spin, turn * fy / radius, -turn * fx / radius
+
+        def rolls(t: float, state: PlaneState) -> tuple[Any, ...]:
+            px, py, torque = applied(t, state)
+            push = share * px, share * py
+            fx, fy = against((state[2], state[3]), push, slowing)
+            ax, ay = push[0] + fx, push[1] + fy
+            return ax, ay, spun(side, torque, spin_slowing), -ay / radius, ax / radius
+
+        def grips(t: float, state: PlaneState) -> float:
+            return hold_margin(applied(t, state)[:2], gripping)
+
+        def rests(t: float, state: PlaneState) -> float:
+            px, py, torque = applied(t, state)
+            margin = hold_margin((share * px, share * py), slowing)
+            return min(margin, radius * hold_margin((torque, 0.0), spin_slowing)) if still else margin
+
+        if hypot(*slip(state, radius)) > STILL or not holds((px, py), gripping):
+            return PlanePhase.integrated(PlaneMode.SLIDING, t, state, slides, radius, smooth=self.strongest == 0.0)
+        if hypot(*state[2:4]) > STILL or not holds((share * px, share * py), slowing):
+            return PlanePhase.integrated(PlaneMode.ROLLING, t, state, rolls, radius, grips, smooth=slowing == 0.0)
+        still = side == 0.0 and holds((torque, 0.0), spin_slowing)
+        mode = PlaneMode.RESTING if still else PlaneMode.SPINNING
+        return PlanePhase.integrated(mode, t, state, rolls, radius, rests)

@@ -9,35 +9,76 @@ A **curling stone** (``CurlingIce``) is slowed the more the slower it is, and tu
 
     dv/dt = -g (a / (v + b) + c),  d(theta)/dt = +- k v^-0.8,  dw/dt = -+ s / v,
 
-with theta the direction of its path, whatever the size of its spin. Its last 0.1 mm/s are a straight line at constant
-deceleration, 0.02 micrometres long. Source: the simulator FCV1 of the Digital Curling competition, after Kano et al.,
+with theta the direction of its path, whatever the size of its spin. Its last 0.01 mm/s are a straight line at constant
+deceleration. Source: the simulator FCV1 of the Digital Curling competition, after Kano et al.,
 from stones filmed on the ice of a rink; valid up to about 3 m/s. Left out: that the curl depends on the spin (a stone
 that does not turn goes straight, and one that turns ten times as fast curls as much), on the wear of the pebble and on
 where the sheet has been swept before.
+
+A **force** F adds p = F/m to dv/dt of either; a body at rest stays while p is below what slows it as it starts.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from math import copysign, inf, sqrt
+from math import hypot
 from typing import Any, ClassVar
 
 from sandbox.physics.checks import check
-from sandbox.physics.plane import STILL, PlaneMode, PlanePhase, PlaneState
+from sandbox.physics.plane import (
+    STILL,
+    Applied,
+    PlaneMode,
+    PlanePhase,
+    PlaneState,
+    against,
+    hold_margin,
+    holds,
+    no_force,
+    side_of,
+    spun,
+)
 
-#: Speed in m/s below which a stone comes to rest on a straight line, and below which its spin decays as at this speed.
-_CREEPING, _SPINNING_IN_PLACE = 1e-4, 1e-3
+#: Speed in m/s below which the spin of a stone decays as at this speed.
+_SPINNING_IN_PLACE = 1e-3
 
 #: Power of the speed in the rate at which a stone's path turns.
 _TURNING = -0.8
 
 
-def _straight(state: PlaneState, deceleration: float, spin_deceleration: float) -> PlanePhase:
-    """The phase of a body with these constant decelerations (m/s^2, rad/s^2), until its motion or its spin ends."""
-    _, _, vx, vy, _ = state
-    mode = PlaneMode.SLIDING if vx * vx + vy * vy > STILL * STILL else PlaneMode.RESTING
-    return PlanePhase.slowed(mode, state, PlanePhase.stopping(vx, vy, deceleration), spin_deceleration)
+def _pushed(
+    applied: Applied,
+    slowed_at: Callable[[PlaneState], tuple[float, float]],
+    turned_at: Callable[[PlaneState], tuple[float, float]],
+    t: float,
+    state: PlaneState,
+    radius: float,
+) -> PlanePhase:
+    """The phase of a body of ``radius`` m that forces push: friction is ``slowed_at`` a state by (m/s^2, rad/s^2), and
+    what else the ice does there is an acceleration (m/s^2)."""
+    side = side_of(state[4])
+
+    def acceleration_at(t: float, state: PlaneState) -> tuple[Any, ...]:
+        px, py, torque = applied(t, state)
+        friction, spin_friction = slowed_at(state)
+        fx, fy = against((state[2], state[3]), (px, py), friction)
+        gx, gy = turned_at(state)
+        return px + fx + gx, py + fy + gy, spun(side, torque, spin_friction)
+
+    def rests(t: float, state: PlaneState) -> float:
+        px, py, torque = applied(t, state)
+        friction, spin_friction = slowed_at(state)
+        margin = hold_margin((px, py), friction)
+        return min(margin, radius * hold_margin((torque, 0.0), spin_friction)) if still else margin
+
+    px, py, torque = applied(t, state)
+    friction, spin_friction = slowed_at(state)
+    if hypot(*state[2:4]) > STILL or not holds((px, py), friction):
+        return PlanePhase.integrated(PlaneMode.SLIDING, t, state, acceleration_at, smooth=friction == 0.0)
+    still = side == 0.0 and holds((torque, 0.0), spin_friction)
+    mode = PlaneMode.RESTING if still else PlaneMode.SPINNING
+    return PlanePhase.integrated(mode, t, state, acceleration_at, margin=rests)
 
 
 @dataclass(frozen=True)
@@ -78,21 +119,29 @@ class Glide:
         """The deceleration in m/s^2 without air."""
         return self.sliding * self.gravity
 
+    def _spin_deceleration(self, radius: float) -> float:
+        return 2.0 * self.spinning * self.gravity / radius
+
     def phase(self, state: PlaneState, radius: float) -> PlanePhase:
         """Slides until it stops or its spin ends."""
-        _, _, vx, vy, wz = state
-        spin_deceleration = 2.0 * self.spinning * self.gravity / radius
-        if self.drag == 0.0 or vx * vx + vy * vy <= _CREEPING * _CREEPING:
-            return _straight(state, self.strongest, spin_deceleration)
-        turning = -copysign(spin_deceleration, wz) if abs(wz) > STILL else 0.0
+        if self.drag != 0.0:
+            return self.phase_under(no_force, 0.0, state, radius)
+        _, _, vx, vy, _ = state
+        mode = PlaneMode.SLIDING if vx * vx + vy * vy > STILL * STILL else PlaneMode.RESTING
+        return PlanePhase.slowed(
+            mode, state, PlanePhase.stopping(vx, vy, self.strongest), self._spin_deceleration(radius)
+        )
 
-        def acceleration_at(t: float, state: PlaneState) -> tuple[Any, Any, Any]:
+    def phase_under(self, applied: Applied, t: float, state: PlaneState, radius: float) -> PlanePhase:
+        """Slides and spins under forces until it rests."""
+        decelerations = self.strongest, self._spin_deceleration(radius)
+
+        def dragged_at(state: PlaneState) -> tuple[float, float]:
             _, _, vx, vy, _ = state
-            speed = sqrt(vx * vx + vy * vy)
-            slowing = self.strongest / speed + self.drag * speed
-            return -slowing * vx, -slowing * vy, turning
+            slowing = self.drag * hypot(vx, vy)
+            return -slowing * vx, -slowing * vy
 
-        return PlanePhase(PlaneMode.SLIDING, state, inf, *acceleration_at(0.0, state), acceleration_at=acceleration_at)
+        return _pushed(applied, lambda state: decelerations, dragged_at, t, state, radius)
 
 
 @dataclass(frozen=True)
@@ -139,18 +188,19 @@ class CurlingIce:
 
     def phase(self, state: PlaneState, radius: float) -> PlanePhase:
         """Slides and turns towards the spin until one of them ends; spins in place."""
-        _, _, vx, vy, wz = state
-        speed = sqrt(vx * vx + vy * vy)
-        if speed <= _CREEPING:
-            slowing = self.deceleration(speed)
-            return _straight(state, slowing, self.s / _SPINNING_IN_PLACE)
-        side = copysign(1.0, wz) if abs(wz) > STILL else 0.0
+        return self.phase_under(no_force, 0.0, state, radius)
 
-        def acceleration_at(t: float, state: PlaneState) -> tuple[Any, Any, Any]:
+    def phase_under(self, applied: Applied, t: float, state: PlaneState, radius: float) -> PlanePhase:
+        """Slides, turns and spins under forces until it rests."""
+        side = side_of(state[4])
+
+        def slowed_at(state: PlaneState) -> tuple[float, float]:
+            speed = hypot(*state[2:4])
+            return self.deceleration(speed), self.s / max(speed, _SPINNING_IN_PLACE)
+
+        def turned_at(state: PlaneState) -> tuple[float, float]:
             _, _, vx, vy, _ = state
-            speed = sqrt(vx * vx + vy * vy)
-            slowing = self.deceleration(speed) / speed
-            turning = side * self.curl * self.k * speed**_TURNING
-            return -slowing * vx - turning * vy, -slowing * vy + turning * vx, -side * self.s / speed
+            turning = side * self.curl * self.k * max(hypot(vx, vy), STILL) ** _TURNING
+            return -turning * vy, turning * vx
 
-        return PlanePhase(PlaneMode.SLIDING, state, inf, *acceleration_at(0.0, state), acceleration_at=acceleration_at)
+        return _pushed(applied, slowed_at, turned_at, t, state, radius)

@@ -1,7 +1,8 @@
 """Integrators as data: the weights of each method, with its order and its source.
 
-The state of a ball is ``(x, y, vx, vy, spin)`` in m, m/s, rad/s; that of a body has its angle in rad, too. An
-acceleration is ``(ax, ay, alpha)`` in m/s^2 and rad/s^2. Components are floats; or rows of an array, shape (5, n) and
+The state of a ball is ``(x, y, vx, vy, spin)`` in m, m/s, rad/s; that of a body has its angle in rad, too, that of a
+ball that rolls on a plane its spins about x and y. An acceleration is ``(ax, ay, alpha)`` in m/s^2 and rad/s^2, and has
+the rates of those spins, too. Components are floats; or rows of an array, shape (5, n) and
 (3, n), when many shots fly at once, and ``dt`` has shape (n,) then. The acceleration at the start of a step is passed
 in, since interpolation between steps needs it anyway.
 """
@@ -15,7 +16,7 @@ from typing import Any, NamedTuple
 from sandbox.physics import dormand_prince as pair
 
 State = tuple[Any, ...]
-Acceleration = tuple[Any, Any, Any]
+Acceleration = tuple[Any, ...]
 
 #: The acceleration at a time in s in a state.
 AccelerationFunction = Callable[[Any, State], Acceleration]
@@ -61,23 +62,24 @@ class Integrator(NamedTuple):
         """True if it chooses its step from its error estimate."""
         return len(self.error) > 0
 
-    def step_of(self, acceleration_at: AccelerationFunction, rotates: bool = False) -> Method:
-        """Return the step of a ball; of a body if it ``rotates``: its state has the angle, too."""
-        if self.by_hand is not None:
+    def step_of(self, acceleration_at: AccelerationFunction, rotates: bool = False, rolls: bool = False) -> Method:
+        """Return the step of a ball; of a body if it ``rotates``, or of a ball that ``rolls`` on a plane: their states
+        have more."""
+        if self.by_hand is not None and not rolls:
             return self.by_hand(acceleration_at, rotates)
         coordinates = (0, 1, 5) if rotates else (0, 1)
 
         def step(t: Any, state: State, acceleration: Acceleration, dt: Any) -> Step:
-            rates = [[*state[2:4], *acceleration, state[4]]]  # of x, y, vx, vy, spin and angle, in each stage
+            rates = [[*state[2:4], *acceleration, state[4]]]  # of all in the state, the angle last, in each stage
             for time, weights, of_velocities in self.stages:
                 end = [now + change for now, change in zip(state, _changes(dt, weights, rates), strict=False)]
-                rates.append([*end[2:4], 0.0, 0.0, 0.0, end[4]])
+                rates.append([*end[2:4], *(0.0 for _ in acceleration), end[4]])
                 if of_velocities:
                     changes = _changes(dt, of_velocities, rates)
                     for place in coordinates:
                         end[place] = state[place] + changes[place]
                 acceleration = acceleration_at(t + time * dt, tuple(end))
-                rates[-1][2:5] = acceleration
+                rates[-1][2:-1] = acceleration
             error = tuple(_changes(dt, self.error, rates)[: len(state)]) if self.error else None
             return tuple(end), acceleration, error
 

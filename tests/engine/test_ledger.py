@@ -12,7 +12,10 @@ from sandbox.engine.model.accuracy import resolve
 from sandbox.engine.model.ball import Ball
 from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.surface import Segment, Surface
+from sandbox.physics.cloth import Cloth
 from sandbox.physics.forces import Gravity
+from sandbox.physics.ice import CurlingIce, Glide
+from sandbox.physics.slope import Slope
 from tests.engine import shots
 
 G = 9.81
@@ -36,6 +39,32 @@ def test_residue_of_the_ledger_shrinks_with_the_tolerance():
     shot = shots.seeded(3)[2]
     residues = [abs(ledger(simulate(shots.setup(*shot, 2.5), resolve(level))).residue) for level in ("fast", "precise")]
     assert residues[1] < 0.05 * residues[0]
+
+
+@pytest.mark.parametrize("plane", [Cloth(), Glide(0.1, drag=0.05), CurlingIce(), Slope(rolling=0.02, pull_y=-0.4)])
+def test_the_residue_on_a_plane_is_the_error_of_the_path(plane):
+    """Friction is booked by its own work, so a path that is not the law's leaves a residue."""
+    spins = (0.0, 30.0) if plane.rolls else (0.0, 0.0)
+    run = simulate(Setup([Ball("ball", 2.0, 0.05, (0.0, 0.0), (2.0, 0.3), 3.0, spins)], plane=plane), resolve())
+    assert abs(ledger(run).residue) < 1e-6 * ledger(run).start
+    for arc in run.arcs["ball"]:
+        arc.curves = (*arc.curves[:2], *(tuple(1.01 * v for v in curve) for curve in arc.curves[2:4]), *arc.curves[4:])
+        arc.end = None
+    assert abs(ledger(run).residue) > 1e-4 * ledger(run).start
+
+
+def test_the_ledger_books_what_sliding_takes_until_a_ball_rolls():
+    """Sliding takes m u^2 / 7 from a solid sphere whose lowest point slips by u; rolling m mu_r g along its path."""
+    ball = Ball("ball", 0.2, 0.03, (0.0, 0.0), (2.0, 0.0))
+    rolls_at = 2.0 * 2.0 / (7.0 * 0.2 * G)
+    run = simulate(Setup([ball], plane=Cloth(sliding=0.2, rolling=0.01, gravity=G), duration=rolls_at), resolve())
+    assert ledger(run).contacts["cloth"] == pytest.approx(-0.2 * 2.0**2 / 7.0, rel=1e-12)
+    longer = simulate(
+        Setup([ball], plane=Cloth(sliding=0.2, rolling=0.01, gravity=G), duration=rolls_at + 1.0), resolve()
+    )
+    path = longer.state("ball", rolls_at + 1.0)[0] - longer.state("ball", rolls_at)[0]
+    rolled = ledger(longer).contacts["cloth"] - ledger(run).contacts["cloth"]
+    assert rolled == pytest.approx(-1.4 * 0.2 * 0.01 * G * path, rel=1e-12)
 
 
 def test_the_ledger_books_touching_balls_under_one_impact():

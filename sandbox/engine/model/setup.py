@@ -168,7 +168,7 @@ class Setup:
     ``until`` is a function of the latest event, or an ``Until`` such as ``Touches``.
     ``between_balls(normal_speed, slip_speed)`` returns the Bounce of two balls; ``pairs`` gives a law for two by name:
     ``("ball", "keeper", law)``. With a ``plane`` the balls are seen from above, sliding and rolling on it by its law of
-    motion, or that in ``planes`` under a ball's name: ``("ball", law)``; their own forces are then ignored.
+    motion, or that in ``planes`` under a ball's name: ``("ball", law)``; their own forces act along it.
 
     >>> from sandbox import Ball, Gravity, Segment, Setup, Surface
     >>> setup = Setup([Ball("ball", mass=0.62, radius=0.12, position=(0, 2), velocity=(5, 6), forces=[Gravity(9.81)])],
@@ -236,6 +236,12 @@ class Setup:
         for plane in (self.plane, *(law for _, law in self.planes)):
             if plane is not None and not hasattr(plane, "rolls"):
                 raise ValueError(f"setup: {short(plane)} is no plane, such as a Cloth")
+        for ball in self.balls if self.plane is not None else ():
+            if (ball.forces or ball.torques) and not hasattr(self.plane_of(ball.name), "phase_under"):
+                raise ValueError(
+                    f"ball {ball.name!r} has forces or torques, and its plane {short(self.plane_of(ball.name))} has no "
+                    "phase_under(applied, t, state, radius) that says what they do"
+                )
 
     def _check_names(self, what: str, count: int, balls: Sequence[str]) -> None:
         """Raise ValueError unless each law is for so many balls, and the only one for them."""
@@ -275,6 +281,10 @@ class Setup:
         """Return the plane that a ball slides and rolls on, seen from above."""
         assert self.plane is not None
         return dict(self.planes).get(ball, self.plane)
+
+    def moves_in_closed_form(self, ball: Ball) -> bool:
+        """Return True if a ball on a plane moves by its law alone, and that has a closed form."""
+        return self.plane_of(ball.name).in_closed_form and not (ball.forces or ball.torques)
 
     def start_of(self, ball: Ball) -> State:
         """The state of a ball at the start."""

@@ -140,7 +140,7 @@ class MovingBall:
 
     def __getstate__(self) -> dict[str, Any]:
         """Return what is written to a file: all but functions, which are made again."""
-        made = ("_acceleration_at", "_control", "_step")
+        made = ("_acceleration_at", "_control", "_forces", "_step")
         return {name: value for name, value in self.__dict__.items() if name not in made}
 
     def __setstate__(self, state: dict[str, Any]) -> None:

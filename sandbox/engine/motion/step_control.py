@@ -81,10 +81,13 @@ class StepControl:
 
 
 def size(error: State, radius: Any) -> Any:
-    """Local error in m: that of the position, plus that of the velocity over a second; of a body's turning, too."""
+    """Local error in m: that of the position, plus that of the velocity over a second; of a body's turning and a ball's
+    rolling, too."""
     ex, ey, evx, evy, spin = error[:5]
     off = abs(ex) + abs(ey) + abs(evx) + abs(evy) + SPIN_WEIGHT * radius * abs(spin)
-    return off if len(error) == 5 else off + radius * (abs(spin) + abs(error[5]))
+    if len(error) == 5:
+        return off
+    return off + radius * sum(map(abs, error[4:6] if len(error) == 6 else error[5:]))
 
 
 def shortest(t: Any) -> Any:
@@ -100,7 +103,7 @@ def allowed(setup: Setup, t: Any, h: Any, state: State, acceleration: Accelerati
         room = at - t
         h = where((room > AT_DISCONTINUITY) & (room < h), room, h)
     for region in setup.force_regions:
-        (x, y, vx, vy), (ax, ay, _) = state[:4], acceleration
+        (x, y, vx, vy), (ax, ay) = state[:4], acceleration[:2]
         whole, half = h, 0.5 * h
         end_x, end_y = x + h * (vx + half * ax), y + h * (vy + half * ay)
         near = region.crossed((x, x + half * vx, end_x), (y, y + half * vy, end_y))  # points of the predicted parabola

@@ -152,8 +152,8 @@ def hermite_arc(
     one."""
     x0, y0, vx0, vy0, w0 = start[:5]
     x1, y1, vx1, vy1, w1 = end[:5]
-    ax0, ay0, al0 = acceleration
-    ax1, ay1, al1 = end_acceleration
+    ax0, ay0, al0, *rolling = acceleration
+    ax1, ay1, al1, *end_rolling = end_acceleration
     p = 0.2 * h
     q = 0.05 * h * h
     quarter = 0.25 * h
@@ -174,8 +174,14 @@ def hermite_arc(
         ends = (start[5], 0.0, w0, 0.0, 0.0), (al0, 0.0, 0.0), (end[5], 0.0, w1, 0.0, 0.0), (al1, 0.0, 0.0)
         angle, _, spin, *_ = hermite_arc(t, h, *ends).curves
         curves = (*curves[:4], spin, angle)
-    elif len(start) == 7:  # rolling spins change evenly
-        curves = (*curves, *zip(start[5:], end[5:], strict=True))
+    elif len(start) == 7:  # rolling spins, which change evenly unless their rates are given
+        ends_of_spins = zip(start[5:], end[5:], strict=True)
+        if rolling:
+            rates = zip(rolling, end_rolling, strict=True)
+            spins = [(w, w + third * a, v - third * b, v) for (w, v), (a, b) in zip(ends_of_spins, rates, strict=True)]
+            curves = (*curves, *spins)
+        else:
+            curves = (*curves, *ends_of_spins)
     return Arc(t, t + h, start, curves, contact, end)
 
 

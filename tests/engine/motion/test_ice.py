@@ -162,7 +162,9 @@ def test_stones_share_momentum_and_energy_is_accounted_for():
     )
     assert before == pytest.approx(after, rel=1e-9)
     book = ledger(run)
-    assert book.start + sum(book.impacts.values()) + sum(book.contacts.values()) == pytest.approx(book.end, abs=1e-9)
+    causes = sum(book.impacts.values()) + sum(book.contacts.values())
+    assert book.start + causes + book.residue == pytest.approx(book.end, abs=1e-9)
+    assert abs(book.residue) < 1e-6 * book.start
     assert set(book.contacts) == {"ice"}
     assert book.end == 0.0
 
