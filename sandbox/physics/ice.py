@@ -9,8 +9,8 @@ A **curling stone** (``CurlingIce``) is slowed the more the slower it is, and tu
 
     dv/dt = -g (a / (v + b) + c),  d(theta)/dt = +- k v^-0.8,  dw/dt = -+ s / v,
 
-with theta the direction of its path, whatever the size of its spin. Its last 0.01 mm/s are a straight line at constant
-deceleration. Source: the simulator FCV1 of the Digital Curling competition, after Kano et al.,
+with theta the direction of its path, whatever the size of its spin. Its last 0.1 mm/s are a straight line at constant
+deceleration, 0.02 micrometres long. Source: the simulator FCV1 of the Digital Curling competition, after Kano et al.,
 from stones filmed on the ice of a rink; valid up to about 3 m/s. Left out: that the curl depends on the spin (a stone
 that does not turn goes straight, and one that turns ten times as fast curls as much), on the wear of the pebble and on
 where the sheet has been swept before.
@@ -27,6 +27,7 @@ from typing import Any, ClassVar
 
 from sandbox.physics.checks import check
 from sandbox.physics.plane import (
+    CREEPING,
     STILL,
     Applied,
     PlaneMode,
@@ -40,7 +41,7 @@ from sandbox.physics.plane import (
     spun,
 )
 
-#: Speed in m/s below which the spin of a stone decays as at this speed.
+#: Speed in m/s at which the spin of a stone that creeps or stands decays.
 _SPINNING_IN_PLACE = 1e-3
 
 #: Power of the speed in the rate at which a stone's path turns.
@@ -192,11 +193,11 @@ class CurlingIce:
 
     def phase_under(self, applied: Applied, t: float, state: PlaneState, radius: float) -> PlanePhase:
         """Slides, turns and spins under forces until it rests."""
-        side = side_of(state[4])
+        side, creeps = side_of(state[4]), hypot(*state[2:4]) <= CREEPING
 
         def slowed_at(state: PlaneState) -> tuple[float, float]:
             speed = hypot(*state[2:4])
-            return self.deceleration(speed), self.s / max(speed, _SPINNING_IN_PLACE)
+            return self.deceleration(speed), self.s / (_SPINNING_IN_PLACE if creeps else max(speed, STILL))
 
         def turned_at(state: PlaneState) -> tuple[float, float]:
             _, _, vx, vy, _ = state

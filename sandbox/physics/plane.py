@@ -25,9 +25,8 @@ PlaneState = tuple[float, ...]
 #: Speed in m/s below which sliding, rolling or spinning is rounding. A body this slow would move 1e-24 m.
 STILL = 1e-12
 
-#: Speed in m/s below which a motion that ends under a changing law ends on a straight line, at most 1e-9 m long where
-#: friction slows it by 0.05 m/s^2 or more.
-CREEPING = 1e-5
+#: Speed in m/s below which a motion that ends under a changing law, within ``_SHORT`` s, ends on a straight line.
+CREEPING = 1e-4
 
 #: Time in s within which friction ends a creeping motion; otherwise it is not ending.
 _SHORT = 1e-3
@@ -130,7 +129,7 @@ class PlanePhase(NamedTuple):
         velocity, rates = (state[2], state[3]), (ax, ay)
         if mode is PlaneMode.SLIDING and alphas:
             velocity, rates = slip(state, radius), (ax - radius * alpha_y, ay + radius * alpha_x)
-        time = slows_in(velocity, rates)
+        time = _slows_in(velocity, rates)
         if hypot(*velocity) < CREEPING and time < _SHORT:
             return phase._replace(duration=time, ends_motion=True, acceleration_at=None, margin=None, moves_for=time)
         return phase._replace(slows_in=time)
@@ -239,7 +238,7 @@ def side_of(wz: float) -> float:
     return copysign(1.0, wz) if abs(wz) > STILL else 0.0
 
 
-def slows_in(velocity: tuple[float, float], rates: tuple[float, float]) -> float:
+def _slows_in(velocity: tuple[float, float], rates: tuple[float, float]) -> float:
     """The time in s in which a velocity (m/s) that changes by these rates (m/s^2) would end; infinite if it grows."""
     along = velocity[0] * rates[0] + velocity[1] * rates[1]
     speed = hypot(*velocity)

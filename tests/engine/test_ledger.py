@@ -46,11 +46,11 @@ def test_the_residue_on_a_plane_is_the_error_of_the_path(plane):
     """Friction is booked by its own work, so a path that is not the law's leaves a residue."""
     spins = (0.0, 30.0) if plane.rolls else (0.0, 0.0)
     run = simulate(Setup([Ball("ball", 2.0, 0.05, (0.0, 0.0), (2.0, 0.3), 3.0, spins)], plane=plane), resolve())
-    assert abs(ledger(run).residue) < 1e-6 * ledger(run).start
+    assert abs(ledger(run).residue) < 1e-4 * ledger(run).start
     for arc in run.arcs["ball"]:
         arc.curves = (*arc.curves[:2], *(tuple(1.01 * v for v in curve) for curve in arc.curves[2:4]), *arc.curves[4:])
         arc.end = None
-    assert abs(ledger(run).residue) > 1e-4 * ledger(run).start
+    assert abs(ledger(run).residue) > 1e-3 * ledger(run).start
 
 
 def test_the_ledger_books_what_sliding_takes_until_a_ball_rolls():
