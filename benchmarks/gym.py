@@ -42,8 +42,7 @@ def single(name: str, **options: str) -> tuple[float, float]:
 
 def many(name: str, **options: str) -> float:
     """Episodes for each second of a vector environment."""
-    mode = "vector_entry_point"
-    envs = gymnasium.make_vec(f"sandbox/{name}-v0", num_envs=ENVIRONMENTS, vectorization_mode=mode, **options)
+    envs = gymnasium.make_vec(f"sandbox/{name}-v0", num_envs=ENVIRONMENTS, autoreset_mode="SameStep", **options)
     envs.action_space.seed(0)
     envs.reset(seed=0)
     episodes, start = 0, process_time()

@@ -81,7 +81,7 @@ def share(envs: TaskVectorEnv, act: Any) -> float:
 
 
 def main() -> None:
-    envs: Any = gymnasium.make_vec("sandbox/FreeThrow-v0", BATCH, "vector_entry_point")
+    envs: Any = gymnasium.make_vec("sandbox/FreeThrow-v0", BATCH, autoreset_mode="SameStep")
     envs.action_space.seed(0)
     random = np.random.default_rng(0)
     by_chance = share(envs, lambda observations: envs.action_space.sample())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
@@ -20,6 +21,7 @@ from sandbox.scene import Scene
 from sandbox.scene.scene_run import SceneRun
 from sandbox.tasks import Start, Task
 from sandbox.tasks import load as load_task
+from sandbox.text import check_mapping
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -118,8 +120,12 @@ class Course:
     def drawn(self, random: np.random.Generator, options: Mapping[str, Any] | None = None) -> list[Any]:
         """Draw the start of an attempt, in the order of the task; ``options={"start": {key: value}}`` sets some of it.
         Raises RequestError."""
+        for key in options or ():
+            if key != "start":
+                raise RequestError(f'options: there is no {key!r}; write options={{"start": {{key: value}}}}')
         drawn = [start.drawn(random) for start in self.task.start]
         given = (options or {}).get("start", {})
+        check_mapping("options, start", given, '{"release.height": 2.1}')
         places = {start.key: place for place, start in enumerate(self.task.start)} if given else {}
         for key, value in given.items():
             if key not in places:
@@ -190,6 +196,17 @@ class Course:
             parameters = later.changed(aimed, "action").parameters
         scene, run = self.scene_of(parameters), simulate(self._build(parameters), self._accuracy)
         return SceneRun.of(run, scene, self._read(run, parameters))
+
+
+def seed_of(given: Any) -> int | None:
+    """The seed as Python's whole number, or None for none. Raises RequestError for what is no seed."""
+    try:
+        seed = None if given is None else operator.index(given)
+    except TypeError:
+        seed = -1
+    if seed is not None and seed < 0:
+        raise RequestError(f"seed = {given!r:.60}: must be a whole number, not negative")
+    return seed
 
 
 def _numbers(values: Sequence[Any]) -> list[float]:

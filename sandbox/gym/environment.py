@@ -10,7 +10,8 @@ import numpy as np
 from gymnasium.error import ResetNeeded
 
 from sandbox.errors import RequestError, RunError
-from sandbox.gym.course import Course
+from sandbox.files import check_size
+from sandbox.gym.course import Course, seed_of
 from sandbox.scene import simulate
 
 if TYPE_CHECKING:
@@ -56,11 +57,12 @@ class TaskEnv(gymnasium.Env["NDArray[np.float32]", "NDArray[np.float32]"]):
     ) -> None:
         if render_mode not in (None, *self.metadata["render_modes"]):
             raise RequestError(f'render_mode = {render_mode!r}: must be "rgb_array", or None')
+        check_size(f"size = {size}", size)
         self.course = Course(task, facts, noise, accuracy)
         self.render_mode, self._size = render_mode, size
         self.action_space: Any = self.course.action_space
         self.observation_space: Any = self.course.observation_space
-        self._begun = False
+        self._is_going_on = False
         self._drawn: list[Any] = []  # what is drawn at the start, in the order of the task
         self._scene: Scene | None = None  # of the next shot of an attempt; None before its first
         self._shots = 0
@@ -70,17 +72,17 @@ class TaskEnv(gymnasium.Env["NDArray[np.float32]", "NDArray[np.float32]"]):
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[NDArray[np.float32], dict[str, Any]]:
         """Begin an attempt; the same seed draws the same start, and the same noise after it. Raises RequestError for a
-        start that the task does not draw."""
-        super().reset(seed=seed)
+        start that the task does not draw, and for a seed that is none."""
+        super().reset(seed=seed_of(seed))
         self._drawn = self.course.drawn(self.np_random, options)
-        self._begun, self._scene, self._shots, self._run = True, None, 0, None
+        self._is_going_on, self._scene, self._shots, self._run = True, None, 0, None
         return self.course.seen(self._drawn, self._scene), {}
 
     def step(self, action: NDArray[np.float32]) -> tuple[NDArray[np.float32], float, bool, bool, dict[str, Any]]:
         """Play a shot. A run that cannot be completed ends the attempt, and ``info["error"]`` says why. Raises
-        RequestError for an action that is none."""
-        if not self._begun:
-            raise ResetNeeded("reset the environment before its first step")
+        RequestError for an action that is none, and ResetNeeded before an attempt and after its end."""
+        if not self._is_going_on:
+            raise ResetNeeded("reset the environment before its first step, and where an attempt is over")
         course, task = self.course, self.course.task
         values = dict(zip(task.defaults, course.controls_of(action).tolist(), strict=True))
         aimed = task.aimed(values, self.np_random if course.noise else None)
@@ -88,11 +90,13 @@ class TaskEnv(gymnasium.Env["NDArray[np.float32]", "NDArray[np.float32]"]):
         try:
             run = course.shot(self._scene, self._drawn, aimed)
         except (RunError, RequestError) as error:
+            self._is_going_on = False
             info = {"error": str(error), "is_success": False, "controls": aimed}
             return course.seen(self._drawn, self._scene), task.reward(None, over=True), True, False, info
         self._run = run
         worth = task.score.of_shot(run.result)
         over, made = task.is_over(run.result, self._shots), task.is_made(worth)
+        self._is_going_on = not over
         if not over:
             self._scene = task.after(run)
         info = {**run.result, "is_success": made, "controls": aimed}

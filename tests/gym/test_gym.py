@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import importlib.util
 import pickle
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import gymnasium
 import numpy as np
@@ -12,6 +14,7 @@ import pytest
 from gymnasium.error import ResetNeeded
 from gymnasium.utils.env_checker import check_env
 from gymnasium.vector import AutoresetMode
+from gymnasium.wrappers import vector as wrapped
 
 import sandbox.gym
 from sandbox.errors import RequestError
@@ -60,6 +63,9 @@ def test_reward_and_info_are_those_of_the_shot():
     _, reward, terminated, truncated, info = env.step(env.course.action_of({"launch.speed": 7.391, "launch.angle": 52}))
     assert (reward, terminated, truncated, info["is_success"], info["verdict"]) == (1.0, True, False, True, "swish")
     assert info["controls"] == pytest.approx({"launch.speed": 7.391, "launch.angle": 52.0}, abs=1e-5)
+    with pytest.raises(ResetNeeded, match="over"):
+        env.step(env.action_space.low)
+    env.reset()
     _, reward, _, _, info = env.step(env.action_space.low)
     assert (reward, info["made"], info["controls"]["launch.angle"]) == (0.0, False, 30.0)
 
@@ -116,7 +122,8 @@ def test_a_frame_shows_the_start_and_then_the_shot():
 
 
 def test_many_at_once_play_what_each_plays_alone():
-    envs = gymnasium.make_vec("sandbox/FreeThrow-v0", 40, "vector_entry_point", noise=False, facts=("entry_angle",))
+    options = {"noise": False, "facts": ("entry_angle",), "autoreset_mode": "SameStep"}
+    envs = gymnasium.make_vec("sandbox/FreeThrow-v0", 40, "vector_entry_point", **options)
     assert envs.metadata["autoreset_mode"] is AutoresetMode.SAME_STEP
     observations, _ = envs.reset(seed=3)
     envs.action_space.seed(3)
@@ -139,7 +146,7 @@ def test_many_at_once_play_what_each_plays_alone():
 @pytest.mark.parametrize("name", ["FreeThrow", "ParTwo"])
 def test_the_same_seeds_are_the_same_attempts_as_alone(name: str):
     """With start, noise and reward, also in those that begin anew."""
-    envs = gymnasium.make_vec(f"sandbox/{name}-v0", 3, "vector_entry_point")
+    envs = gymnasium.make_vec(f"sandbox/{name}-v0", 3, "vector_entry_point", autoreset_mode="SameStep")
     alone = [gymnasium.make(f"sandbox/{name}-v0") for _ in range(3)]
     envs.action_space.seed(0)
     observations = envs.reset(seed=7)[0]
@@ -214,7 +221,7 @@ def test_a_start_that_is_not_drawn_is_refused(start: dict[str, object], said: st
 def test_attempts_of_several_shots_go_on_side_by_side(tmp_path: Path):
     file = tmp_path / "diagonal.toml"
     file.write_text(DIAGONAL)
-    envs = sandbox.gym.TaskVectorEnv(2, str(file))
+    envs = sandbox.gym.TaskVectorEnv(2, str(file), autoreset_mode="SameStep")
     observations, _ = envs.reset(seed=0)
     action = envs.course.action_of({"cue.angle": direction(observations[0, :2], observations[0, 3:5])})
     miss = envs.course.action_of({"cue.angle": 90.0})
@@ -237,6 +244,7 @@ def test_attempts_of_several_shots_go_on_side_by_side(tmp_path: Path):
         ({"task": "free-throw", "render_mode": "human"}, 'must be "rgb_array", or None'),
         ({"task": "free-throw", "accuracy": "fats"}, 'accuracy accuracy.level = "fats": must be "fast"'),
         ({"task": "free-throw", "facts": ("apexx",)}, "basketball has no apexx; choose from made, verdict"),
+        ({"task": "free-throw", "size": (640.5, 360)}, "size = (640.5, 360): must be two whole numbers"),
     ],
 )
 def test_a_wrong_request_is_refused_in_a_line(arguments: dict[str, object], said: str):
@@ -244,6 +252,15 @@ def test_a_wrong_request_is_refused_in_a_line(arguments: dict[str, object], said
         TaskEnv(**arguments)  # type: ignore[arg-type]
     assert said in str(refused.value)
     assert "\n" not in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [({"num_envs": 0}, "num_envs = 0: "), ({"num_envs": 2, "autoreset_mode": "Never"}, "autoreset_mode = 'Never': ")],
+)
+def test_wrong_arguments_for_many_are_refused(arguments: dict[str, Any], said: str):
+    with pytest.raises(RequestError, match=f"^{said}must be "):
+        sandbox.gym.TaskVectorEnv(task="free-throw", **arguments)
 
 
 def test_the_policy_of_the_page_follows_the_reward():
@@ -261,3 +278,96 @@ def test_the_policy_of_the_page_follows_the_reward():
     ends = policy.mean(np.array([low, high]))
     assert ends == pytest.approx(np.array([[-0.3, -0.3], [0.3, 0.3]]), abs=0.15)
     assert np.exp(policy.log_sd).max() < 0.25
+
+
+@pytest.mark.parametrize("mode", ["NextStep", "SameStep", "Disabled", None])
+@pytest.mark.parametrize("name", ["FreeThrow", "ParTwo"])
+def test_each_autoreset_mode_is_that_of_gymnasium(name: str, mode: str | None):
+    """Shot for shot what ``SyncVectorEnv`` does with single environments: observations, rewards, ends and facts."""
+    chosen = {} if mode is None else {"autoreset_mode": mode}  # NextStep is the default, as in Gymnasium
+    ours = gymnasium.make_vec(f"sandbox/{name}-v0", 4, **chosen)
+    sync = {} if mode is None else {"vector_kwargs": chosen}
+    theirs = gymnasium.make_vec(f"sandbox/{name}-v0", 4, "sync", **sync)
+    assert ours.metadata["autoreset_mode"] is theirs.metadata["autoreset_mode"]
+    assert (ours.reset(seed=5)[0] == theirs.reset(seed=5)[0]).all()
+    ours.action_space.seed(1)
+    for _ in range(5):
+        actions = ours.action_space.sample()
+        found, expected = ours.step(actions), theirs.step(actions)
+        for one, other in zip(found[:4], expected[:4], strict=True):
+            assert one == pytest.approx(other)
+        for infos, others in (
+            (found[4], expected[4]),
+            *[(each[4].get("final_info", {}) for each in (found, expected))],
+        ):
+            assert infos.get("is_success", np.zeros(4)).tolist() == others.get("is_success", np.zeros(4)).tolist()
+            assert infos.get("_controls", np.zeros(4)).tolist() == others.get("_controls", np.zeros(4)).tolist()
+        over = found[2] | found[3]
+        if mode == "Disabled" and over.any():
+            with pytest.raises(ResetNeeded, match=r"attempts [0-9, ]+ are over: .*reset_mask"):
+                ours.step(actions)
+            began = [envs.reset(options={"reset_mask": over.copy()})[0] for envs in (ours, theirs)]
+            assert began[0] == pytest.approx(began[1])
+
+
+@pytest.mark.parametrize("mode", ["NextStep", "Disabled", None])
+def test_gymnasiums_own_vector_wrappers_take_the_environment(mode: str | None):
+    chosen = {} if mode is None else {"autoreset_mode": mode}
+    low, high = np.zeros(1, np.float32), np.ones(1, np.float32)
+    wrappers = [
+        wrapped.FlattenObservation,
+        lambda envs: wrapped.RescaleObservation(envs, low, high),
+        *([] if mode == "Disabled" else [wrapped.NormalizeObservation]),  # it takes NextStep alone
+    ]
+    for wrap in wrappers:
+        envs = wrap(gymnasium.make_vec("sandbox/FreeThrow-v0", 8, **chosen))
+        observations = [envs.reset(seed=0)[0]]
+        for _ in range(3):
+            observations.append(envs.step(envs.action_space.sample())[0])
+            if mode == "Disabled":
+                envs.reset(options={"reset_mask": np.ones(8, bool)})
+        assert np.array(observations).shape == (4, 8, 1)
+        assert np.isfinite(observations).all()
+        assert envs.observation_space.contains(observations[-1])
+
+
+def test_a_mask_begins_only_the_attempts_it_names():
+    envs = sandbox.gym.TaskVectorEnv(3, "free-throw")
+    before = envs.reset(seed=2)[0]
+    options = {"reset_mask": np.array([False, True, False]), "start": {"release.height": 2.1}}
+    after = envs.reset(seed=[1, 2, 3], options=options)[0]
+    assert (after == before)[:, 0].tolist() == [True, False, True]
+    assert after[1] == pytest.approx([2.1])
+    assert set(options) == {"reset_mask", "start"}  # as it was given
+    for mask in ([True, False], [1, 0, 1], np.zeros(3, bool), "all"):
+        with pytest.raises(RequestError, match=r"reset_mask = .*: must be an array of 3 booleans, one at least True"):
+            envs.reset(options={"reset_mask": mask})
+
+
+@pytest.mark.parametrize("make", [lambda: TaskEnv("free-throw"), lambda: sandbox.gym.TaskVectorEnv(2, "free-throw")])
+def test_a_seed_is_any_whole_number(make: Callable[[], Any]):
+    env = make()
+    first = env.reset(seed=4)[0]
+    assert (env.reset(seed=np.int64(4))[0] == first).all()
+    assert (env.reset(seed=np.uint8(4))[0] == first).all()
+    for wrong in (-1, 4.0, "4"):
+        with pytest.raises(RequestError, match=f"^seed = {wrong!r}: must be a whole number, not negative"):
+            env.reset(seed=wrong)
+    with pytest.raises(RequestError, match="options: there is no 'begin'"):
+        env.reset(options={"begin": 1})
+
+
+def test_seeds_of_all_may_be_an_array():
+    envs = sandbox.gym.TaskVectorEnv(2, "free-throw")
+    one = envs.reset(seed=np.array([4, 5]))[0]
+    assert (envs.reset(seed=4)[0] == one).all()
+    with pytest.raises(RequestError, match="seed: 3 seeds for 2 attempts"):
+        envs.reset(seed=np.arange(3))
+
+
+def test_a_reset_that_is_refused_is_none():
+    envs = sandbox.gym.TaskVectorEnv(2, "free-throw")
+    with pytest.raises(RequestError):
+        envs.reset(options={"start": {"release.height": 9.0}})
+    with pytest.raises(ResetNeeded):
+        envs.step(envs.action_space.sample())
