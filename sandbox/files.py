@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 import os
 import shutil
 import signal
@@ -61,12 +62,12 @@ def check_folder(option: str, path: Path) -> None:
 
 def check_size(named: str, size: tuple[int, int]) -> None:
     """Raise RequestError if a picture of this size in px, ``named`` like that, would be too small or too large."""
+    bounds = " and ".join(f"{across}x{up}" for across, up in (SMALLEST, LARGEST))
     try:
-        fits = all(least <= side <= most for least, side, most in zip(SMALLEST, size, LARGEST, strict=True))
-    except (TypeError, ValueError):  # such as one number
-        fits = False
-    if not fits:
-        bounds = " and ".join(f"{across}x{up}" for across, up in (SMALLEST, LARGEST))
+        width, height = map(operator.index, size)
+    except (TypeError, ValueError):  # such as one number, or 500.5
+        raise RequestError(f"{named}: must be two whole numbers, between {bounds} px") from None
+    if not all(least <= side <= most for least, side, most in zip(SMALLEST, (width, height), LARGEST, strict=True)):
         raise RequestError(f"{named}: must be between {bounds} px")
 
 

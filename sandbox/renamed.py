@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
+from dataclasses import fields
 from functools import wraps
-from typing import Any, NoReturn, TypeVar
+from typing import Any, NoReturn, TypeVar, cast
 
 T = TypeVar("T")
 
@@ -157,14 +158,18 @@ def raise_if_old(module: str, name: str) -> None:
 
 
 def with_old_fields_named(cls: type[T]) -> type[T]:
-    """Return a class that names the new argument or attribute where an old one is used: a TypeError that says so."""
-    names, made = FIELDS[cls.__name__], cls.__init__
+    """Return a dataclass that names the new argument or attribute where an old one is used, and its fields where an
+    argument is unknown: a TypeError that says so."""
+    names, made = FIELDS.get(cls.__name__, {}), cls.__init__
+    known = {field.name: None for field in fields(cast(Any, cls)) if field.init}
 
     @wraps(made)
     def init(self: Any, *arguments: Any, **named: Any) -> None:
-        if not names.keys().isdisjoint(named):
-            old = next(name for name in named if name in names)
-            raise TypeError(f"{cls.__name__}: {old} is now {names[old]}")
+        if not known.keys() >= named.keys():
+            wrong = next(name for name in named if name not in known)
+            if wrong in names:
+                raise TypeError(f"{cls.__name__}: {wrong} is now {names[wrong]}")
+            raise TypeError(f"{cls.__name__}: unexpected keyword argument {wrong!r}; it takes {', '.join(known)}")
         made(self, *arguments, **named)
 
     def missing(self: Any, name: str) -> NoReturn:

@@ -56,6 +56,9 @@ def _toml_hint(text: str, error: str) -> str:
     if number is None or not 1 <= int(number[1]) <= len(lines):
         return ""
     line = lines[int(number[1]) - 1]
+    given = re.fullmatch(r"\s*[\w.-]+\s*=\s*([^#]*?)\s*(#.*)?", line)
+    if given is not None and (comma := units.comma_error(given[1])):
+        return f"; {given[1]} {comma}"
     bare = re.search(rf"({units.NUMBER})\s*([A-Za-z°%][\w/^²%.]*)\s*(?=[,\]#]|$)", line)
     if bare is not None and units.suggestion(bare[2]):
         return f'; a value with a unit goes in quotes: "{bare[1]} {units.suggestion(bare[2])}"'

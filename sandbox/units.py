@@ -62,6 +62,8 @@ KIND_OF = {unit: kind for kind, units in KINDS.items() for unit in units}
 
 #: A number as files have it, for regular expressions of Python and of JSON schemas.
 NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
+#: A number with a decimal comma, or with commas between thousands.
+_COMMAS = re.compile(r"\s*([+-]?[0-9][0-9.]*,[0-9][0-9,.]*)")
 _QUANTITY = re.compile(rf"\s*({NUMBER}|[+-]?(?:nan|inf))\s*(.*?)\s*")
 _SPELLINGS = str.maketrans({"²": "^2", "³": "^3", "°": "", "·": " "})
 
@@ -123,12 +125,29 @@ def suggestion(given: str) -> str:
     return spellings.get(lowered) or spellings.get(lowered.removesuffix("s"), "")
 
 
+def comma_error(text: str) -> str:
+    """What is wrong with a number that has commas, such as ``"60,5 m/s"``, and how to write it; "" if none has."""
+    match = _COMMAS.match(text)
+    if match is None:
+        return ""
+    number, rest = match[1], text[match.end() :].strip()
+    without = number.replace(",", "")
+    if "." in number.rpartition(",")[2] or number.count(",") > 1:  # 1,234.5
+        return f"has commas; write {f'{without} {rest}'.strip()}"
+    with_point = number.replace(".", "").replace(",", ".")  # 1.234,5
+    thousands = re.fullmatch(r"[+-]?[1-9][0-9]{0,2},[0-9]{3}", number)
+    written = " or ".join(f"{each} {rest}".strip() for each in ([with_point, without] if thousands else [with_point]))
+    return f"has a decimal comma; write {written}"
+
+
 def parse(text: str, unit: str) -> float:
     """The number in ``text`` expressed in ``unit``; a text without a unit is in ``unit``.
 
     Raises ValueError if the text is not a number with a unit of the same kind.
     """
     match = _QUANTITY.fullmatch(text)
+    if comma := comma_error(text):
+        raise ValueError(comma)
     if match is None:
         raise ValueError(f"is not a number with a unit; use {listed(unit)}")
     number = float(match[1])

@@ -381,6 +381,7 @@ def test_a_wrong_request_is_refused_in_a_line(call, tmp_path: Path, monkeypatch,
         (b"scene = 'golf'\n[launch]\nspeed = 120 mph\n", 'a value with a unit goes in quotes: "120 mph"'),
         (b"scene = 'golf'\nair.wind = [3 m/s, 0]\n", 'a value with a unit goes in quotes: "3 m/s"'),
         (b"scene = golf\n", 'a word goes in quotes: "golf"'),
+        (b"scene = 'golf'\n[launch]\nspeed = 60,5  # m/s\n", "60,5 has a decimal comma; write 60.5"),
     ],
 )
 def test_a_wrong_file_is_refused_in_a_line(call, tmp_path: Path, content: bytes, expected: str):

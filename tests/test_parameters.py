@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from fractions import Fraction
 from typing import Any, Literal
 
@@ -167,6 +168,23 @@ def test_a_string_may_carry_its_own_unit(text: str, expected: float):
 )
 def test_units(text: str, unit: str, expected: float):
     assert units.parse(text, unit) == pytest.approx(expected, rel=1e-7, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("60,5 m/s", "has a decimal comma; write 60.5 m/s"),
+        ("-60,5", "has a decimal comma; write -60.5"),
+        ("1.234,5 m/s", "has a decimal comma; write 1234.5 m/s"),
+        ("2,545 m/s", "has a decimal comma; write 2.545 m/s or 2545 m/s"),
+        ("0,545", "has a decimal comma; write 0.545"),
+        ("1,234.5", "has commas; write 1234.5"),
+        ("1,234,567", "has commas; write 1234567"),
+    ],
+)
+def test_a_decimal_comma_is_named_with_what_to_write(text: str, said: str):
+    with pytest.raises(ValueError, match=f"^{re.escape(said)}$"):
+        units.parse(text, "m/s")
 
 
 def test_a_bound_may_be_given_in_another_unit():

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import io
+import os
 import tempfile
 from collections.abc import Callable, Iterable, Mapping
 from html import escape
+from numbers import Real
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from PIL import Image
 
+from sandbox.engine.paths.run import ROUNDING_OF_TIME
 from sandbox.errors import RequestError
 from sandbox.files import check_size
 from sandbox.page.parts import html, picture, save, table
@@ -93,13 +96,19 @@ def _paged(make: Callable[[], str], path: Path | str | None) -> str | None:
 
 
 def frame(run: Run, t: float, size: Size | None) -> Image.Image:
-    """The run at time t in s."""
-    return frames.to_image(_picture(run, size or POSTER).frame(t))
+    """The run at time t in s. Raises RequestError for a time outside it."""
+    if not isinstance(t, float | Real):
+        raise RequestError(f"frame at t = {t!r:.60}: must be a number, in s")
+    rounding = ROUNDING_OF_TIME * run.duration
+    if not -rounding <= t <= run.duration + rounding:
+        raise RequestError(f"frame at t = {t:.12g} s: the run is from 0 to {run.duration:.12g} s")
+    return frames.to_image(_picture(run, size or POSTER).frame(float(t)))
 
 
 def save_frames(run: Run, folder: Path | str, fps: float, size: Size | None) -> int:
     """Write the frames of the run into a folder; return how many."""
     _check_rate(fps)
+    _check(folder)
     return frames.save_frames(_picture(run, size or MOVING), run, folder, fps)
 
 
@@ -129,12 +138,15 @@ def _checked(size: Size) -> Size:
 
 
 def _check_rate(fps: float) -> None:
-    if not 1 <= fps <= 240:
-        raise RequestError(f"fps = {fps:g}: must be from 1 to 240")
+    if not isinstance(fps, float | Real) or not 1 <= fps <= 240:
+        raise RequestError(f"fps = {fps!r:.60}: must be from 1 to 240")
 
 
 def _check(path: Path | str, *suffixes: str) -> None:
-    if Path(path).suffix.lower() not in suffixes:
+    """Raise RequestError for what is no name, or of no file with one of these endings, where there are any."""
+    if not isinstance(path, str | os.PathLike):
+        raise RequestError(f"path = {path!r:.60}: must be the name of a file or folder, as text or a Path")
+    if suffixes and Path(path).suffix.lower() not in suffixes:
         raise RequestError(f"{path}: its name must end in {' or '.join(suffixes)}")
 
 
@@ -205,6 +217,7 @@ def _plotted(draw: Callable[[Path], None], path: Path | str | None, option: str 
 
     if path is None:
         return _drawn(checked)
+    _check(path)
     checked(Path(path))
     return None
 

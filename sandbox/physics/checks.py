@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from math import inf
+from numbers import Real
 from typing import Any
 
 from sandbox.physics.elementwise import everywhere, finite
@@ -12,21 +13,27 @@ from sandbox.physics.elementwise import everywhere, finite
 _LONGEST = 60
 
 
-def _finite(x: Any) -> bool:
-    """Return True if x is a finite number, or an array of them."""
+def _is_number(x: Any) -> bool:
+    """Return True if x is a real number, or an array of them."""
     kind = getattr(x, "dtype", None)
-    return (isinstance(x, float | int) if kind is None else kind.kind in "biuf") and finite(x)
+    return isinstance(x, float | int | Real) if kind is None else kind.kind in "biuf"
+
+
+def _is_point(point: Any) -> bool:
+    in_order = isinstance(point, Sequence) or hasattr(point, "dtype")
+    return in_order and len(point) == 2 and all(_is_number(x) and finite(x) for x in point)
 
 
 #: Each rule: a condition on a value, floats or arrays, and what is said where it does not hold.
-_RULES = {
-    "positive": (lambda x: everywhere((x > 0.0) & (x < inf)), "must be positive"),
-    "not_negative": (lambda x: everywhere((x >= 0.0) & (x < inf)), "must not be negative"),
-    "fractions": (lambda x: everywhere((x >= 0.0) & (x <= 1.0)), "must be from 0 to 1"),
-    "finite": (_finite, "must be finite"),
+_RULES: dict[str, tuple[Callable[[Any], bool], str]] = {
+    "positive": (lambda x: _is_number(x) and everywhere((x > 0.0) & (x < inf)), "must be positive"),
+    "not_negative": (lambda x: _is_number(x) and everywhere((x >= 0.0) & (x < inf)), "must not be negative"),
+    "fractions": (lambda x: _is_number(x) and everywhere((x >= 0.0) & (x <= 1.0)), "must be from 0 to 1"),
+    "finite": (lambda x: _is_number(x) and finite(x), "must be finite"),
     "lists": (lambda x: isinstance(x, list | tuple), "must be a list: write it in [ ]"),
-    "points": (lambda point: len(point) == 2 and all(map(_finite, point)), "must be two finite numbers, (x, y)"),
+    "points": (_is_point, "must be two finite numbers, (x, y)"),
     "names": (lambda x: isinstance(x, str), "must be text"),
+    "laws": (callable, "must be a function of the normal and the tangential speed that returns a Bounce"),
 }
 
 
@@ -41,7 +48,7 @@ def check(what: str, thing: Any, **fields: Sequence[str]) -> None:
             except TypeError:  # such as text in place of a number
                 right = False
             if not right:
-                shown = value if isinstance(value, float | int | tuple) else short(value)
+                shown = value if isinstance(value, float | int) else short(value)
                 raise ValueError(f"{what}: {name} = {shown} {words}")
 
 

@@ -88,7 +88,7 @@ def rounded(length: float, width: float, corner: float, opening: float) -> list[
     middles = (x - r, y - r), (r - x, y - r), (r - x, r - y), (x - r, r - y)
     turns = [(middle, 0.5 * pi * (i + step / CHORDS)) for i, middle in enumerate(middles) for step in range(CHORDS + 1)]
     corners = [(a + r * cos(turn), b + r * sin(turn)) for (a, b), turn in turns]
-    return [(x, 0.5 * opening), *corners, (x, -0.5 * opening)]
+    return [*dict.fromkeys([(x, 0.5 * opening), *corners, (x, -0.5 * opening)])]  # corners may meet
 
 
 def all_collisions(run: Run) -> list[Event]:

@@ -163,12 +163,16 @@ CONTROLS = Controls(
 
 
 def build(parameters: Parameters) -> Setup:
-    """The ball, the boards, what moves, the felt and the hole. Raises RequestError if the hole is not on the lane."""
+    """The ball, the boards, what moves, the felt and the hole. Raises RequestError if the hole is not on the lane, or
+    a wall has no length."""
     it, ball, hole, lane = parameters, parameters.ball, parameters.hole, parameters.lane
     x, y, (vx, vy) = 0.5 * lane.length, 0.5 * lane.width, it.launch.velocity
     for name, place, half in (("x", hole.x, x), ("y", hole.y, y)):
         if abs(place) > half:
             raise RequestError(f"hole.{name} = {place:g} m: the lane is from {-half:g} to {half:g} m")
+    for i, wall in enumerate(it.walls):
+        if (wall.x1, wall.y1) == (wall.x2, wall.y2):
+            raise RequestError(f"walls[{i}]: both ends are at ({wall.x1:g}, {wall.y1:g}) m: a wall needs a length")
     roll = (-it.launch.roll * vy / ball.radius, it.launch.roll * vx / ball.radius)  # rad/s, about x and about y
     boards = [Segment(*ends) for ends in pairwise(rectangle(-x, -y, x, y))]
     boards += [Segment((wall.x1, wall.y1), (wall.x2, wall.y2), BOARD) for wall in it.walls]

@@ -58,6 +58,20 @@ def test_pictures_of_a_run(tmp_path: Path):
         run.animate(fps=0)
     with pytest.raises(RequestError, match=r"size = \(0, 0\): must be between 320x180"):
         run.poster(size=(0, 0))
+    wrong_arguments = [
+        (lambda: run.poster(size=(1e3, 500.5)), r"size = \(1000.0, 500.5\): must be two whole numbers"),
+        (lambda: run.graph(size="large"), "size = large: must be two whole numbers"),
+        (lambda: run.poster(3), "path = 3: must be the name of a file"),
+        (lambda: run.frames(3), "path = 3: must be the name of a file"),
+        (lambda: run.frame("1"), "frame at t = '1': must be a number, in s"),
+        (lambda: run.frame(-1.0), "frame at t = -1 s: the run is from 0 to"),
+        (lambda: run.frame(run.duration + 0.01), "frame at t = .* s: the run is from 0 to"),
+        (lambda: run.animate(fps="25"), "fps = '25': must be from 1 to 240"),
+    ]
+    for ask, said in wrong_arguments:
+        with pytest.raises(RequestError, match=f"^{said}"):
+            ask()
+    assert run.frame(run.duration).size == run.frame(0).size == (960, 540)
     times = [0.0, 0.5, 1.0]
     assert np.array_equal(run.states("shot" if "shot" in run.arcs else "ball", times)[1], run.state("ball", 0.5))
     state = run.state("ball", 0.5)

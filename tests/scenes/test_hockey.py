@@ -9,6 +9,7 @@ import pytest
 
 import sandbox
 from sandbox.engine.ledger import ledger
+from sandbox.engine.model.surface import Segment
 from tests.scenes.play import playing
 
 ALONE: dict[str, Any] = {"players": [], "air.density": 0.0}  # without air
@@ -107,3 +108,8 @@ def test_a_pass_that_misses_says_by_how_much():
     run = shoot(**ALONE | {"players": [receiver]}, launch__x=-10, launch__aside=0.0, launch__angle=0.0, launch__speed=6)
     gap = 4.0 - run.scene.parameters.puck.radius - run.scene.parameters.player.radius
     assert run.scene.verdict(run) == f"Misses the receiver by {gap:.1f} m"
+
+
+def test_the_corners_of_a_rink_may_meet():
+    boards = [each.shape for each in sandbox.load("hockey", {"rink.corner": 15.0}).build().surfaces]
+    assert min(shape.length for shape in boards if isinstance(shape, Segment)) > 0.01

@@ -298,6 +298,7 @@ def test_an_effect_left_out_is_an_absent_term(source: str, changes: dict[str, An
         ("bowling", {"pin.standing": "1 11"}, ["pin.standing: there is no pin 11"]),
         ("bowling", {"launch.aside": 0.6}, ["launch.aside = 0.6 m: must be between -0.527 and 0.527 m"]),
         ("collisions/tumbling-box", {"contact.model": "hertz"}, ['contact.model = "hertz"', "boxes"]),
+        ("minigolf", {"walls": [{"x1": 1.0, "y1": 0.0, "x2": 1.0, "y2": 0.0}]}, ["walls[0]", "(1, 0) m", "a length"]),
         ("curling", {"launch.aside": 2.3}, ["launch.aside = 2.3 m: must be between -2.23 and 2.23 m"]),
         ("curling", {"stones": [{"x": 0.0, "y": 2.3}]}, ["stones[0].y = 2.3"]),
         ("curling", {"stones": [{"x": 1.99, "y": 0.0}]}, ["stones[0].x = 1.99"]),

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 from sandbox.engine.model.nearest import Pose, nearest
 from sandbox.engine.model.shapes import Shape, Vector, disc
 from sandbox.engine.model.tolerances import ROUNDING
-from sandbox.physics.checks import check
+from sandbox.physics.checks import check, short
 from sandbox.physics.of_ball import on_ball
 from sandbox.renamed import with_old_fields_named
 
@@ -90,6 +90,10 @@ class Ball:
         positive, points = ("mass", "radius", "inertia_factor"), ("position", "velocity", "rolling_spin")
         lists = ["forces", "torques"]
         check("ball", self, names=["name"])
+        if self.loss is not None and not (hasattr(self.loss, "lost") and hasattr(self.loss, "rate")):
+            raise ValueError(
+                f"ball {self.name!r}: loss = {short(self.loss)} must have lost(t) in kg and rate(t) in kg/s"
+            )
         check(f"ball {self.name!r}", self, positive=positive, points=points, finite=["spin"], lists=lists)
         object.__setattr__(self, "inertia", self.inertia_factor * self.mass * self.radius * self.radius)
         for name in lists:
@@ -128,19 +132,26 @@ class Body(Ball):
         return (self.angle,)
 
     def __post_init__(self) -> None:
+        what = f"body {self.name!r}"
+        if not isinstance(self.shape, Shape):
+            raise ValueError(f"{what}: shape = {short(self.shape)} must be a Polygon or Ellipse, such as box(0.4, 0.3)")
         area, center, moment = self.shape.mass_properties()
         if area <= 0.0:
-            raise ValueError(f"body {self.name!r}: {self.shape} has no area: give it a radius")
+            raise ValueError(f"{what}: {self.shape} has no area: give it a radius")
+        check(what, self, not_negative=["mass", "density"], finite=["angle"])
         if (self.mass > 0.0) == (self.density > 0.0):
-            raise ValueError(f"body {self.name!r}: give either mass or density, and more than 0")
+            raise ValueError(f"{what}: give either mass or density, and more than 0")
+        if self.moment is not None:
+            check(what, self, positive=["moment"])
+        if self.center is not None:
+            check(what, self, points=["center"])
         mass = self.mass or self.density * area
         x, y = center if self.center is None else self.center
         outline = self.shape.moved(-x, -y)
         if self.center is not None and nearest(disc(ROUNDING * outline.reach), _ORIGIN, outline, _ORIGIN).gap > 0.0:
-            raise ValueError(f"body {self.name!r}: center = {self.center} m must be inside its shape")
-        check(f"body {self.name!r}", self, finite=["angle"])
+            raise ValueError(f"{what}: center = {self.center} m must be inside its shape")
         if self.rolling_spin != (0.0, 0.0):
-            raise ValueError(f"body {self.name!r}: rolling_spin = {self.rolling_spin} rad/s is only for balls")
+            raise ValueError(f"{what}: rolling_spin = {self.rolling_spin} rad/s is only for balls")
         about = mass * (moment / area + (center[0] - x) ** 2 + (center[1] - y) ** 2)
         about = about if self.moment is None else self.moment
         given = {"mass": mass, "density": 0.0, "outline": outline, "radius": outline.reach}

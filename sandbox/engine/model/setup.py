@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import inf, isfinite
-from numbers import Real
+from numbers import Integral, Real
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from sandbox.engine.model.ball import Ball
@@ -97,6 +97,13 @@ class ContactModel:
     stiffness: float | None = None
     wall_stiffness: float = 0.0
 
+    def __post_init__(self) -> None:
+        if self.name not in ("auto", "rigid", "hertz"):
+            raise ValueError(f'contact model: name = {short(self.name)} must be "auto", "rigid" or "hertz"')
+        check("contact model", self, not_negative=["wall_stiffness"])
+        if self.stiffness is not None:
+            check("contact model", self, positive=["stiffness"])
+
     def between(self, radius: float, other: float) -> float:
         """Stiffness in N/m^1.5 of two balls with these radii in m."""
         return PHENOLIC.between(radius, other) if self.stiffness is None else self.stiffness
@@ -152,6 +159,11 @@ class Touches(Until):
     what: str
     times: int = 1
 
+    def __post_init__(self) -> None:
+        check("Touches", self, names=["what"])
+        if not isinstance(self.times, int | Integral) or self.times < 1:
+            raise ValueError(f"Touches: times = {short(self.times)} must be a whole number, 1 or more")
+
     def over(self, events: Sequence[Event]) -> bool:
         return self._counts(events[-1]) and sum(map(self._counts, events)) >= self.times
 
@@ -202,8 +214,8 @@ class Setup:
         for name in names:
             if names.count(name) > 1:
                 raise ValueError(f"two balls are named {name!r}: names must be unique")
-        self._check_names("pairs", 2, names)
-        self._check_names("planes", 1, names)
+        if unknown := [name for trap in self.traps for name in trap.only if name not in names]:
+            raise ValueError(f"setup: traps: there is no ball {unknown[0]!r}; there are {', '.join(map(repr, names))}")
         if self.planes and self.plane is None:
             raise ValueError("a setup with planes for some balls needs a plane for all others")
         if any(ball.rotates for ball in self.balls):
@@ -233,8 +245,11 @@ class Setup:
         for name, kind in (("bounds", Bounds), ("contact", ContactModel)):
             if not isinstance(getattr(self, name), kind):
                 raise ValueError(f"setup: {name} = {short(getattr(self, name))} must be a {kind.__name__}")
-        for plane in (self.plane, *(law for _, law in self.planes)):
-            if plane is not None and not hasattr(plane, "rolls"):
+        names = [ball.name for ball in self.balls]
+        self._check_names("pairs", 2, names)
+        self._check_names("planes", 1, names)
+        for plane in ([] if self.plane is None else [self.plane]) + [law for _, law in self.planes]:
+            if not hasattr(plane, "rolls"):
                 raise ValueError(f"setup: {short(plane)} is no plane, such as a Cloth")
         for ball in self.balls if self.plane is not None else ():
             if (ball.forces or ball.torques) and not hasattr(self.plane_of(ball.name), "phase_under"):
@@ -242,6 +257,20 @@ class Setup:
                     f"ball {ball.name!r} has forces or torques, and its plane {short(self.plane_of(ball.name))} has no "
                     "phase_under(applied, t, state, radius) that says what they do"
                 )
+        check("setup", self, laws=["between_balls"])
+        for *_, law in self.pairs:
+            if not callable(law):
+                raise ValueError(f"setup: pairs: {short(law)} is no law: a function that returns a Bounce")
+        if not (self.until is None or isinstance(self.until, Until) or callable(self.until)):
+            raise ValueError(f"setup: until = {short(self.until)} must be a function of an event, or such as Touches")
+        left, bottom, right, top = self.bounds
+        if not (all(isinstance(edge, float | Real) for edge in self.bounds) and left < right and bottom < top):
+            raise ValueError(f"setup: bounds = {short(self.bounds)} must be numbers in m, left < right, bottom < top")
+        for region in self.force_regions:
+            check("force region", region, finite=["left", "bottom", "right", "top"], positive=["step"])
+        times = self.discontinuities
+        if not all(isinstance(t, float | Real) and isfinite(t) for t in times) or [*times] != sorted(times):
+            raise ValueError(f"setup: discontinuities = {short(times)} must be finite times in s, growing")
 
     def _check_names(self, what: str, count: int, balls: Sequence[str]) -> None:
         """Raise ValueError unless each law is for so many balls, and the only one for them."""

@@ -13,9 +13,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from math import atan2, cos, hypot, inf, isfinite, pi, sin, sqrt
+from numbers import Integral
+from types import SimpleNamespace
 from typing import NamedTuple
 
 from sandbox.engine.model.tolerances import ROUNDING
+from sandbox.physics.checks import check, short
 
 Vector = tuple[float, float]
 
@@ -51,11 +54,13 @@ class Polygon:
     reach: float = field(init=False, repr=False, compare=False)  # m, from the origin to the farthest point
 
     def __post_init__(self) -> None:
-        corners = [(float(x), float(y)) for x, y in self.corners]
-        if not corners or not all(map(isfinite, (self.radius, *(x for corner in corners for x in corner)))):
-            raise ValueError(f"{self}: needs corners, and finite numbers")
-        if self.radius < 0.0:
-            raise ValueError(f"{self}: radius = {self.radius} m must not be negative")
+        try:
+            corners = [(float(x), float(y)) for x, y in self.corners]
+        except (TypeError, ValueError):
+            corners = []
+        if not corners or not all(map(isfinite, (x for corner in corners for x in corner))):
+            raise ValueError(f"polygon: corners = {short(self.corners)} must be points in m, [(x, y), ...], and finite")
+        check("polygon", self, not_negative=["radius"])
         if _area(corners) < 0.0:
             corners.reverse()
         normals: list[float] = []
@@ -198,8 +203,7 @@ class Ellipse:
     reach: float = field(init=False, repr=False, compare=False)  # m, from the origin at least to the farthest point
 
     def __post_init__(self) -> None:
-        if not (all(map(isfinite, (self.a, self.b, *self.center))) and min(self.a, self.b) > 0.0):
-            raise ValueError(f"{self}: both semi-axes must be positive")
+        check("ellipse", self, positive=["a", "b"], points=["center"])
         object.__setattr__(self, "reach", hypot(*self.center) + max(self.a, self.b))
 
     def moved(self, dx: float, dy: float) -> Ellipse:
@@ -266,6 +270,8 @@ def box(width: float, height: float, rounding: float = 0.0) -> Polygon:
     >>> box(0.4, 0.3).corners
     ((-0.2, -0.15), (0.2, -0.15), (0.2, 0.15), (-0.2, 0.15))
     """
+    sides = SimpleNamespace(width=width, height=height, rounding=rounding)
+    check("box", sides, positive=["width", "height"], not_negative=["rounding"])
     x, y = 0.5 * width - rounding, 0.5 * height - rounding
     if min(x, y) < 0.0:
         raise ValueError(f"box of {width} m x {height} m: rounding = {rounding} m is more than half of a side")
@@ -280,6 +286,7 @@ def capsule(length: float, radius: float) -> Polygon:
     >>> capsule(0.4, 0.05).reach  # m
     0.2
     """
+    check("capsule", SimpleNamespace(length=length, radius=radius), positive=["length", "radius"])
     return box(length, 2.0 * radius, radius)
 
 
@@ -300,6 +307,9 @@ def regular(count: int, radius: float, rounding: float = 0.0) -> Polygon:
     >>> len(regular(6, 0.1).corners)
     6
     """
+    check("regular polygon", SimpleNamespace(radius=radius), positive=["radius"])
+    if not isinstance(count, int | Integral) or count < 3:
+        raise ValueError(f"regular polygon: count = {short(count)} must be a whole number, 3 or more")
     turns = [2.0 * pi * k / count for k in range(count)]
     return Polygon([(radius * cos(turn), radius * sin(turn)) for turn in turns], rounding)
 

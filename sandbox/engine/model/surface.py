@@ -10,6 +10,8 @@ from typing import NamedTuple
 from sandbox.engine.model.motion import Motion, moved
 from sandbox.engine.model.shapes import Vector
 from sandbox.physics.checks import check, short
+from sandbox.physics.elementwise import everywhere
+from sandbox.renamed import with_old_fields_named
 
 
 def _check_shape(shape: Segment | Circle, *points: str) -> None:
@@ -34,6 +36,8 @@ class Segment:
 
     def __post_init__(self) -> None:
         _check_shape(self, "a", "b")
+        if not everywhere((self.a[0] != self.b[0]) | (self.a[1] != self.b[1])):
+            raise ValueError(f"segment: a = b = {short(self.a)} has no length: a dot is Circle(center, radius)")
 
     @property
     def length(self) -> float:
@@ -74,6 +78,7 @@ class Bounce(NamedTuple):
 BounceLaw = Callable[[float, float], Bounce]
 
 
+@with_old_fields_named
 @dataclass(frozen=True)
 class Surface:
     """A shape and its response: restitution and friction are those of the pair of ball and surface.
@@ -105,9 +110,16 @@ class Surface:
     def __post_init__(self) -> None:
         numbers = ("friction", "rolling_resistance", "lowest_bounce", "kick")
         check("surface", self, names=["name"])
-        check(f"surface {self.name!r}", self, fractions=["restitution"], not_negative=numbers)
+        what = f"surface {self.name!r}"
+        if not isinstance(self.shape, Segment | Circle):
+            raise ValueError(f"{what}: shape = {short(self.shape)} must be a Segment or a Circle: one to a surface")
+        check(what, self, fractions=["restitution"], not_negative=numbers)
+        if self.law is not None:
+            check(what, self, laws=["law"])
+        if self.nose_height is not None:
+            check(what, self, not_negative=["nose_height"])
         if self.motion is not None and (isinstance(self.motion, type) or not isinstance(self.motion, Motion)):
-            raise ValueError(f"surface {self.name!r}: motion = {self.motion!r:.80} must have about, place and rates")
+            raise ValueError(f"{what}: motion = {self.motion!r:.80} must have about, place and rates")
 
     def at(self, t: float) -> Surface:
         """The surface where it is at time t in s, standing still."""
@@ -150,6 +162,10 @@ class ConstantBounce:
 
     bounce: Bounce
 
+    def __post_init__(self) -> None:
+        if not isinstance(self.bounce, Bounce):
+            raise ValueError(f"bounce law: bounce = {short(self.bounce)} must be a Bounce")
+
     def __call__(self, normal_speed: float, slip_speed: float) -> Bounce:
         return self.bounce
 
@@ -185,7 +201,11 @@ class Trap:
 
     def __post_init__(self) -> None:
         check("trap", self, names=["name"])
-        check(f"trap {self.name!r}", self, points=["center"])
+        check(f"trap {self.name!r}", self, points=["center"], positive=["radius"], lists=["only"])
+        if self.end is not None:
+            check(f"trap {self.name!r}", self, points=["end"])
+            if tuple(self.end) == tuple(self.center):
+                raise ValueError(f"trap {self.name!r}: end = center = {short(self.center)}: leave out end")
         if self.fastest is not None:
             check(f"trap {self.name!r}", self, positive=["fastest"])
 
