@@ -57,7 +57,7 @@ def sys_exit_as_error() -> Iterator[None]:
     worker as if nothing were wrong."""
     try:
         yield
-    except (Exception, KeyboardInterrupt):
+    except (Exception, KeyboardInterrupt, GeneratorExit):  # the last: a run without memory may be left half way
         raise
     except BaseException as error:
         raise ExitCalled(f"{error!r}: a scene must not end the program").with_traceback(error.__traceback__) from None

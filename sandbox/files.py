@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any, TextIO
 
 from sandbox.errors import RequestError, RunError
-from sandbox.text import shortened
+from sandbox.text import encodable, shortened
 
 #: Smallest and largest pictures, in px.
 SMALLEST, LARGEST = (320, 180), (7680, 4320)
@@ -132,7 +132,7 @@ def json_text(value: Any) -> str:
     """JSON of numbers, words and lists; NaN and infinities are null. Raises TypeError for other values."""
     import json
 
-    return json.dumps(json_ready(value), allow_nan=False, ensure_ascii=False)
+    return encodable(json.dumps(json_ready(value), allow_nan=False, ensure_ascii=False))
 
 
 def state_folder() -> Path:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
+from math import isfinite
 from typing import TYPE_CHECKING, Any
 
 from sandbox.engine.ledger import warnings
@@ -45,7 +46,7 @@ def as_json(
         **_outcome(scene, run),
         **(more or {}),
         "accuracy": run.accuracy,
-        "warnings": warnings(run),
+        "warnings": _warnings(run),
         "events": [dict(zip(EVENT, event, strict=True)) for event in run.events],
         "numerics": run.numerics,
     }
@@ -66,6 +67,25 @@ def as_json(
         return json_text(report)
     except TypeError as error:  # a result with other values than numbers, words and lists of them
         raise RunError(f"{scene.name}: its result cannot be written as JSON: {error}") from None
+
+
+def _warnings(run: SceneRun) -> list[str]:
+    """Reasons to doubt a run: those of the engine, and facts that are no numbers."""
+    facts, parameters = run.scene.facts, run.scene.parameters
+    unset = {key: facts[key].compute(run, parameters) for key, value in run.result.items() if value is None}
+    wrong = [key for key, value in {**run.result, **unset}.items() if not _is_finite(value)]
+    return [*warnings(run), *(f"{key} is not a finite number, and null in JSON" for key in wrong)]
+
+
+def _is_finite(value: Any) -> bool:
+    """True if a fact has no NaN and no infinity, in lists and tables either."""
+    if isinstance(value, Mapping):
+        return all(map(_is_finite, value.values()))
+    if isinstance(value, list | tuple):
+        return all(map(_is_finite, value))
+    if hasattr(value, "tolist"):  # numpy's numbers and arrays
+        return _is_finite(value.tolist())
+    return not isinstance(value, float) or isfinite(value)
 
 
 def _outcome(scene: Scene, run: SceneRun) -> dict[str, Any]:
@@ -102,7 +122,7 @@ def card(
         *_events(run),
         "",
         f"  {_numerics(run)}",
-        *(f"  warning: {warning}" for warning in warnings(run)),
+        *(f"  warning: {warning}" for warning in _warnings(run)),
         *([] if check is None else _check_lines(check, scene)),
     ]
 

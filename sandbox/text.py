@@ -14,6 +14,9 @@ from sandbox.errors import RequestError
 #: and those that change the writing direction or break lines.
 _CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ufeff]|[\ud800-\udfff]")
 
+#: Halves of a character of UTF-16.
+_SURROGATE = re.compile("[\ud800-\udfff]")
+
 #: Characters that end a line, or are not one space wide.
 _BREAK = re.compile("[\n\r\t\v\f\x85]")
 
@@ -27,6 +30,11 @@ _FORMULA = ("=", "+", "-", "@")
 def printable(text: str) -> str:
     r"""The text with control characters written out as ``\u001b``, as in JSON; newlines and tabs stay."""
     return _CONTROL.sub(lambda match: f"\\u{ord(match[0]):04x}", text)
+
+
+def encodable(text: str) -> str:
+    """The text with lone surrogates, which UTF-8 cannot have, written out as in JSON; all else stays."""
+    return text if text.isascii() else _SURROGATE.sub(lambda match: f"\\u{ord(match[0]):04x}", text)
 
 
 def one_line(text: str) -> str:

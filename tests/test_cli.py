@@ -202,9 +202,31 @@ def test_json_is_one_object_with_everything(call):
 def test_what_is_no_number_is_null_in_json(call, drop: Path):
     for key, value in (("a", "float('nan')"), ("b", "[float('inf')]"), ("c", "{'d': float('nan')}")):
         change(drop / "scene.py", "FACTS = (", f"FACTS = (Fact('{key}', '', '', lambda run, parameters: {value}),")
-    out = call("run", drop, "--json").out
-    result = json.loads(out, parse_constant=pytest.fail)["result"]
+    report = json.loads(call("run", drop, "--json").out, parse_constant=pytest.fail)
+    result = report["result"]
     assert (result["a"], result["b"], result["c"]) == (None, [None], {"d": None})
+    assert report["warnings"] == [f"{key} is not a finite number, and null in JSON" for key in "cba"]
+    assert "  warning: a is not a finite number, and null in JSON" in call("run", drop).out.splitlines()
+
+
+@pytest.mark.parametrize(
+    "command", [("run", "--json"), ("schema",), ("spread", "--json", "--by", "launch.height=0.1", "--samples", "16")]
+)
+def test_what_a_scene_prints_is_no_part_of_the_json(call, drop: Path, command: tuple[str, ...]):
+    change(drop / "scene.py", "from __future__ import annotations\n", "from __future__ import annotations\nprint(1)\n")
+    change(drop / "scene.py", BUILD, BUILD + "    print(2)\n")
+    code, out, err = call(command[0], drop, *command[1:])
+    assert (code, type(json.loads(out))) == (0, dict)
+    assert set("12" if "--json" in command else "1") <= set(err.split())
+
+
+def test_a_verdict_with_half_a_character_is_written_and_drawn(call, drop: Path, tmp_path: Path):
+    change(drop / "scene.py", 'return "Bounced"', 'return "\\ud83d\\0 bounced"')
+    files = [tmp_path / name for name in ("a.png", "a.html", "a.csv")]
+    options = [word for each in zip(("--poster", "--html", "--trajectory"), files, strict=True) for word in each]
+    code, out, err = call("run", drop, "--json", *options)
+    assert (code, err, all(file.is_file() for file in files)) == (0, "", True)
+    assert json.loads(out)["verdict"] == "\ud83d\0 bounced"
 
 
 def test_trajectory(call, tmp_path: Path):

@@ -14,6 +14,7 @@ from typing import Any
 
 import pytest
 
+from sandbox.errors import sys_exit_as_error
 from sandbox.files import write_together
 from sandbox.lab.plan import Record
 from sandbox.lab.sweep import InTurn, RowsInOrder
@@ -151,6 +152,45 @@ def test_a_second_ctrl_c_ends_a_call_of_c_without_an_end(drop: Path, tmp_path: P
         process.wait(0.2)
     process.send_signal(signal.SIGINT)
     assert process.wait(5.0) == -signal.SIGINT
+
+
+def test_threads_of_a_scene_end_with_ctrl_c(drop: Path, tmp_path: Path):
+    thread = "    import threading, time; threading.Thread(target=time.sleep, args=(600,)).start()\n"
+    there = f"    open({str(tmp_path / 'there')!r}, 'w').close(); time.sleep(600)\n"
+    change(drop / "scene.py", BUILD, BUILD + thread + there)
+    process = subprocess.Popen([*COMMAND, "run", str(drop)], start_new_session=True, stderr=subprocess.PIPE, text=True)
+    while not (tmp_path / "there").exists():
+        time.sleep(0.01)
+    process.send_signal(signal.SIGINT)
+    assert (process.communicate(timeout=60.0)[1], process.returncode) == ("stopped\n", 130)
+
+
+@pytest.mark.parametrize(("wanted", "code"), [("list", 0), ("nonsense", 2)])
+def test_ctrl_c_after_the_work_changes_nothing(wanted: str, code: int):
+    """It comes as soon as the command has ended, as while the memory of a failed run is freed."""
+    script = (
+        "import signal, sys; from sandbox import cli\n"
+        "end = cli.Interrupts.end\n"
+        "def interrupted(self, *then): signal.raise_signal(signal.SIGINT); end(self, *then)\n"
+        "cli.Interrupts.end = interrupted\n"
+        f"sys.argv = ['sandbox', '{wanted}']; sys.exit(cli.main())"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+    assert done.returncode == code
+    assert "KeyboardInterrupt" not in done.stderr
+
+
+def test_a_run_that_is_left_half_way_is_no_exit():
+    """As Python leaves the generators of a run for which there was no memory."""
+
+    def running() -> Iterator[None]:
+        with sys_exit_as_error():
+            yield
+
+    run = running()
+    next(run)
+    run.close()  # raises nothing
+    assert not [*run]
 
 
 @pytest.mark.parametrize("where", ["finished", "close"])

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import gc
 import os
+import signal
 import sys
+import threading
 
 from sandbox.cli.interrupts import Interrupts, is_interrupt
 
@@ -30,7 +32,9 @@ def main(args: list[str] | None = None) -> int:
         if args is None:
             no_forks()
         code = call(args)
+        interrupts.is_over = True
     except BaseException as error:
+        interrupts.is_over = True  # first: another one must not end this clause
         if not is_interrupt(error):
             raise
         from contextlib import suppress  # only here, so that signals are handled early
@@ -39,10 +43,28 @@ def main(args: list[str] | None = None) -> int:
             with suppress(OSError):  # the terminal may be closed
                 sys.stderr.write("stopped\n")
         code = STOPPED
-    interrupts.end()
+    if args is None and code == STOPPED and _threads_go_on():
+        _leave(code)
+    interrupts.end(signal.SIG_DFL if _threads_go_on() else signal.SIG_IGN)
     if args is None:
         gc.freeze()  # the process ends here: to look for cycles once more would take a fifth of a run
     if code == STOPPED:
         # without it Python would end by SIGINT, not with this code, if it was interrupted in an exec
         eval("0")
     return code
+
+
+def _threads_go_on() -> bool:
+    """True if threads of a scene are left, for which Python would wait before the process ends."""
+    return any(not thread.daemon for thread in threading.enumerate() if thread is not threading.main_thread())
+
+
+def _leave(code: int) -> None:
+    """End the process now, whatever its threads do."""
+    for stream in (sys.stdout, sys.stderr):
+        try:
+            if stream is not None:
+                stream.flush()
+        except (OSError, ValueError):  # the terminal may be closed
+            pass
+    os._exit(code)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
+from contextlib import redirect_stdout
 from functools import wraps
 from typing import TYPE_CHECKING, Any
 
@@ -18,13 +19,28 @@ if TYPE_CHECKING:
 Command = Callable[..., None]
 LEVELS = ("fast", "balanced", "precise")
 
+#: Where a command's context keeps stdout while what a scene prints goes elsewhere.
+_STDOUT = "sandbox.stdout"
+
 scene_argument = click.argument(
     "scene", metavar="SCENE", help="A scene (golf), a preset (golf/driver) or a scene file of your own."
 )
 optional_scene = click.argument(
     "scene", metavar="[SCENE]", required=False, help="A scene, preset or scene file.  [default: all scenes]"
 )
-json_option = click.option("--json", "as_json", is_flag=True, help="Print JSON instead of text.")
+
+
+def prints_to_stderr(context: click.Context, parameter: object = None, wanted: bool = True) -> bool:
+    """Keep stdout for what the command itself says: what a scene prints goes to stderr. Returns whether ``wanted``."""
+    if wanted and _STDOUT not in context.meta:
+        context.meta[_STDOUT] = sys.stdout
+        context.with_resource(redirect_stdout(sys.stderr))
+    return wanted
+
+
+json_option = click.option(
+    "--json", "as_json", is_flag=True, help="Print JSON instead of text.", callback=prints_to_stderr
+)
 map_option = click.option(
     "--map",
     "mapping",
@@ -102,11 +118,12 @@ def pairs(option: str, texts: tuple[str, ...]) -> dict[str, str]:
 
 def say(text: str) -> None:
     """Print on stdout, at once. A full disk is reported."""
-    if sys.stdout is None:
+    out = click.get_current_context().meta.get(_STDOUT, sys.stdout)
+    if out is None:
         raise RunError("stdout cannot be written: it is closed")
     try:
-        click.echo(printable(text))
-        sys.stdout.flush()
+        click.echo(printable(text), out)
+        out.flush()
     except BrokenPipeError:
         raise
     except OSError as error:

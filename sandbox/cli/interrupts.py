@@ -41,6 +41,7 @@ class Interrupts:
     def __init__(self) -> None:
         self._number = signal.SIGINT.value  # the last one
         self._last = -_ONE  # s
+        self.is_over = False  # the command is done: what it said and its exit code stay
 
     def begin(self) -> None:
         """Handle the signals that nobody else handles or ignores."""
@@ -49,11 +50,11 @@ class Interrupts:
                 self._handle_once(number)
         sys.unraisablehook = self._lost
 
-    def end(self) -> None:
-        """Ignore the signals while Python shuts down."""
+    def end(self, then: signal.Handlers = signal.SIG_IGN) -> None:
+        """Ignore the signals while Python shuts down, or handle them as said ``then``."""
         for number in _HANDLED:
             if signal.getsignal(number) is self:
-                signal.signal(number, signal.SIG_IGN)
+                signal.signal(number, then)
 
     def _handle_once(self, number: int) -> None:
         """Handle a signal; from when it is received until Python calls this handler, another one ends the program. So
@@ -66,6 +67,8 @@ class Interrupts:
             handle(number, ctypes.c_void_p(handler(number)))
 
     def __call__(self, number: int, frame: FrameType | None) -> None:
+        if self.is_over:
+            return
         self._handle_once(number)
         now = time.monotonic()
         if now - self._last >= _ONE:

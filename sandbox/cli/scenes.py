@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from sandbox.cli.arguments import changes_options, load, say, scene_argument
+from sandbox.cli.arguments import changes_options, load, prints_to_stderr, say, scene_argument
 from sandbox.errors import RequestError
 
 
@@ -51,6 +51,7 @@ def schema(scene: str, tasks: bool) -> None:
     """
     import json
 
+    prints_to_stderr(click.get_current_context())
     from sandbox.scene import parameters_of
     from sandbox.schema import json_schema
 

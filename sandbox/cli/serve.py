@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from sandbox.cli.arguments import say, units_option
+from sandbox.cli.arguments import prints_to_stderr, say, units_option
 from sandbox.errors import RequestError
 
 if TYPE_CHECKING:
@@ -22,7 +22,9 @@ PACKAGES = ("starlette", "uvicorn", "websockets", "segno")
 @click.option("--share", is_flag=True, help="Let other devices in the network in, not only this computer.")
 @click.option("--jobs", metavar="N", type=click.IntRange(1, 64), help="Processes that compute.  [default: cores + 2]")
 @click.option("--fresh", is_flag=True, help="Make new addresses; by default those of the last 12 hours stay valid.")
-@click.option("--json", "as_json", is_flag=True, help="Print the addresses as one line of JSON.")
+@click.option(
+    "--json", "as_json", is_flag=True, help="Print the addresses as one line of JSON.", callback=prints_to_stderr
+)
 @units_option
 def serve(scenes: tuple[str, ...], port: int | None, share: bool, jobs: int | None, fresh: bool, as_json: bool) -> None:
     """Play in any browser; with --share on every phone in the room.

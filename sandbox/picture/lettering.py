@@ -13,6 +13,7 @@ import pygame
 from sandbox.picture.painter import scratch
 from sandbox.picture.palette import ASSETS, Colour
 from sandbox.renamed import name_old_names
+from sandbox.text import printable
 
 #: Height of the letters in px on a picture of 720 rows, and the least at which they can be read.
 SIZES = {"small": (14.5, 11), "medium": (20, 14), "large": (40, 24)}
@@ -34,7 +35,7 @@ def _font(pixels: int, bold: bool) -> pygame.font.Font:
 
 @lru_cache(maxsize=1024)
 def _rendered(text: str, pixels: int, bold: bool, colour: Colour) -> pygame.Surface:
-    drawn = _font(pixels, bold).render(text, True, colour)
+    drawn = _font(pixels, bold).render(printable(text), True, colour)
     width, height = (ceil(side / FINER) for side in drawn.get_size())
     whole = scratch((width * FINER, height * FINER), colour)
     whole.blit(drawn, (0, 0))
@@ -43,7 +44,7 @@ def _rendered(text: str, pixels: int, bold: bool, colour: Colour) -> pygame.Surf
 
 def text_mask(text: str) -> np.ndarray:
     """A text in bold as coverage (0 to 1, shape (width, height)), cut to its edges: to be put on what is no picture."""
-    alpha = pygame.surfarray.array_alpha(_font(16, True).render(text, True, (255, 255, 255))) / 255.0
+    alpha = pygame.surfarray.array_alpha(_font(16, True).render(printable(text), True, (255, 255, 255))) / 255.0
     columns, rows = (np.flatnonzero(alpha.max(axis=axis) > 0) for axis in (1, 0))
     return alpha[columns[0] : columns[-1] + 1, rows[0] : rows[-1] + 1]
 
@@ -65,7 +66,7 @@ class Lettering:
 
     def width(self, text: str, size: str, bold: bool = False) -> int:
         """In px."""
-        return ceil(_font(self.pixels[size], bold).size(text)[0] / FINER)
+        return ceil(_font(self.pixels[size], bold).size(printable(text))[0] / FINER)
 
     def rect(
         self, text: str, size: str, at: tuple[float, float], anchor: str = "topleft", bold: bool = False

@@ -35,6 +35,7 @@ from sandbox.serve.calls import Ask, Kind, Reply
 from sandbox.serve.limits import FAN, MEMORY, PATH, RESULT
 from sandbox.sport.amounts import shown_in
 from sandbox.tasks import Session
+from sandbox.text import encodable
 from sandbox.tracebacks import one_line_error
 from sandbox.window.aim import PUSH, Speeds, pull_speeds
 from sandbox.window.fan import fan_of
@@ -120,7 +121,7 @@ def packed(kind: str, **data: Any) -> bytes:
     """A message for the browser: JSON, deflated; a run with its numbers to so many DIGITS."""
     ready = {key: json_ready(value, DIGITS if key == "run" else None) for key, value in data.items()}
     text = json.dumps({"is": kind, **ready}, allow_nan=False, ensure_ascii=False, separators=(",", ":"))
-    return zlib.compress(text.encode(), 1)
+    return zlib.compress(encodable(text).encode(), 1)
 
 
 # ---------------------------------------------------------------------------------------------------------------------

@@ -11,6 +11,7 @@ import multiprocessing
 import os
 import pickle
 import signal
+import sys
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future
 from contextlib import contextmanager, suppress
@@ -186,6 +187,7 @@ def _serve(line: Connection) -> None:
     """Compute the calls received, until the connection is closed."""
     _end_with_parent()
     no_forks()
+    sys.stdout = sys.stderr  # what a scene prints: the program's stdout may be JSON
     gc.set_threshold(100_000)  # as in the program itself
     while True:
         try:

@@ -281,6 +281,14 @@ def test_no_code_of_a_scene_runs_in_the_server_itself(tmp_path):
         assert drop.stop() == 130
 
 
+def test_a_verdict_with_half_a_character_reaches_the_browser(tmp_path: Path):
+    drop = copy_of(DROP, tmp_path / "drop")
+    text = (drop / "scene.py").read_text("utf-8").replace('return "Bounced"', 'return "\\ud83d bounced"')
+    (drop / "scene.py").write_text(text, "utf-8")
+    reply = work.shot(calls.Ask(str(drop), {}, 1))
+    assert json.loads(zlib.decompress(reply["message"]))["run"]["verdict"] == "\ud83d bounced"
+
+
 def test_the_server_itself_imports_no_scenes_and_no_pictures():
     code = "import sys, sandbox.serve.server; print(*sys.modules)"
     modules = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stdout.split()
