@@ -1,7 +1,9 @@
-"""Output files, checked before the work begins and written completely or not at all; and values in JSON's types."""
+"""Files that are read, and output files: checked before the work begins, written completely or not at all, never in
+place of a file that the same command reads; what they replace is kept with ``~``. And values in JSON's types."""
 
 from __future__ import annotations
 
+import filecmp
 import operator
 import os
 import shutil
@@ -10,6 +12,7 @@ import tempfile
 import threading
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
+from contextvars import ContextVar
 from dataclasses import fields, is_dataclass
 from importlib.util import find_spec
 from math import isfinite
@@ -21,6 +24,15 @@ from sandbox.text import encodable, shortened
 
 #: Smallest and largest pictures, in px.
 SMALLEST, LARGEST = (320, 180), (7680, 4320)
+
+#: The process's own streams, which may be named as outputs, with their descriptors.
+_STREAMS = {"/dev/stdout": 1, "/dev/stderr": 2}
+
+#: The beginnings of trajectories and tables of impacts, the last column of a sweep, and the beginning of a fit.
+_TABLES, _SWEEP, _FIT = (b"t,ball,x,y,vx,vy,spin", b"t,ball,mass,vx_before"), b",error", b"# Fitted: "
+
+#: The files read so far by the command that runs, by their real paths; None outside of commands.
+_inputs: ContextVar[set[str] | None] = ContextVar("inputs", default=None)
 
 
 def reason(error: OSError) -> str:
@@ -40,13 +52,14 @@ def check_file(option: str, path: Path, suffix: str) -> None:
     """Raise RequestError if the file for ``option`` could not be written, before any work is done for it."""
     if path == Path():
         raise RequestError(f'{option}: "" and "." are not files; name one, such as out{suffix}')
+    if is_stream(path):
+        return
     _check_name(option, path)
     if path.is_dir():
         raise RequestError(f"{option} {path}: is a folder; name a file in it, such as {path / ('out' + suffix)}")
-    if _is_device(path):
-        return
     if path.suffix.lower() != suffix:
         raise RequestError(f"{option} {path}: its name must end in {suffix}")
+    check_replaced(option, path)
     check_writable(option, path.parent)
     if path.exists() and not os.access(path, os.W_OK):
         raise RequestError(f"{option} {path}: cannot be written: permission denied")
@@ -78,10 +91,10 @@ def check_installed(option: str, package: str) -> None:
 
 
 def check_distinct(outputs: Mapping[str, Path | None]) -> None:
-    """Raise RequestError if two options name the same file; a device may be named twice."""
+    """Raise RequestError if two options name the same file; a stream may be named twice."""
     first: dict[str, str] = {}
     for option, path in outputs.items():
-        if path is not None and not _is_device(path):
+        if path is not None and not is_stream(path):
             other = first.setdefault(os.path.realpath(path), option)
             if other != option:
                 raise RequestError(f"{option} {path}: is also the file of {other}; name another")
@@ -150,12 +163,27 @@ def _own_folder(variable: str, usual: str) -> Path:
     return Path(home) / "sports-sandbox"
 
 
+@contextmanager
+def inputs_are_kept() -> Iterator[None]:
+    """While a command runs inside, no output replaces a file that it has read."""
+    token = _inputs.set(set())
+    try:
+        yield
+    finally:
+        _inputs.reset(token)
+
+
 def is_given(path: Path) -> bool:
-    """True if there is a file of that name. Raises RequestError for a folder, and for a pipe or a device, from which a
-    reader might wait for ever: it is not passed over."""
-    if path.is_file() or not path.exists():
-        return path.is_file()
-    raise RequestError(f"{path}: is {'a folder' if path.is_dir() else 'a pipe or a device'}; a file is needed")
+    """True if there is a file of that name, which is an input from here on. Raises RequestError for a folder, and for a
+    pipe or a device, from which a reader might wait for ever: it is not passed over."""
+    if not path.exists():
+        return False
+    if not path.is_file():
+        raise RequestError(f"{path}: is {'a folder' if path.is_dir() else 'a pipe or a device'}; a file is needed")
+    inputs = _inputs.get()
+    if inputs is not None:
+        inputs.add(os.path.realpath(path))
+    return True
 
 
 def read_given(path: Path, most: int) -> bytes:
@@ -185,11 +213,87 @@ def lock(file: TextIO) -> bool:
     return True
 
 
+def is_stream(path: Path) -> bool:
+    """True for /dev/stdout and /dev/stderr, which an output may be named."""
+    return path.as_posix() in _STREAMS
+
+
+def open_stream(path: Path) -> TextIO:
+    """The stream of that name for writing, at the place that it has reached; to close it leaves the process's open."""
+    return os.fdopen(os.dup(_STREAMS[path.as_posix()]), "w", encoding="utf-8", newline="")
+
+
+def backup_of(path: Path) -> Path:
+    """The name under which the content of a file is kept that an output replaces."""
+    return path.with_name(f"{path.name}~")
+
+
+def check_replaced(option: str, path: Path) -> None:
+    """Raise RequestError if an output of this name would replace something that is no plain file, that the command
+    reads, or that could not be kept: the last also if a table or scene file of the user's has the backup's name."""
+    target = Path(os.path.realpath(path))
+    named = f"{option} {path}".strip()
+    backup = backup_of(target)
+    for file in (target, backup):
+        if file.exists() and not file.is_file():
+            raise RequestError(f"{named}: {'' if file == target else f'{backup} '}is no plain file; name another")
+    if not target.exists():
+        return
+    if _is_input(target):
+        raise RequestError(f"{named}: this command reads that file, which would be lost; name another")
+    if backup.exists() and (_is_input(backup) or not _is_ours(backup)):
+        raise RequestError(f"{named}: its content would be kept as {backup}, but that is a file of yours; name another")
+
+
+def _is_input(path: Path) -> bool:
+    """True if the command has read this file, by whatever name."""
+    return any(read.exists() and read.samefile(path) for read in map(Path, _inputs.get() or ()))
+
+
+def is_our_table(path: Path) -> bool:
+    """True for rows of a sweep, a trajectory or impacts that this program wrote, and for a file that is still empty."""
+    first = _first_line(path)
+    return first is not None and (not first or first.startswith(_TABLES) or first.endswith(_SWEEP))
+
+
+def _is_ours(path: Path) -> bool:
+    """True for the backup of a table, of a fit or of its points that this program wrote, and for other types."""
+    if path.suffix.lower() not in (".csv~", ".toml~") or is_our_table(path):
+        return True
+    return (_first_line(path.with_suffix(".toml~")) or b"").startswith(_FIT)
+
+
+def _first_line(path: Path) -> bytes | None:
+    """The first line of a file; None if it cannot be read."""
+    try:
+        with path.open("rb") as file:
+            return file.readline(1 << 16).rstrip(b"\r\n")
+    except OSError:
+        return None
+
+
+def keep(path: Path) -> None:
+    """Give a file its backup's name, and take that of the backup before."""
+    path.replace(backup_of(path))
+
+
+def _put(part: Path, target: Path, kept: bool) -> None:
+    """Give a finished file its name; other content that has it is ``kept``, or else replaced."""
+    if not kept or not target.exists() or filecmp.cmp(part, target, shallow=False):
+        part.replace(target)
+        return
+    check_replaced("", target)
+    with _interrupts_wait():
+        keep(target)
+        part.replace(target)
+
+
 @contextmanager
-def atomic_write(path: Path) -> Iterator[TextIO]:
-    """A text file that appears under its name only when complete; a device such as /dev/stdout is written directly."""
-    if _is_device(path):
-        with path.open("w", encoding="utf-8", newline="") as file:
+def atomic_write(path: Path, kept: bool = True) -> Iterator[TextIO]:
+    """A text file that appears under its name only when complete; what it replaces is ``kept`` with ``~``. /dev/stdout
+    and /dev/stderr are written directly."""
+    if is_stream(path):
+        with open_stream(path) as file:
             yield file
         return
     target = Path(os.path.realpath(path))  # the file behind a link, not the link
@@ -197,24 +301,33 @@ def atomic_write(path: Path) -> Iterator[TextIO]:
     try:
         with part.open("w", encoding="utf-8", newline="") as file:
             yield file
-        part.replace(target)
+        _put(part, target, kept)
     finally:
         part.unlink(missing_ok=True)
 
 
-def write_together(contents: Mapping[Path, bytes]) -> None:
-    """Write several files, all or none: an interrupt waits until the last has its name.
+def put_output(part: Path, path: Path) -> None:
+    """Give a finished output that is in another place its name; what it replaces is kept with ``~``."""
+    _put(part, Path(os.path.realpath(path)), kept=True)
+
+
+def write_together(contents: Mapping[Path, bytes], kept: bool = False) -> None:
+    """Write several files, all or none: an interrupt waits until the last has its name; what they replace is ``kept``
+    with ``~`` on request.
 
     Only a process that is killed between two renames leaves some; each of those is complete.
     """
-    parts = {path: path.with_name(f".{path.name[:40]}.{os.getpid()}.part") for path in contents}
+    targets = {path: Path(os.path.realpath(path)) for path in contents}
+    parts = {path: target.with_name(f".{target.name[:40]}.{os.getpid()}.part") for path, target in targets.items()}
     try:
         for path, data in contents.items():
-            path.parent.mkdir(parents=True, exist_ok=True)
+            targets[path].parent.mkdir(parents=True, exist_ok=True)
             parts[path].write_bytes(data)
+            if kept:
+                check_replaced("", path)
         with _interrupts_wait():
             for path, part in parts.items():
-                part.replace(path)
+                _put(part, targets[path], kept)
     finally:
         for part in parts.values():
             part.unlink(missing_ok=True)
@@ -277,7 +390,3 @@ def no_empty_folder(path: Path) -> Iterator[None]:
             with suppress(OSError):
                 folder.rmdir()
         raise
-
-
-def _is_device(path: Path) -> bool:
-    return path.exists() and not path.is_file() and not path.is_dir()

@@ -29,7 +29,7 @@ import pytest
 
 from sandbox import record, resources
 from sandbox.errors import RequestError, RunError
-from sandbox.files import check_size, write_together
+from sandbox.files import check_size, is_given, write_together
 from sandbox.picture.difference import SIZE, as_png, coarser, compare, side_by_side, what_changed
 from sandbox.record import Record
 from sandbox.text import printable
@@ -155,7 +155,7 @@ class Golden:
     def _known(self, name: str, actual: Image.Image, path: Path, read: Callable[[Path], Known]) -> Known | None:
         """Return the content of a golden file; None if there is none, or a damaged one that is to be made again."""
         try:
-            return read(path) if path.exists() else None
+            return read(path) if is_given(path) else None
         except (OSError, SyntaxError, ValueError) as error:
             if not self.update:
                 said = f"{name}: {path} is damaged: {error}"

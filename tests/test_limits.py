@@ -51,11 +51,6 @@ def test_help_on_a_full_disk_is_a_line():
     assert (done.returncode, done.stderr) == (1, "error: stdout: no space left on device\n")
 
 
-def test_a_video_takes_no_devices_place(call: Call):
-    assert_refused(call("run", DROP, "--video", "/dev/null"), "--video /dev/null: is no file", 2)
-    assert Path("/dev/null").is_char_device()
-
-
 def test_a_pipe_is_no_scene_file(call: Call, tmp_path: Path):
     os.mkfifo(tmp_path / "pipe.toml")
     assert_refused(call("run", tmp_path / "pipe.toml"), "pipe.toml: is a pipe or a device; a file is needed")

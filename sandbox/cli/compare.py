@@ -114,6 +114,7 @@ def fit(
     from sandbox.lab.fit.data import Reading
     from sandbox.lab.fit.formats import parse_entry
     from sandbox.lab.fit.frame import parse_free
+    from sandbox.lab.fit.launches import Launches
     from sandbox.lab.fit.models import compare, parse_models
     from sandbox.lab.fit.reading import Film, parse_ball, parse_pair, parse_scale
 
@@ -127,8 +128,8 @@ def fit(
     )
     entries = tuple(map(parse_entry, mapping))
     how = Reading(film, parse_free("--free", free), entries, pairs("--where", where))
-    check_outputs(plot, page, save, tracks)
     data = read_data(chosen, tracks, how)
+    check_outputs(plot, page, save, has_points=not isinstance(data, Launches))
     found = (
         fit_track(chosen, data, spans, robust)
         if models is None

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 
 from sandbox.files import check_distinct, check_file, check_installed, writing
 from sandbox.lab.fit import Fit
 
 
-def check_outputs(plot: Path | None, page: Path | None, save: Path | None, tracks: Sequence[Path]) -> None:
-    """Raise RequestError, before any work is done, if one of the files cannot be written."""
+def check_outputs(plot: Path | None, page: Path | None, save: Path | None, has_points: bool) -> None:
+    """Raise RequestError, before any work is done, if one of the files cannot be written; a fit that ``has_points``
+    saves them, too."""
     if plot is not None:
         from sandbox.lab.chart import check_chart
 
@@ -19,11 +19,12 @@ def check_outputs(plot: Path | None, page: Path | None, save: Path | None, track
         check_file("--page", page, ".html")
         check_installed("--page", "matplotlib")
     if save is not None:
-        from sandbox.lab.fit.saving import check_save
+        from sandbox.lab.fit.saving import check_points
 
         check_file("--save", save, ".toml")
         check_installed("--save", "tomlkit")
-        check_save("--save", save, tracks)
+        if has_points:
+            check_points("--save", save)
     check_distinct({"--plot": plot, "--page": page, "--save": save})
 
 

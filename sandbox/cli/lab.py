@@ -17,7 +17,7 @@ from sandbox.cli.arguments import (
     units_option,
 )
 from sandbox.errors import RequestError, RunError
-from sandbox.files import json_text, writing
+from sandbox.files import check_distinct, check_file, check_installed, is_stream, json_text, writing
 
 if TYPE_CHECKING:
     from sandbox.lab.plan import Plan
@@ -172,8 +172,6 @@ def spread(
 
 def _check_outputs(plot: Path | None, page: Path | None) -> None:
     """Raise RequestError if the scatter cannot be written there."""
-    from sandbox.files import check_distinct, check_file, check_installed
-
     if plot is not None:
         from sandbox.lab.chart import check_chart
 
@@ -263,17 +261,17 @@ def sweep(
         --plot put.png --family release.height
       sandbox sweep golf --points measured-launches.csv --out carry.csv
     """
-    from sandbox.files import check_file
     from sandbox.lab.sweep import sweep_to_file, workers, worthwhile_jobs
     from sandbox.progress import bar
 
     plan = _plan(load(scene, changes), over, points, samples, seed, check)
     check_file("--out", out, ".csv")
     _check_pictures(plan, plot, html, of, family)
+    check_distinct({"--out": out, "--plot": plot, "--html": html})
     with workers(worthwhile_jobs(plan) if jobs is None else jobs, scheduler) as pool, bar("sweep") as progress:
         done = sweep_to_file(plan, out, pool, progress)
     _draw(plan, out, plot, html, of, family)
-    if str(out) != "/dev/stdout":
+    if not is_stream(out):
         new = out if done.points > done.resumed else None
         written = [f"wrote {path}" for path in (new, plot, html) if path is not None]
         say("\n".join([done.as_text(), *written]))
@@ -314,7 +312,6 @@ def _check_pictures(plan: Plan, plot: Path | None, html: Path | None, of: str | 
         check_chart("--plot", plot)
         check_plot(plan, of, family)
     if html is not None:
-        from sandbox.files import check_file, check_installed
         from sandbox.page import sweep as page
 
         check_file("--html", html, ".html")

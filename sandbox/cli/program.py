@@ -53,12 +53,14 @@ def app() -> None:
 
 def call(args: Sequence[str] | None) -> int:
     """Run one command; an error becomes a line on stderr and an exit code. Ctrl-C is a KeyboardInterrupt."""
+    from sandbox.files import inputs_are_kept
+
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="replace")  # a terminal without "±" shows "?"
     given = list(sys.argv[1:] if args is None else args) or ["--help"]
     try:
-        with app.make_context("sandbox", [*given]) as context:
+        with inputs_are_kept(), app.make_context("sandbox", [*given]) as context:
             app.invoke(context)
         return 0
     except click.exceptions.Exit as done:  # after --help

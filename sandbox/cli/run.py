@@ -98,6 +98,7 @@ def run(
 
     task = tried(scene, changes, attempt, seed)
     chosen = load(scene, changes) if task is None else task.scene
+    compared = {source: _comparable(chosen, source, changes) for source in compare}
     files = outputs.requested(paths, size, fps)
     sampled = _sampling(every, columns, paths["trajectory"])
     with bar("seconds simulated") as progress:
@@ -106,7 +107,7 @@ def run(
         except RequestError as error:  # what only the scene can check: two balls in one place
             raise RequestError(f"{scene}: {error}") from None
         checked = check_scene(chosen, done, progress) if check else None
-        others = {source: simulate(_comparable(chosen, source, changes), progress=progress) for source in compare}
+        others = {source: simulate(other, progress=progress) for source, other in compared.items()}
     if as_json:
         more = {} if task is None else {"attempt": task.report(done)}
         said = report.as_json(chosen, done, checked, list(others.values()), more)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -16,6 +17,7 @@ import numpy as np
 from sandbox import parameters as declared
 from sandbox import units
 from sandbox.errors import RequestError
+from sandbox.files import read_given
 from sandbox.parameters import Group, Quantity, SceneParameters, path_of, value_at
 from sandbox.scene import Scene
 from sandbox.text import shortened
@@ -23,6 +25,9 @@ from sandbox.toml import toml_value
 
 #: Most values along one axis, and most points of a sweep: more is taken as a mistake in the request.
 MOST_VALUES, MOST_POINTS = 1_000_000, 100_000_000
+
+#: Most bytes of a file of points.
+_LARGEST = 1_000_000_000
 
 #: Cached combinations of words and switches, since each takes milliseconds to check.
 _CACHED = 64
@@ -203,10 +208,12 @@ def points_in(scene: Scene, option: str, path: FilePath) -> tuple[Values, ...]:
     """The values of each parameter at points in order, from a CSV file with the parameters' keys in its first line.
     Raises RequestError."""
     try:
-        with path.open(encoding="utf-8-sig", newline="") as file:
-            keys, *rows = [row for row in csv.reader(file, strict=True) if row] or [[]]
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise RequestError(f"{option} {path}: {getattr(error, 'strerror', None) or error}") from None
+        text = read_given(path, _LARGEST).decode("utf-8-sig")
+        keys, *rows = [row for row in csv.reader(io.StringIO(text, newline=""), strict=True) if row] or [[]]
+    except RequestError as error:
+        raise RequestError(f"{option} {error}") from None
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise RequestError(f"{option} {path}: {error}") from None
     keys = [key.strip() for key in keys]
     if not rows:
         raise RequestError(f"{option} {path}: no points: the first line has keys, each line after it a point")

@@ -19,7 +19,7 @@ from itertools import accumulate
 from pathlib import Path
 
 from sandbox import resources
-from sandbox.lab.row_file import is_of_a_sweep
+from sandbox.files import is_our_table
 from sandbox.scene import Scene
 from sandbox.tracebacks import is_of_library
 
@@ -97,7 +97,7 @@ def _files(folder: Path) -> Iterator[Path]:
             if not name.startswith(".") and name not in _IGNORED and os.path.realpath(f"{place}/{name}") not in seen
         ]
         for file in (Path(place, name) for name in names if not name.startswith(".") and not name.endswith(_OUTPUTS)):
-            if file.is_file() and not is_of_a_sweep(file):
+            if file.is_file() and not is_our_table(file):
                 yield file
 
 

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
 from sandbox.errors import RequestError
-from sandbox.files import json_ready, lock, writing
+from sandbox.files import backup_of, check_replaced, is_stream, json_ready, keep, lock, open_stream, writing
 from sandbox.text import csv_text
 
 if TYPE_CHECKING:
@@ -24,9 +24,6 @@ if TYPE_CHECKING:
 
 #: A value as JSON, on one line.
 _as_json = json.JSONEncoder(ensure_ascii=False, default=str).encode
-
-#: The last column of a sweep, and all columns of a path that ``run --trajectory`` writes.
-_LAST, _TRAJECTORY = "error", b"t,ball,x,y,vx,vy,spin"
 
 
 class RowFile:
@@ -40,7 +37,7 @@ class RowFile:
 
     The old content of a finished or damaged file is kept under its name with ``~`` added (``before``) until the same
     rows are in the new file. A finished file of the same sweep is complete: a small hidden file next to it has a digest
-    of both. Devices such as /dev/stdout are simply written to.
+    of both. /dev/stdout and /dev/stderr are simply written to.
     """
 
     def __init__(self, path: Path, plan: Plan) -> None:
@@ -49,18 +46,20 @@ class RowFile:
         self.damaged: int | None = None
         self._plan = plan
         self._first_line = _line(map(csv_text, plan.columns))
-        self._is_device = path.exists() and not path.is_file()
-        self._file_path = path if self._is_device else path.resolve()  # the target of a link, not the link
+        self._is_stream = is_stream(path)
+        self._file_path = path if self._is_stream else path.resolve()  # the target of a link, not the link
         self._mark_path = self._file_path.with_name(f"{self._file_path.name}.resume")
         self._seal_path = self._file_path.with_name(f".{self._file_path.name}.complete")
-        self.before = self._file_path.with_name(f"{self._file_path.name}~")
+        self.before = backup_of(self._file_path)
         self._open = ExitStack()
 
     def __enter__(self) -> RowFile:
         with writing("--out", self.path), self._open:
-            if not self._is_device:
+            if self._is_stream:
+                self._file = open_stream(self.path)
+            else:
                 self._begin(self._open.enter_context(self._locked()))
-            self._file = self._file_path.open("w" if self._is_device else "a", encoding="utf-8", newline="")
+                self._file = self._file_path.open("a", encoding="utf-8", newline="")
             self._open = self._open.pop_all()
         return self
 
@@ -71,7 +70,7 @@ class RowFile:
 
     def finish(self) -> None:
         """Mark the file as complete."""
-        if not self._is_device:
+        if not self._is_stream:
             with suppress(OSError):  # a full disk: the same sweep would be computed again
                 self._seal_path.write_text(self._seal(), encoding="utf-8")
             self._mark_path.unlink(missing_ok=True)
@@ -125,11 +124,11 @@ class RowFile:
             self.done = self._plan.size
         elif there:
             try:
-                self._check_before()
+                check_replaced("--out", self.path)
             except RequestError:
                 self._mark_path.unlink()
                 raise
-            self._file_path.replace(self.before)
+            keep(self._file_path)
         mark.truncate(0)
         try:
             mark.write(self._plan.fingerprint + "\n")
@@ -171,18 +170,10 @@ class RowFile:
             file.seek(end or len(header))
             rest = file.readline()
             if rest.endswith(b"\n") or b"\0" in rest:  # not just the line that was being written
-                self._check_before()
+                check_replaced("--out", self.path)
                 shutil.copyfile(self._file_path, self.before)
                 self.damaged = self.done + 1
             file.truncate(end)
-
-    def _check_before(self) -> None:
-        """Raise RequestError if a file of the user's is in the way of the backup."""
-        if self.before.exists() and not is_of_a_sweep(self.before):
-            raise RequestError(
-                f"--out {self.path}: its content would be kept as {self.before}, but that is a file of yours; "
-                "choose another name"
-            )
 
 
 def _line(cells: Iterable[str]) -> str:
@@ -199,16 +190,6 @@ def _cells(line: bytes) -> list[str] | None:
     except (UnicodeDecodeError, csv.Error):
         return None
     return cells if _line(cells) == text and "\0" not in text else None
-
-
-def is_of_a_sweep(path: Path) -> bool:
-    """True if a file is a table written by this program, rows of a sweep or a trajectory, or is still empty."""
-    try:
-        with path.open("rb") as file:
-            first = file.readline(1 << 16).rstrip(b"\r\n")
-    except OSError:
-        return False
-    return first.endswith(f",{_LAST}".encode()) or first in (_TRAJECTORY, b"")
 
 
 def cell(value: Any) -> str:

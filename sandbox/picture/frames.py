@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import filecmp
 import io
 import os
 import struct
@@ -20,7 +21,7 @@ from PIL import GifImagePlugin, Image
 
 from sandbox.engine.paths.run import Run
 from sandbox.errors import RequestError
-from sandbox.files import atomic_write, folder_of_parts
+from sandbox.files import atomic_write, backup_of, check_replaced, folder_of_parts, is_stream, put_output
 
 if TYPE_CHECKING:
     from sandbox.picture.view import View
@@ -99,8 +100,8 @@ def quick_png(image: Image.Image) -> bytes:
 def save_frames(picture: View[Any], run: Run, folder: Path | str, fps: float, progress: Progress | None = None) -> int:
     """Write frame_00000.png, frame_00001.png, ... into a folder, all or none; returns how many.
 
-    Frames of an earlier run with higher numbers are removed, or a film made of the folder would end in two runs.
-    Raises RequestError where the folder holds frames that somebody else made, OSError where it cannot be written.
+    Frames of an earlier run are kept in a folder with ``~``, all of them, or a film made of the folder would end in two
+    runs. Raises RequestError where a folder holds frames that somebody else made, OSError where it cannot be written.
     """
     folder = Path(folder)
     check_frames_folder("--frames", folder)
@@ -116,22 +117,35 @@ def save_frames(picture: View[Any], run: Run, folder: Path | str, fps: float, pr
                 written.popleft().result()
         for waiting in written:
             waiting.result()
+        _keep_frames(folder, part)
         for name in names:
             (part / name).replace(folder / name)
-    for old in folder.glob(FRAMES):
-        if old.name > names[-1]:
-            old.unlink()
     return len(times)
 
 
+def _keep_frames(folder: Path, new: Path) -> None:
+    """Move the frames of an earlier run into the folder with ``~``, unless the new ones are the same."""
+    frames, backup = sorted(folder.glob(FRAMES)), backup_of(folder.resolve())
+    same = filecmp.cmpfiles(folder, new, [frame.name for frame in frames], shallow=False)[0]
+    if len(same) == len(frames):
+        return
+    backup.mkdir(exist_ok=True)
+    for older in backup.glob(FRAMES):
+        older.unlink()
+    for frame in frames:
+        frame.replace(backup / frame.name)
+
+
 def check_frames_folder(option: str, folder: Path) -> None:
-    """Raise RequestError if the folder has a file named like a frame that the sandbox did not write: it would be
-    overwritten, or end up in the same film."""
-    for file in sorted(folder.glob(FRAMES)):
-        if not _is_ours(file):
-            raise RequestError(
-                f"{option} {folder}: {file.name} in it was not written by the sandbox; name another folder, or move it"
-            )
+    """Raise RequestError if the folder, or that of its backup, has a file named like a frame that the sandbox did not
+    write: it would be overwritten, or end up in the same film."""
+    for place in (folder, backup_of(folder.resolve())):
+        for file in sorted(place.glob(FRAMES)):
+            if not _is_ours(file):
+                raise RequestError(
+                    f"{option} {place}: {file.name} in it was not written by the sandbox; name another folder, or move "
+                    "it"
+                )
 
 
 def _is_ours(file: Path) -> bool:
@@ -205,10 +219,11 @@ def save_video(picture: View[Any], run: Run, path: Path | str, fps: float, progr
 
     times = _moments(picture, run, fps)
     times += [times[-1]] * round(PAUSE * fps)
-    path = Path(os.path.realpath(path))
-    if path.exists() and not path.is_file():
-        raise RequestError(f"--video {path}: is no file, and a video cannot be written in one piece; name a file")
-    with folder_of_parts(path.parent, "video") as folder:
+    path = Path(path)
+    if is_stream(path):
+        raise RequestError(f"--video {path}: a video is not written in one piece; name a file")
+    check_replaced("--video", path)
+    with folder_of_parts(Path(os.path.realpath(path)).parent, "video") as folder:
         part = folder / "run.mp4"
         images = film(picture, times, progress)
         first = next(images)
@@ -224,7 +239,7 @@ def save_video(picture: View[Any], run: Run, path: Path | str, fps: float, progr
             raise OSError("ffmpeg stopped; is the disk full?") from None  # in place of its whole command
         finally:
             encoder.close()
-        part.replace(path)
+        put_output(part, path)
     return len(times)
 
 

@@ -31,6 +31,7 @@ def module_in(folder: Path, name: str) -> ModuleType:
         with sys_exit_as_error():
             _package(NAMESPACE, resources.folder("scenes"))
             _package(package, folder)
+            is_given(folder / f"{name}.py")
             return importlib.import_module(f"{package}.{name}")
     except (SyntaxError, ValueError):  # for NUL bytes Python names no file, and not always a SyntaxError
         file = folder / f"{name}.py"

@@ -132,7 +132,7 @@ class BestList:
         tasks = {name: [best._asdict() for best in scores] for name, scores in sorted(self.tasks.items())}
         try:
             self.file.parent.mkdir(parents=True, exist_ok=True)
-            with atomic_write(self.file) as file:
+            with atomic_write(self.file, kept=False) as file:
                 json.dump({"format": FORMAT, "version": VERSION, "tasks": tasks}, file, indent=1)
         except OSError as error:
             self.problem = f"{self.file}: the best list cannot be written: {reason(error)}"

@@ -6,7 +6,8 @@ import json
 from contextlib import suppress
 from pathlib import Path
 
-from sandbox.files import atomic_write, state_folder
+from sandbox.errors import RequestError
+from sandbox.files import atomic_write, is_given, state_folder
 
 #: What a first user may try, by the name under which it is remembered.
 HINTS = {
@@ -32,8 +33,8 @@ class Memory:
         self.recent: list[str] = []
         self.followed: list[str] = []
         self.look = 1.0, False  # how much larger letters are, and whether the contrast is high
-        with suppress(OSError, ValueError, TypeError, AttributeError):
-            kept = json.loads(file.read_text("utf-8")) if file is not None else {}
+        with suppress(OSError, ValueError, TypeError, AttributeError, RequestError):
+            kept = json.loads(file.read_text("utf-8")) if file is not None and is_given(file) else {}
             self.recent = [source for source in kept.get("recent", []) if isinstance(source, str)][:MOST]
             larger, contrast = kept.get("look", self.look)
             self.look = min(max(float(larger), 1.0), 2.0), bool(contrast)
@@ -63,5 +64,5 @@ class Memory:
         if self.file is not None:
             with suppress(OSError):
                 self.file.parent.mkdir(parents=True, exist_ok=True)
-                with atomic_write(self.file) as file:
+                with atomic_write(self.file, kept=False) as file:
                     json.dump({"recent": self.recent, "followed": self.followed, "look": self.look}, file)

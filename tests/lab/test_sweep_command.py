@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import subprocess
 
 import pytest
 from PIL import Image
@@ -11,7 +10,7 @@ from PIL import Image
 import sandbox
 from sandbox.cli import main
 from tests.lab.sweeping import own_scene, table
-from tests.own_scene import COMMAND, DROP
+from tests.own_scene import DROP
 
 
 def test_the_command(tmp_path, capsys):
@@ -59,13 +58,6 @@ def test_shots_that_are_normally_distributed(tmp_path, capsys):
     assert max(speeds) - min(speeds) == pytest.approx(5 * 0.08, rel=0.4)
     text = page.read_text()
     assert all(word in text for word in ("launch.speed=7.4~0.08", "launch.angle=52~1", "--samples 64"))
-
-
-def test_rows_on_stdout(tmp_path):
-    command = [*COMMAND, "sweep", str(DROP), "--over", "launch.height=1:2:3", "--jobs", "1", "--out", "/dev/stdout"]
-    done = subprocess.run(command, capture_output=True, text=True, check=True)
-    assert len(done.stdout.splitlines()) == 4
-    assert done.stdout.startswith("launch.height,bounces,")
 
 
 ROWS = ("--over", "launch.speed=1:2:3", "--out", "x.csv")

@@ -10,7 +10,7 @@ import pytest
 from sandbox import resources
 from sandbox.cli import main
 from sandbox.engine.paths.run import Run
-from sandbox.errors import RequestError, RunError
+from sandbox.errors import RequestError
 from sandbox.lab import provenance as provenances
 from sandbox.lab.plan import CHANGED, Plan, records
 from sandbox.lab.row_file import RowFile
@@ -232,10 +232,3 @@ def test_the_columns_are_those_of_the_plan_whatever_fails_first(falling, tmp_pat
     }
     assert checked.block
     assert not any(isinstance(kept, Run) for kept in vars(checked).values())  # a plan is sent, and not every run can be
-
-
-def test_a_full_disk_is_told(falling):
-    if not Path("/dev/full").is_char_device():
-        pytest.skip("needs /dev/full")
-    with pytest.raises(RunError, match="--out /dev/full: cannot be written: no space left"):
-        swept(grid(falling, "launch.height=0.5:2:3"), Path("/dev/full"))

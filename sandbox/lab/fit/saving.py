@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import tomllib
 from pathlib import Path
 
 from sandbox.errors import RequestError
-from sandbox.files import write_together
+from sandbox.files import check_replaced, write_together
 from sandbox.lab.fit.report import residual_text, title, value_rows
 from sandbox.lab.fit.squares import Fit
 from sandbox.scene.writing import scene_text
@@ -17,16 +17,29 @@ def points_file(path: Path) -> Path:
     return path.with_suffix(".csv")
 
 
-def check_save(option: str, path: Path, tracks: Sequence[Path]) -> None:
-    """Raise RequestError, before any work is done, if the points would be written over the tracks."""
-    if points_file(path).resolve() in [track.resolve() for track in tracks]:
-        raise RequestError(
-            f"{option} {path}: its points would be written over {points_file(path)}; choose another name"
-        )
+def check_points(option: str, path: Path) -> None:
+    """Raise RequestError, before any work is done, if the points of a scene file would be written over a file that is
+    not those of the scene file which is replaced."""
+    points = points_file(path)
+    try:
+        check_replaced(option, points)
+    except RequestError as error:
+        raise RequestError(f"{error}; the points of {path} are written there") from None
+    if points.exists() and _points_named(path) != points.resolve():
+        raise RequestError(f"{option} {path}: its points would be written over {points}; choose another name")
+
+
+def _points_named(path: Path) -> Path | None:
+    """The file that an earlier scene file names as its points; None if there is none."""
+    try:
+        return (path.parent / tomllib.loads(path.read_text("utf-8"))["measured"]["track"]).resolve()
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
 
 
 def save(found: Fit, path: Path) -> list[Path]:
-    """Write the scene file, and the points in the scene's coordinates next to it: both or none. Returns their paths."""
+    """Write the scene file, and the points in the scene's coordinates next to it: both or none; what they replace is
+    kept with ``~``. Returns their paths."""
     points = found.measured.points(found.scene, found.free)
     track = points_file(path).name if points is not None else ""
     about = [f"Fitted: {title(found)}; residuals {residual_text(found)}."]
@@ -35,5 +48,5 @@ def save(found: Fit, path: Path) -> list[Path]:
     files = {path: scene_text(found.scene, path.parent, "\n".join(about), track).encode()}
     if points is not None:
         files[points_file(path)] = points.as_csv().encode()
-    write_together(files)
+    write_together(files, kept=True)
     return list(files)
