@@ -40,7 +40,9 @@ def test_no_output_replaces_points_that_are_read(call: Call, here: Path):
     for option in ("--trajectory", "--momentum"):
         assert_refused(call("run", "good.toml", option, "good.csv"), f"{option} good.csv: {LOST}")
     assert_refused(call("sweep", "good.toml", "--over", "launch.speed=8:9:2", "--out", "good.csv"), LOST)
-    assert_refused(call("fit", "throws", "track.csv", *FIT, "--save", "track.toml"), "points of track.toml are written")
+    assert_refused(
+        call("fit", "throws", "track.csv", *FIT, "--save", "track.toml"), "its points would be written over track.csv"
+    )
     assert contents(here) == before
     assert call("run", "good.toml").code == 0
 

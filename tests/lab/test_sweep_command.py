@@ -81,7 +81,7 @@ ROWS = ("--over", "launch.speed=1:2:3", "--out", "x.csv")
             "launch.speed=7.4~0.08: a distribution needs --samples",
         ),
         ([*ROWS, "--points", "p.csv"], "--points p.csv: cannot be combined with --over or --samples"),
-        (["--points", "p.csv", "--out", "x.csv"], "--points p.csv: No such file"),
+        (["--points", "p.csv", "--out", "x.csv"], "--points p.csv: cannot be read: no such file"),
         (["--over", "launch.speed=1:2:3"], "--out"),
     ],
 )

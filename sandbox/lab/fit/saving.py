@@ -21,12 +21,9 @@ def check_points(option: str, path: Path) -> None:
     """Raise RequestError, before any work is done, if the points of a scene file would be written over a file that is
     not those of the scene file which is replaced."""
     points = points_file(path)
-    try:
-        check_replaced(option, points)
-    except RequestError as error:
-        raise RequestError(f"{error}; the points of {path} are written there") from None
     if points.exists() and _points_named(path) != points.resolve():
         raise RequestError(f"{option} {path}: its points would be written over {points}; choose another name")
+    check_replaced(option, points)
 
 
 def _points_named(path: Path) -> Path | None:
