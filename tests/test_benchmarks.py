@@ -188,6 +188,10 @@ def test_frames(run: Run):
     check(rows, "drawing_ms", "pillow_ms", "packing_ms", "cpu_ms", "limit_frames_per_s", "whole_over_limit")
 
 
+def test_worlds(run: Run):
+    check(run("worlds", "--quick"), "frames", "mean_s", "worst_s")
+
+
 def test_window(tmp_path: Path):
     """In a process of its own: it chooses the display's driver."""
     out = tmp_path / "out.json"

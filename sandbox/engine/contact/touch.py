@@ -153,6 +153,11 @@ class Obstacle:
         """The obstacle where it is at time t in s."""
         return self
 
+    def reaches(self, x: float, y: float, gap: float) -> bool:
+        """False if a ball centred at (x, y) is farther from it than a ``gap`` in m, wherever it is."""
+        left, bottom, right, top = self.box
+        return left <= x + gap and x - gap <= right and bottom <= y + gap and y - gap <= top
+
     def velocity_at(self, point: Point) -> tuple[float, float]:
         """The velocity in m/s of the point of the surface that is at a place in m."""
         return 0.0, 0.0

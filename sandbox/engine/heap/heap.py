@@ -68,6 +68,10 @@ _PRESSURE = 1e-6
 #: through it by contact mechanics.
 _STEP, _STEP_OF_BODIES, _REST = 0.1, 0.028, 3.5
 
+#: The tolerance in m at which bodies take these steps; their length goes with its fourth root, depths with its square
+#: root. So one level of accuracy is three times as fast as the next, and ten times as deep.
+_TOLERANCE = 1e-3
+
 #: An acceleration in m/s^2 that is common.
 _COMMON = 10.0
 
@@ -107,7 +111,8 @@ class Heap:
         self._forced = 0.0  # m/s^2, the largest acceleration by forces, or of a point of a body that turns
         self._fastest = 0.0  # m/s, approach in the heap that is no impact of its own
         self._thin = min(map(_thickness, setup.balls))  # m
-        self._share = _STEP if all_round(*setup.balls) else _STEP_OF_BODIES
+        self._coarser = 1.0 if all_round(*setup.balls) else (accuracy.tolerance / _TOLERANCE) ** 0.25
+        self._share = _STEP if all_round(*setup.balls) else _STEP_OF_BODIES * self._coarser
         self._span = accuracy.step  # s, of a step that nothing cuts
         self._t = 0.0  # s, the start of this step
         self._cut_short = 0  # steps in a row that an impact cut short at once
@@ -231,7 +236,10 @@ class Heap:
         self.note_energy(states)
         fresh = states.keys() - self._members.keys()
         self._take(states)
-        self._forced = max(self._driven(index, t, state) for index, state in states.items())
+        for index, state in states.items():
+            if self._members[index].applied is None:
+                self._members[index].applied = self._applied(index, t, state)
+        self._forced = max(self._members[index].driven(state[4]) for index, state in states.items())
         self._span = min(self._longest, self._lasting(self._share, self._forced))
         for index in fresh:
             self._resist_at_once(index, t, states[index])
@@ -283,8 +291,8 @@ class Heap:
     def _fitting(self, h: float, groups: Sequence[Group]) -> float:
         """The length in s that a step of h s should have had: for the spins that it ended with, and so that nothing
         came deep into another before it was noticed."""
-        swing = max(member.swing(member.velocity[2]) for member in self._members.values())
-        fits, deep = self._lasting(self._share, self._forced + swing), _DEEP * self._thin
+        forced = max(member.driven(member.velocity[2]) for member in self._members.values())
+        fits, deep = self._lasting(self._share, forced), _DEEP * self._coarser**2 * self._thin
         for touch in (touch for _, touches in groups for touch in touches):
             depth = max((-gap for _, gap in touch.points), default=0.0)
             if min(depth, 0.5 * h * touch.approach) > deep:
@@ -331,12 +339,6 @@ class Heap:
     def _lasting(self, share: float, forced: float) -> float:
         """A share of the time in s in which this acceleration (m/s^2) moves something by its own thickness."""
         return share * (self._thin / forced) ** 0.5 if forced > 0.0 else inf
-
-    def _driven(self, index: int, t: float, state: State) -> float:
-        """The acceleration in m/s^2 by forces, together with that of the farthest point of a body that turns."""
-        member = self._members[index]
-        applied = self._applied(index, t, state) if member.applied is None else member.applied
-        return hypot(*applied[:2]) + member.swing(state[4])
 
     def _applied(self, index: int, t: float, state: State) -> Acceleration:
         return self._movers[index].applied(t, state)

@@ -39,6 +39,9 @@ class Member:
         self.start: State = mover.state
         self.end: State = mover.state
         self.applied: Acceleration | None = None  # by forces in the middle of the last step, in m/s^2 and rad/s^2
+        self.x = self.y = self.turn = 0.0  # m and rad, in the middle of the step
+        self.velocity = 0.0, 0.0, 0.0  # m/s and rad/s, after the impulses
+        self.fastest = 0.0  # m/s, that no point of a body, or of a ball its centre, exceeds at either end of the step
         self.body, self.disc = world.add(self.ball)
         self.brake = pymunk.SimpleMotor(self.body, world.space.static_body, 0.0)  # rolling resistance
         self._unit, self._h = unit, 0.0  # s
@@ -60,6 +63,7 @@ class Member:
         turned = [angle[0] + 0.5 * h * spin] if angle else []
         middle = (x + 0.5 * h * vx, y + 0.5 * h * vy, vx, vy, spin, *turned)
         self.start, self._h = state, h
+        self.x, self.y = middle[:2]  # until Chipmunk has corrected it
         self.applied = ax, ay, turning = self.mover.applied(t + 0.5 * h, middle)
         body.position = (x - 0.5 * h * vx, y - 0.5 * h * vy)
         body.angle = angle[0] - 0.5 * h * spin if angle else 0.0
@@ -69,16 +73,12 @@ class Member:
         self.brake.max_force = unit * unit * self.resistance
         self.touching, self.left_out = set(), set()
 
-    @property
-    def velocity(self) -> tuple[float, float, float]:
-        """Its velocity after the impulses, in m/s and rad/s."""
-        (vx, vy), spin, unit = self.body.velocity, self.body.angular_velocity, self._unit
-        return vx / unit, vy / unit, spin / unit
-
-    @velocity.setter
-    def velocity(self, new: tuple[float, float, float]) -> None:
-        vx, vy, spin = new
-        self.body.velocity, self.body.angular_velocity = (self._unit * vx, self._unit * vy), self._unit * spin
+    def read(self) -> None:
+        """Take over what Chipmunk has made of it in the middle of the step."""
+        body, unit = self.body, self._unit
+        (self.x, self.y), self.turn = body.position, body.angle
+        (vx, vy), spin = body.velocity, body.angular_velocity
+        self.velocity = vx / unit, vy / unit, spin / unit
 
     @property
     def freely(self) -> tuple[float, float, float]:
@@ -90,13 +90,12 @@ class Member:
     def velocity_at(self, x: float, y: float) -> tuple[float, float]:
         """The velocity in m/s, before the impulses, of its point that is at (x, y) in the middle of the step."""
         _, _, vx, vy, spin, *_ = self.start
-        at = self.body.position
-        return vx - spin * (y - at.y), vy + spin * (x - at.x)
+        return vx - spin * (y - self.y), vy + spin * (x - self.x)
 
     def velocity_after(self, x: float, y: float) -> tuple[float, float]:
         """The same after the impulses."""
-        (vx, vy, spin), at = self.velocity, self.body.position
-        return vx - spin * (y - at.y), vy + spin * (x - at.x)
+        vx, vy, spin = self.velocity
+        return vx - spin * (y - self.y), vy + spin * (x - self.x)
 
     @property
     def energy(self) -> float:
@@ -109,22 +108,18 @@ class Member:
         correction, too."""
         assert self.applied is not None
         (x, y, ux, uy, spun, *_), (ax, ay, turning) = self.start, self.applied
-        (vx, vy, spin), at, ball, half = self.velocity, self.body.position, self.ball, 0.5 * self._h
-        dx, dy = at.x + half * vx - x, at.y + half * vy - y
+        (vx, vy, spin), ball, half = self.velocity, self.ball, 0.5 * self._h
+        dx, dy = self.x + half * vx - x, self.y + half * vy - y
         by_speed = 0.5 * (vx * vx + vy * vy - ux * ux - uy * uy) - ax * dx - ay * dy
         by_spin = 0.5 * (spin * spin - spun * spun) - turning * half * (spun + spin)
         return ball.mass * by_speed + ball.inertia * by_spin
 
-    @property
-    def fastest(self) -> float:
-        """A speed in m/s that no point of a body, or of a ball its centre, exceeds at the start or end of the step."""
-        reach = self.ball.radius if self.ball.rotates else 0.0
-        return max(hypot(state[2], state[3]) + reach * abs(state[4]) for state in (self.start, self.end))
-
-    def swing(self, spin: float) -> float:
-        """The acceleration in m/s^2 of the farthest point of a body with this spin (rad/s): it presses on others
-        without a force, too."""
-        return spin * spin * self.ball.radius if self.ball.rotates else 0.0
+    def driven(self, spin: float) -> float:
+        """The acceleration in m/s^2 by forces, together with that of the farthest point of a body with this spin
+        (rad/s): it presses on others without a force, too."""
+        assert self.applied is not None
+        by_spin = spin * spin * self.ball.radius if self.ball.rotates else 0.0
+        return hypot(*self.applied[:2]) + by_spin
 
     def resist(self, surface: Surface, push: float, height: float) -> None:
         """Add the torque of rolling resistance on a surface that presses with ``push`` (N) and is ``height`` (m) from
@@ -133,11 +128,12 @@ class Member:
 
     def arc(self, t: float) -> Arc:
         """The path of the step from t, in which the velocity changes evenly, moved by position correction."""
-        h, body = self._h, self.body
+        h, px, py, turn = self._h, self.x, self.y, self.turn
         x, y, ux, uy, spun, *angle = self.start
-        (px, py), (vx, vy, spin) = body.position, self.velocity
+        vx, vy, spin = self.velocity
         dx, dy = px - x - 0.5 * h * ux, py - y - 0.5 * h * uy
-        turn = body.angle
+        reach = self.ball.radius if self.ball.rotates else 0.0
+        self.fastest = max(hypot(ux, uy) + reach * abs(spun), hypot(vx, vy) + reach * abs(spin))
         turned = tuple((at, 0.5 * (at + turn) + 0.25 * h * spun, turn + 0.5 * h * spin) for at in angle)
         self.end = (px + 0.5 * h * vx, py + 0.5 * h * vy, vx, vy, spin, *(curve[-1] for curve in turned))
         curves = (

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from operator import attrgetter
 from typing import TYPE_CHECKING, NamedTuple
 
 import pymunk
@@ -12,11 +13,11 @@ import pymunk
 from sandbox.engine.contact.manifold import all_round
 from sandbox.engine.contact.surfaces import bounce_of_balls, bounce_off
 from sandbox.engine.heap.member import Member
-from sandbox.engine.heap.pymunk_world import PymunkWorld, rolls, speeds_at
+from sandbox.engine.heap.pymunk_world import PymunkWorld, rolls
 from sandbox.engine.model.ball import Ball, kinetic
 from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.shapes import Vector
-from sandbox.engine.model.surface import Bounce, Surface
+from sandbox.engine.model.surface import Surface
 from sandbox.engine.model.tolerances import ROUNDING
 from sandbox.errors import RunError
 from sandbox.physics.integrators import State
@@ -24,18 +25,19 @@ from sandbox.physics.integrators import State
 if TYPE_CHECKING:
     from sandbox.engine.heap.contact_solver import Contacts
 
-#: Solver iterations for balls that are alike, and the largest ratio of masses up to which they are. Each step starts
-#: from the impulses of the one before. Fewer: balls sink into one another; a larger ratio needs as many times more.
-_ITERATIONS, _ALIKE = 100, 10.0
+#: Solver iterations for balls that are alike, for each body, and at most for bodies; and the largest ratio of masses up
+#: to which they are alike. Each step starts from the impulses of the one before. Fewer: balls sink into one another, or
+#: more is solved directly; a larger ratio needs as many times more.
+_ITERATIONS, _OF_A_BODY, _MOST, _ALIKE = 100, 50, 1_000, 10.0
 
 #: Share of an overlap that is left after a step; in Chipmunk after a unit of time at least, without underflow. Smaller:
 #: a step moves what lies on others by more than its velocity; larger: overlaps of fast steps last.
 _LEFT, _LEAST_LEFT = 0.6, 1e-300
 
-#: Closing speed, in units of what forces give in a step, and gain of energy, in units of what has that speed, below
-#: which Chipmunk's iterations have come to their end; and overlap, in margins, that is left as it is. A larger gain:
-#: motion is slowed; smaller: what stands still is solved directly, for rounding.
-_CLOSING, _GAIN, _LEVEL = 1e-3, 1e-6, 1e-3
+#: Closing speed, in units of what forces give in a step or of the fastest approach, and gain of energy, in units of
+#: what forces give, below which Chipmunk's iterations have come to their end. Larger: blows are less exact; smaller:
+#: more is solved directly.
+_CLOSING, _GAIN = 1e-3, 1e-6
 
 #: Share of restitution that is left where energy would grow, and below which there is none.
 _REDUCED, _LEAST = 0.5, 0.1
@@ -87,7 +89,10 @@ class Stepper:
         self.margin = margin
         masses = [ball.mass for ball in setup.balls]
         self._ratio = max(masses) / min(masses)
-        self.directly = not all_round(*setup.balls) or self._ratio > _ALIKE
+        self._alike = self._ratio <= _ALIKE
+        self.directly = not (self._alike and all_round(*setup.balls))
+        if self.directly:  # it brings numpy, which takes long in the midst of a frame, and others do not need
+            import sandbox.engine.heap.contact_solver  # noqa: F401
         self._setup = setup
         self._h, self._pressed_speed, self._impact_speed = 0.0, 0.0, 0.0  # s, m/s, m/s
         self._touches: dict[tuple[pymunk.Shape, ...], Touch] = {}  # in this step
@@ -99,7 +104,7 @@ class Stepper:
     def world(self) -> PymunkWorld:
         """The Space, made when there is something to step."""
         # at rest shapes stay in touch: their margins overlap
-        iterations = _ITERATIONS if self.directly else int(_ITERATIONS * self._ratio**0.5)
+        iterations = int(_ITERATIONS * self._ratio**0.5)
         world = PymunkWorld(self._setup.surfaces, iterations, self.margin, 0.5 * self.margin)
         world.on_contact(self._meet, self._press)
         return world
@@ -131,9 +136,13 @@ class Stepper:
             self.world.forget(self._of_disc)
         self._h, self._pressed_speed, self._impact_speed = h, pressed_speed, impact_speed
         space = self.world.space
-        space.collision_bias = 1.0 if self.directly else max(_LEFT ** (self.unit / span), _LEAST_LEFT)
+        if self.directly:
+            space.iterations = min(_MOST, _OF_A_BODY * len(self._of_disc))
+        space.collision_bias = max(_LEFT ** (self.unit / span), _LEAST_LEFT) if self._alike else 1.0
         self._touches = {}
         self.world.step(h / self.unit)
+        for member in self._of_disc.values():
+            member.read()
         groups = self._groups()
         for members, touches in groups:
             if self.directly and touches:
@@ -182,53 +191,53 @@ class Stepper:
     # ------------------------------------------------------------------ the direct solution
 
     def _solve(self, members: Sequence[Member], touches: Sequence[Touch], share: float) -> None:
-        """Solve the contacts of a group, and move its members out of this share of their overlaps."""
+        """Solve the contacts of a group where Chipmunk's iterations have not come to their end. Where masses differ
+        much, move its members out of this share of their overlaps, which Chipmunk does of others."""
         restitutions = (touch.restitution for touch in touches for _ in touch.points)
         closing = _closing(touches, Member.velocity_at)
         partings = [bounce * max(0.0, speed) for bounce, speed in zip(restitutions, closing, strict=True)]
-        depths = [-gap for touch in touches for _, gap in touch.points]
-        iterated = self._ratio <= _ALIKE and self._iterated(members, touches, partings)
-        if iterated and max(depths) <= _LEVEL * self.margin:
+        if self._alike and self._iterated(members, touches, partings):
             return
         contacts = self._contacts(members, touches)
-        guess = [touch.push / len(touch.points) for touch in touches for _ in touch.points]
+        pushes = [touch.push / len(touch.points) for touch in touches for _ in touch.points]
         restitution = 1.0
-        while not iterated:
-            velocities, pushes = contacts.impulses([restitution * parting for parting in partings], guess)
+        while True:
+            velocities, pushes = contacts.impulses([restitution * parting for parting in partings], pushes)
             for member, (vx, vy, spin) in zip(members, velocities, strict=True):
                 member.velocity = vx, vy, spin
             if restitution == 0.0 or not any(partings) or sum(member.gain for member in members) <= 0.0:
                 break
             restitution = _REDUCED * restitution if restitution > _LEAST else 0.0
-        if not iterated:
-            of_points = iter(pushes)
-            for touch in touches:
-                touch.push = sum(next(of_points) for _ in touch.points)
-        if max(depths) > 0.0:
+        of_points = iter(pushes)
+        for touch in touches:
+            touch.push = sum(next(of_points) for _ in touch.points)
+        depths = [-gap for touch in touches for _, gap in touch.points]
+        if not self._alike and max(depths) > 0.0:
             moved = contacts.moved_apart([share * depth for depth in depths])
             for member, (dx, dy, turn) in zip(members, moved, strict=True):
-                member.body.position += (dx, dy)
-                member.body.angle += turn
+                member.x, member.y, member.turn = member.x + dx, member.y + dy, member.turn + turn
 
     def _iterated(self, members: Sequence[Member], touches: Sequence[Touch], partings: Sequence[float]) -> bool:
-        """True if Chipmunk's iterations have come to their end in this group: nothing closes any more, and it has
-        gained no energy but by rounding."""
-        most = _CLOSING * self._pressed_speed
-        closing = _closing(touches, Member.velocity_after)
-        if any(speed + parting > most for speed, parting in zip(closing, partings, strict=True)):
-            return False
+        """True if Chipmunk's iterations have come to their end in this group: nothing closes any more, nothing that
+        opens is pushed, and restitution has gained no energy but by rounding."""
+        most = _CLOSING * max(self._pressed_speed, *(touch.approach for touch in touches))
+        left = map(sum, zip(_closing(touches, Member.velocity_after), partings, strict=True))
+        for touch in touches:
+            closing = max(next(left) for _ in touch.points)
+            if closing > most or (closing < -most and touch.push > 0.0):
+                return False
         mass = sum(member.ball.mass for member in members)
-        return sum(member.gain for member in members) <= _GAIN * mass * self._pressed_speed**2
+        return not any(partings) or sum(member.gain for member in members) <= _GAIN * mass * self._pressed_speed**2
 
     def _contacts(self, members: Sequence[Member], touches: Sequence[Touch]) -> Contacts:
         """The contacts of a group."""
-        # here, not above: it brings numpy, which balls that are alike do not need
         from sandbox.engine.heap.contact_solver import ContactPoint, Contacts, SolverBody
 
         number = {member.index: place for place, member in enumerate(members)}
         bodies = [
             SolverBody(
-                *each.body.position,
+                each.x,
+                each.y,
                 1.0 / each.ball.mass,
                 1.0 / each.ball.inertia,
                 each.freely,
@@ -252,37 +261,43 @@ class Stepper:
         place = -1 if there is not None else self.world.surface_of[second]
         surface = None if there is not None else self._setup.surfaces[place]
         other = here.mover.obstacles[place] if there is None else there.index
-        normal, met = (arbiter.normal.x, arbiter.normal.y), arbiter.contact_point_set.points
-        approach, along, slip = (speed / self.unit for speed in _speeds(here, there, normal, met))
-        arbiter.process_collision = other in here.before or approach <= self._impact_speed  # it is remembered
-        if not arbiter.process_collision:
+        (nx, ny), met = arbiter.normal, arbiter.contact_point_set.points
+        points = [
+            ((0.5 * (ax + bx), 0.5 * (ay + by)), distance + self.margin)
+            for (ax, ay), (bx, by), distance in map(_AT, met)
+        ]
+        approach, along, slip = _speeds(here, there, (nx, ny), points)
+        if approach > self._impact_speed and other not in here.before:  # it is remembered
+            arbiter.process_collision = False
             here.left_out.add(other)
             if there is not None:
                 there.left_out.add(here.index)
             return
         here.touching.add(other)
-        bounces, bounce = approach > self._pressed_speed, Bounce(0.0, arbiter.friction)
+        bounces, friction, restitution, height = approach > self._pressed_speed, arbiter.friction, 0.0, 0.0
         if there is not None:
             there.touching.add(here.index)
-            bounce = bounce_of_balls(self._setup, approach, abs(slip), here.ball.name, there.ball.name)
-        elif surface is not None and bounces:
-            bounce = bounce_off(surface, approach, along)
-        arbiter.restitution, arbiter.friction = bounce.restitution if bounces else 0.0, bounce.friction
-        height = 0.0
-        if surface is not None and rolls(here.ball, met):
-            height = here.ball.radius
-            if not all_round(here.ball):
-                height = abs(arbiter.normal.dot(met[0].point_a - here.body.position))
-        points = [
-            ((0.5 * (at.point_a.x + at.point_b.x), 0.5 * (at.point_a.y + at.point_b.y)), at.distance + self.margin)
-            for at in (met if self.directly else ())
-        ]
-        law = arbiter.restitution, arbiter.friction
-        self._touches[shapes] = Touch(here, there, surface, normal, points, *law, approach, height)
+            restitution, friction, *_ = bounce_of_balls(
+                self._setup, approach, abs(slip), here.ball.name, there.ball.name
+            )
+        elif surface is not None:
+            if bounces:
+                restitution, friction, *_ = bounce_off(surface, approach, along)
+            if rolls(here.ball, met):
+                (x, y), _ = points[0]
+                height = abs((x - here.x) * nx + (y - here.y) * ny) if here.ball.rotates else here.ball.radius
+        if not bounces:
+            restitution = 0.0
+        arbiter.restitution, arbiter.friction = restitution, friction
+        self._touches[shapes] = Touch(here, there, surface, (nx, ny), points, restitution, friction, approach, height)
 
     def _press(self, arbiter: pymunk.Arbiter) -> None:
         """Note how hard two press on each other."""
         self._touches[arbiter.shapes].push = abs(arbiter.total_impulse.dot(arbiter.normal)) / self.unit
+
+
+#: What is read of a point of contact.
+_AT = attrgetter("point_a", "point_b", "distance")
 
 
 def _closing(touches: Sequence[Touch], velocity: Callable[[Member, float, float], Vector]) -> list[float]:
@@ -291,23 +306,33 @@ def _closing(touches: Sequence[Touch], velocity: Callable[[Member, float, float]
     for touch in touches:
         nx, ny = touch.normal
         for (x, y), _ in touch.points:
-            (vx, vy), (ux, uy) = velocity(touch.first, x, y), (0.0, 0.0)
-            if touch.second is not None:
-                ux, uy = velocity(touch.second, x, y)
-            found.append((vx - ux) * nx + (vy - uy) * ny)
+            u, v = _relative(touch.first, touch.second, x, y, velocity)
+            found.append(u * nx + v * ny)
     return found
 
 
+def _relative(
+    here: Member, there: Member | None, x: float, y: float, velocity: Callable[[Member, float, float], Vector]
+) -> Vector:
+    """The velocity in m/s of a point of one, as seen from the other."""
+    if there is None:
+        return velocity(here, x, y)
+    (vx, vy), (ux, uy) = velocity(here, x, y), velocity(there, x, y)
+    return vx - ux, vy - uy
+
+
 def _speeds(
-    here: Member, there: Member | None, normal: Vector, met: Sequence[pymunk.ContactPoint]
+    here: Member, there: Member | None, normal: Vector, points: Sequence[tuple[Vector, float]]
 ) -> tuple[float, float, float]:
-    """Speed of approach in m/s where two shapes meet, and speeds along, of the centres and of the surfaces."""
-    if not all_round(here.ball, *([] if there is None else [there.ball])):
-        approach, slip = speeds_at(here.body, None if there is None else there.body, normal, met)
-        return approach, slip, slip
+    """Speed of approach in m/s where two meet, of two points the faster, and speeds along, of the centres and of the
+    surfaces."""
     nx, ny = normal
-    (vx, vy), (ux, uy) = here.body.velocity, (0.0, 0.0) if there is None else there.body.velocity
+    if not all_round(here.ball, *([] if there is None else [there.ball])):
+        seen = (_relative(here, there, x, y, Member.velocity_at) for (x, y), _ in points)
+        approach, slip = max((u * nx + v * ny, v * nx - u * ny) for u, v in seen)
+        return approach, slip, slip
+    (vx, vy), (ux, uy) = here.start[2:4], (0.0, 0.0) if there is None else there.start[2:4]
     along = slip = (vy - uy) * nx - (vx - ux) * ny
     for member in (here, there):
-        slip += 0.0 if member is None else member.ball.radius * member.body.angular_velocity
+        slip += 0.0 if member is None else member.ball.radius * member.start[4]
     return (vx - ux) * nx + (vy - uy) * ny, along, slip

@@ -31,6 +31,9 @@ _DEEP, _RIGID, _DEEP_IN_A_HEAP = 0.25, 8.0**0.5, 0.05
 #: Fraction of the slowest blow on a heap below which a contact among its balls is left to sustained contact.
 _NEGLIGIBLE = 0.0125
 
+#: How many times as long as without damping the contact of two may last.
+_LONGER = 3.0
+
 #: Steps through a contact in one arc of the path: the cubic that joins them is as accurate.
 _STEPS = 2
 
@@ -83,7 +86,7 @@ class ClusterSearch:
             if not members.keys().isdisjoint(fresh):
                 return None
             walls, room = self._walls_near(t, members, reach, hard > 0.0, deep)
-            if model.name == "auto" and len(members) == 2 and not walls:
+            if model.name == "auto" and len(members) == 2 and self._parts_before(members, walls, blow, hard, deep):
                 return None
             if any(wall.surface.motion is not None or wall.surface.kick > 0.0 for _, wall in walls):
                 return None
@@ -176,6 +179,28 @@ class ClusterSearch:
                 if gap > reach or not hard:
                     room[index] = min(room[index], gap + deep * self._movers[index].ball.radius)
         return near, room
+
+    def _parts_before(
+        self, members: dict[int, State], walls: Sequence[tuple[int, Obstacle]], blow: _Blow, hard: float, deep: float
+    ) -> bool:
+        """True if two that strike each other part before one of these walls is touched, or entered by more than
+        ``deep`` radii if it is not ``hard``: they move on with their common velocity, along their own tangents, and
+        towards each other, each for as long and as far as is certain."""
+        (i, a), (j, b) = members.items()
+        masses, (dx, dy) = (self._movers[i].ball.mass, self._movers[j].ball.mass), (a[0] - b[0], a[1] - b[1])
+        whole, apart, lasts = sum(masses), hypot(dx, dy), _LONGER * blow.lasts
+        nx, ny = dx / apart, dy / apart
+        common = ((masses[0] * a[2] + masses[1] * b[2]) * nx + (masses[0] * a[3] + masses[1] * b[3]) * ny) / whole
+        for index, wall in walls:
+            x, y, vx, vy, *_ = members[index]
+            gap, wx, wy, *_ = wall.near(x, y)
+            normal, along = wx * nx + wy * ny, (vx * ny - vy * nx) * (wx * ny - wy * nx)
+            pressed = blow.speed * lasts * (whole - self._movers[index].ball.mass) / whole
+            inward = -normal if index == i else normal
+            left = gap + min(0.0, common * normal * lasts) + min(0.0, along * lasts) + min(0.0, inward * pressed)
+            if left < (0.0 if hard else -deep * self._movers[index].ball.radius):
+                return False
+        return True
 
     def _pairs(self, members: dict[int, State], blow: _Blow, met: set[frozenset[int]]) -> list[tuple[int, int]]:
         """The pairs of balls that may touch during the contact, with those that are known to have ``met``."""

@@ -26,8 +26,9 @@ from sandbox.physics.integrators import State
 INSTANT = 1e-15
 
 #: A disc and its ground overlap by this fraction of the radius during the exchange, so that Chipmunk sees the contact;
-#: where several contacts close together by much less, as the arm of the friction is off by as much.
-OVERLAP, _CLOSE = 1e-6, 1e-11
+#: where several contacts close together by much less, as the arm of the friction is off by as much. There discs are as
+#: small as this, so that those of different contacts hardly meet.
+OVERLAP, _CLOSE, _SMALL = 1e-6, 1e-11, 1e-2
 
 #: Solver iterations for contacts that close together: a cluster of 16 balls needs 50 for 1e-7 m/s. One is exact for a
 #: single contact of a ball. Two contacts of a slim body help each other: a rod of 1 x 30 on end needs 1,000.
@@ -182,11 +183,11 @@ def after_contact_of_bodies(
 def _disc_on_plane(
     contact: ImpactContact, point: pymunk.Vec2d, size: float, first: pymunk.Body, second: pymunk.Body
 ) -> tuple[pymunk.Circle, pymunk.Segment]:
-    """A disc of radius ``size`` (m) on the first body, and a piece of its tangent plane on the second, that overlap at
-    the point of a contact."""
-    normal = pymunk.Vec2d(contact.nx, contact.ny)
-    disc = pymunk.Circle(first, size, point + size * normal - first.position)
-    foot, along = point + _CLOSE * size * normal - second.position, size * normal.perpendicular()
+    """A disc on the first body, of ``size`` (m), and a piece of its tangent plane on the second, that overlap at the
+    point of a contact."""
+    normal, small = pymunk.Vec2d(contact.nx, contact.ny), _SMALL * size
+    disc = pymunk.Circle(first, small, point + small * normal - first.position)
+    foot, along = point + _CLOSE * size * normal - second.position, small * normal.perpendicular()
     return disc, pymunk.Segment(second, foot - along, foot + along, 0.0)
 
 

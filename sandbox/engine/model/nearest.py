@@ -15,7 +15,7 @@ from __future__ import annotations
 from math import atan2, cos, inf, pi, sin
 from typing import NamedTuple
 
-from sandbox.engine.model.shapes import Shape, Vector
+from sandbox.engine.model.shapes import Ellipse, Shape, Vector
 from sandbox.engine.model.tolerances import EQUALLY_NEAR, SHALLOW
 
 #: Most pieces to walk over and most Newton steps; each of them needs two or three.
@@ -46,13 +46,25 @@ def nearest(one: Shape, here: Pose, other: Shape, there: Pose, direction: float 
     """The distance and direction of two outlines. ``direction`` is a guess of that of the normal, in rad."""
     start = atan2(here.y - there.y, here.x - there.x) if direction is None else direction
     found = _climbed(one, here, other, there, start)
-    if found.gap > -SHALLOW:
+    if found.gap > -SHALLOW or found.gap + one.radius + other.radius > 0.0:
         return found
-    # not certain to be the best: try the normals of all sides, and some more
-    starts = [pi + here.angle + normal for normal in getattr(one, "normals", ())]
-    starts += [there.angle + normal for normal in getattr(other, "normals", ())]
-    starts += [start + 0.25 * pi * k for k in range(1, 8)]
+    # not certain to be the best. Where cores overlap, that of polygons has the normal of a side; of ellipses any
+    sides = [pi + here.angle + normal for normal in one.normals]
+    sides += [there.angle + normal for normal in other.normals]
+    starts = [max(sides, key=lambda at: _strip(one, here, other, there, at))] if sides else []
+    if isinstance(one, Ellipse) or isinstance(other, Ellipse):
+        starts = [*sides, *(start + 0.25 * pi * k for k in range(1, 8))]
     return max((found, *(_climbed(one, here, other, there, start) for start in starts)), key=lambda it: it.gap)
+
+
+def _strip(one: Shape, here: Pose, other: Shape, there: Pose, at: float) -> float:
+    """The width in m of the strip between the cores whose normal has this direction."""
+    (x, y, turned), (u, v, turn) = here, there
+    nx, ny, near, far = cos(at), sin(at), at - turned + pi, at - turn
+    px, py = one.support(one.corner_towards(near), near)
+    qx, qy = other.support(other.corner_towards(far), far)
+    c, s, k, z = cos(near), sin(near), cos(far), sin(far)
+    return (x - u) * nx + (y - v) * ny - c * px - s * py - k * qx - z * qy
 
 
 def _climbed(one: Shape, here: Pose, other: Shape, there: Pose, at: float) -> Nearest:

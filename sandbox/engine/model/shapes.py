@@ -200,6 +200,7 @@ class Ellipse:
     b: float  # m
     center: Vector = (0.0, 0.0)  # m
     radius: float = field(init=False, repr=False, compare=False, default=0.0)  # m, of the rounding: none
+    normals: tuple[float, ...] = field(init=False, repr=False, compare=False, default=())  # of straight sides: none
     reach: float = field(init=False, repr=False, compare=False)  # m, from the origin at least to the farthest point
 
     def __post_init__(self) -> None:

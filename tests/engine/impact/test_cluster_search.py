@@ -12,6 +12,7 @@ import pytest
 from sandbox.engine import simulate, simulate_many
 from sandbox.engine.impact.cluster_forces import ClusterForces
 from sandbox.engine.impact.cluster_parts import ClusterBall
+from sandbox.engine.impact.cluster_search import ClusterSearch
 from sandbox.engine.ledger import ledger
 from sandbox.engine.model.accuracy import resolve
 from sandbox.engine.model.ball import Ball
@@ -99,6 +100,14 @@ def test_a_lone_pair_takes_no_contact_mechanics():
     run = struck([ball("cue", -0.5, vx=2.0), ball("1", 0.0), ball("far", 1.0, 0.5)])
     assert run.numerics.clusters == 0
     assert run.state("1", 1.0)[2] == pytest.approx(2.0)
+
+
+def test_two_that_part_before_they_reach_a_wall_meet_by_impulse(monkeypatch: pytest.MonkeyPatch):
+    """A light ball between a wall and one 1e4 times as heavy, Galperin's 314 impacts: none takes contact mechanics."""
+    monkeypatch.setattr(ClusterSearch, "_simulate", None)
+    balls = [Ball("light", 1.0, 0.1, (1.0, 0.0)), Ball("heavy", 1e4, 0.1, (2.0, 0.0), (-1.0, 0.0))]
+    run = simulate(Setup(balls, [Surface("wall", Segment((0.0, -5.0), (0.0, 5.0)), 1.0, 0.0)], 100.0), resolve())
+    assert run.numerics.impacts == 314
 
 
 @pytest.mark.parametrize(("gap", "through"), [(0.18e-3, True), (0.21e-3, False)])
