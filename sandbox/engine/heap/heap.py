@@ -236,10 +236,7 @@ class Heap:
         self.note_energy(states)
         fresh = states.keys() - self._members.keys()
         self._take(states)
-        for index, state in states.items():
-            if self._members[index].applied is None:
-                self._members[index].applied = self._applied(index, t, state)
-        self._forced = max(self._members[index].driven(state[4]) for index, state in states.items())
+        self._forced = max(self._members[index].driven(state[4], t) for index, state in states.items())
         self._span = min(self._longest, self._lasting(self._share, self._forced))
         for index in fresh:
             self._resist_at_once(index, t, states[index])
@@ -291,7 +288,7 @@ class Heap:
     def _fitting(self, h: float, groups: Sequence[Group]) -> float:
         """The length in s that a step of h s should have had: for the spins that it ended with, and so that nothing
         came deep into another before it was noticed."""
-        forced = max(member.driven(member.velocity[2]) for member in self._members.values())
+        forced = max(member.driven(member.velocity[2], self._t) for member in self._members.values())
         fits, deep = self._lasting(self._share, forced), _DEEP * self._coarser**2 * self._thin
         for touch in (touch for _, touches in groups for touch in touches):
             depth = max((-gap for _, gap in touch.points), default=0.0)

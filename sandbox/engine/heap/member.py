@@ -114,10 +114,11 @@ class Member:
         by_spin = 0.5 * (spin * spin - spun * spun) - turning * half * (spun + spin)
         return ball.mass * by_speed + ball.inertia * by_spin
 
-    def driven(self, spin: float) -> float:
-        """The acceleration in m/s^2 by forces, together with that of the farthest point of a body with this spin
-        (rad/s): it presses on others without a force, too."""
-        assert self.applied is not None
+    def driven(self, spin: float, t: float) -> float:
+        """The acceleration in m/s^2 by forces, of the last step or else at t, together with that of the farthest point
+        of a body with this spin (rad/s): it presses on others without a force, too."""
+        if self.applied is None:
+            self.applied = self.mover.applied(t, self.mover.state)
         by_spin = spin * spin * self.ball.radius if self.ball.rotates else 0.0
         return hypot(*self.applied[:2]) + by_spin
 
