@@ -33,7 +33,7 @@ from sandbox.parameters import (
     vector,
     vectors,
 )
-from sandbox.physics.air import UniformWind
+from sandbox.physics.air import LogWind, UniformWind
 from sandbox.physics.cloth import Cloth
 from sandbox.physics.coefficients import (
     GOLF_DRAG,
@@ -149,6 +149,7 @@ __all__ = [
     "InTurn",
     "Inside",
     "Launch",
+    "LogWind",
     "Magnus",
     "Moment",
     "Motion",

@@ -601,6 +601,16 @@ def _words_for(key: str, schema: type[Group]) -> Iterator[str]:
                 yield f"{tag} = {shown(get_args(g.model_fields[tag].annotation)[0])}"
 
 
+def wrong_group(error: ValidationError) -> str:
+    """What is wrong with a group that was made in Python, in a line."""
+    first, *others = error.errors(include_url=False)
+    key, more = ".".join(map(str, first["loc"])), f" (and {len(others)} more)" if others else ""
+    if first["type"] == "missing":
+        remedy = f'give it one, or write group(..., "...") in place of {error.title}(): then the scene\'s file has it'
+        return f"{error.title}: {key} has no default{more}; {remedy}"
+    return f"{error.title}: {key} = {shown(first['input'])}: {_problem(first)}{more}"
+
+
 def _problem(error: Any) -> str:
     """Return what is wrong, in words; ``error`` is one of pydantic's."""
     context = error.get("ctx", {})

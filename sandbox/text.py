@@ -52,6 +52,11 @@ def title_of(name: str) -> str:
     return name.replace("-", " ").capitalize()
 
 
+def with_article(noun: str) -> str:
+    """``a ball``, ``an arrow``."""
+    return f"{'an' if noun[:1].lower() in tuple('aeiou') else 'a'} {noun}"
+
+
 def counted(count: int, what: str) -> str:
     """``1 point``, ``40 points``, ``1,000 points``."""
     return f"{count:,} {what}{'s' * (count != 1)}"

@@ -82,6 +82,19 @@ def scene(written: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pat
         (PICTURE, "Place(Hall", "Place(Hole", "NameError: name 'Hole' is not defined"),
         (PICTURE, "launch.height)", "launch.hight)", "AttributeError: 'Toss' object has no"),
         (PICTURE, "import Ground", "import Grounds, Ground", "ImportError: cannot import name 'Grounds' from 'sandbox"),
+        (
+            OF_NEW,
+            "launch: Toss = group(...,",
+            "launch: Toss = group(Toss(),",
+            'ValueError: Toss: speed has no default (and 2 more); give it one, or write group(..., "...") in place of '
+            "Toss(): then the scene's file has it",
+        ),
+        (
+            OF_NEW,
+            "launch: Toss = group(...,",
+            "launch: Toss = group(Toss(speed='far', angle=1, spin=1, height=1),",
+            'ValueError: Toss: speed = "far": is not a number with a unit; use m/s, km/h, mph, kn or ft/s',
+        ),
         (OF_NEW, "    Setup,", "    Set_up,", "ImportError: cannot import name 'Set_up' from 'sandbox.kit'"),
         (PICTURE, PLACE, f"    def poster(self): exit(0)\n\n{PLACE}", "SystemExit: 0"),
         (PICTURE, PLACE, f"    def poster(self): open('gone')\n\n{PLACE}", "FileNotFoundError: "),

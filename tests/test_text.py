@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sandbox.text import csv_text, one_line, printable
+from sandbox.text import csv_text, one_line, printable, with_article
 
 ANY = st.text()
 
@@ -38,3 +38,7 @@ def test_ordinary_text_stays_as_it_is(text: str):
 )
 def test_a_spreadsheet_computes_nothing(text: str, cell: str):
     assert csv_text(text) == cell
+
+
+def test_a_noun_has_its_article():
+    assert (with_article("ball"), with_article("arrow")) == ("a ball", "an arrow")

@@ -20,6 +20,7 @@ from sandbox.picture.path import FINEST, DrawnPath, ImpactMark, apart, slow_moti
 from sandbox.picture.sheet import Sheet
 from sandbox.picture.vectors import Vectors
 from sandbox.sport.amounts import round_number_above
+from sandbox.text import with_article
 
 RIM = palette("trace")["rim"]
 
@@ -235,7 +236,7 @@ class BallDrawing(SceneOptions[P]):
                 look.draw(painter, at, radius, self.turn(self.ball, t), self.unit)
                 last = at
         return [
-            f"a {self.thing} every {every:g} s",
+            f"{with_article(self.thing)} every {every:g} s",
             *([f"a bead where {self.things} would overlap"] if crowded else []),
         ]
 

@@ -8,7 +8,7 @@ sections "scene options". Lengths are in m, times in s, and px are those of the 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property, wraps
 from math import atan2, degrees, hypot, pi
 from typing import Any, ClassVar, Generic, TypeVar
@@ -77,6 +77,8 @@ class SceneOptions(Generic[P]):
 
     #: The look of the ball, and its name in notes: "" for a ball, or a body where it is a ``Body``.
     LOOK: ClassVar[Look] = Look(PLAIN["ball"], seams(PLAIN["marks"]))
+    #: Looks of balls by name, where they differ.
+    LOOKS: ClassVar[Mapping[str, Look]] = {}
     THING: ClassVar[str] = ""
     #: A caveat that is written wherever the result is shown, such as "not validated".
     CAVEAT: ClassVar[str] = ""
@@ -93,8 +95,8 @@ class SceneOptions(Generic[P]):
     STRING_COLOUR: ClassVar[Colour] = CARD["quiet"]
     #: The colour of surfaces that move.
     DRIVEN: ClassVar[Colour] = PLAIN["surface"]
-    #: True if text stands on dark ground, where the scene does not decide by the shot.
-    ON_DARK: ClassVar[bool] = True
+    #: True if text stands on dark ground, False if on light; None: as the place is where the headline stands.
+    ON_DARK: ClassVar[bool | None] = None
 
     # How much is drawn
 
@@ -111,11 +113,6 @@ class SceneOptions(Generic[P]):
     SHARED_GROUND: ClassVar[bool] = False
 
     # What is shown
-
-    @property
-    def on_dark(self) -> bool:
-        """True if text stands on dark ground."""
-        return self.ON_DARK
 
     @property
     def ball(self) -> str:
@@ -184,7 +181,7 @@ class SceneOptions(Generic[P]):
 
     def look_of(self, name: str) -> Look:
         """The look of a ball."""
-        return self.LOOK
+        return self.LOOKS.get(name, self.LOOK)
 
     def fall_of(self, name: str) -> Fall | None:
         """Return the fall of a ball that begins standing; None for one that does not."""

@@ -21,7 +21,7 @@ COLOURS, TRACES = palette("plain"), palette("trace")["colours"]
 SEVERAL = [Look(colour, seams(COLOURS["marks"])) for colour in TRACES]
 
 
-#: Surfaces with more names than this are not named.
+#: Surfaces and traps that are named.
 MOST_NAMED = 8
 #: The name of a segment stands at the first of these fractions of the part in sight where there is room.
 ALONG = (0.9, 0.1, 0.75, 0.25, 0.5)
@@ -37,6 +37,11 @@ class Picture(AboveView[Group]):
     MIN_IMPACT = np.inf  # in a heap, marks would hide the balls
     SPIN_NAMES = View.SPIN_NAMES
     ON_DARK = False
+
+    @property
+    def solids(self) -> list[Segment | Circle]:
+        """Traps are targets, and shown as well."""
+        return [*super().solids, *(trap.shape for trap in self.run.setup.traps)]
 
     def look_of(self, name: str) -> Look:
         return self.LOOK if len(self.balls) == 1 else SEVERAL[self.balls.index(name) % len(SEVERAL)]
@@ -56,10 +61,13 @@ class Picture(AboveView[Group]):
             super().shadow(painter, camera, name, t, at, radius)
 
     def landmarks(self, sheet: Sheet, camera: Camera) -> None:
-        """The names of the surfaces, where there are few."""
-        named = {surface.name: surface.at(self.driven_moment).shape for surface in self.run.setup.surfaces}
+        """The names of surfaces and traps: of all where there are few, else of the first that were touched."""
+        setup = self.run.setup
+        named = {surface.name: surface.at(self.driven_moment).shape for surface in setup.surfaces}
+        named |= {trap.name: trap.shape for trap in setup.traps}
         if len(named) > MOST_NAMED:
-            return
+            touched = dict.fromkeys(event.partner for event in self.run.events if event.partner in named)
+            named = {name: named[name] for name in list(touched)[:MOST_NAMED]}
         room = pygame.FRect(0, sheet.top_row, self.size[0], self.card_row - sheet.top_row)
         for name, shape in named.items():
             sheet.label(name, "small", self._spots(shape, camera, room), COLOURS["surface"])

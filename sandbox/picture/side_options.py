@@ -13,7 +13,7 @@ from sandbox.picture.camera import Box, Camera
 from sandbox.picture.options import P, SceneOptions
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour
-from sandbox.picture.places import Ground, Scenery, Thing
+from sandbox.picture.places import Ground, Hall, Scenery, Thing
 from sandbox.picture.sheet import CARD
 
 
@@ -30,8 +30,8 @@ class Length(NamedTuple):
 class Place:
     """A place: what lies behind, the ground, and the things on it, the farthest first."""
 
-    scenery: Scenery
-    ground: Ground
+    scenery: Scenery = Hall()
+    ground: Ground = Ground()
     things: Sequence[Thing] = ()
 
 

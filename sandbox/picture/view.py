@@ -29,6 +29,8 @@ from sandbox.text import counted
 NEAR = 12.0
 #: The reach of a surface that moves is judged at so many times.
 POSES = 48
+#: Text is dark on a place at least this light, in levels of 255: between the darkest sky by day and the lightest hall.
+LIGHT = 150
 
 
 class Heading(NamedTuple):
@@ -53,7 +55,7 @@ class View(BallDrawing[P]):
         ghosts: Mapping[str, SceneRun] | None = None,
     ) -> None:
         self.run, self.parameters, self.size = run, parameters, size
-        self.sheet = Sheet(size, self.on_dark)  # the one drawn last
+        self.sheet = Sheet(size)  # the one drawn last
         self.unit, self.rows = self.sheet.unit, self.sheet.rows
         self.radii = {ball.name: ball.radius for ball in run.setup.balls}  # m
         self.radius = self.radii[self.ball]
@@ -75,6 +77,16 @@ class View(BallDrawing[P]):
         return Ghost(label, other, self.OTHER_TRACES[i % len(self.OTHER_TRACES)], (x - there_x, y - there_y))
 
     # What a view from the side and one from above say
+
+    @cached_property
+    def on_dark(self) -> bool:
+        """True if text stands on dark ground: as the scene says, or as the place is where the headline stands."""
+        if self.ON_DARK is not None:
+            return self.ON_DARK
+        frame = self.sheet.frame
+        head = pygame.Rect(frame.left, frame.top, frame.width // 2, max(1, self.sheet.top_row - frame.top))
+        red, green, blue, *_ = pygame.transform.average_color(self._still(self.camera), head)
+        return 0.299 * red + 0.587 * green + 0.114 * blue < LIGHT
 
     @property
     def card_row(self) -> float:
@@ -112,7 +124,7 @@ class View(BallDrawing[P]):
         radius = max(self.radii.values())
         low, high = self.points.min(axis=0) - radius, self.points.max(axis=0) + radius
         reach, middle = max(NEAR * radius, *(high - low)), (low + high) / 2
-        for shape in (shape for surface in self.run.setup.surfaces for shape in self._seen_of(surface)):
+        for shape in self.solids:
             a, b = map(np.array, (shape.a, shape.b) if isinstance(shape, Segment) else (shape.center, shape.center))
             next_to = a + np.clip((middle - a) @ (b - a) / max((b - a) @ (b - a), 1e-99), 0.0, 1.0) * (b - a)
             for seen in (np.array([np.minimum(a, b) - shape.radius, np.maximum(a, b) + shape.radius]), next_to[None]):
@@ -120,8 +132,12 @@ class View(BallDrawing[P]):
                     low, high = np.minimum(low, seen.min(axis=0)), np.maximum(high, seen.max(axis=0))
         return np.array([low, high])
 
+    @property
+    def solids(self) -> list[Segment | Circle]:
+        """What is shown where it is near: surfaces, and those that move at some times of the run."""
+        return [shape for surface in self.run.setup.surfaces for shape in self._seen_of(surface)]
+
     def _seen_of(self, surface: Surface) -> list[Segment | Circle]:
-        """The shapes of a surface; of one that moves, at some times of the run."""
         times = [0.0] if surface.motion is None else np.linspace(0.0, self.story_end, POSES).tolist()
         return [surface.at(t).shape for t in times]
 

@@ -14,9 +14,12 @@ from functools import cache
 from pathlib import Path
 from types import ModuleType
 
+from pydantic import ValidationError
+
 from sandbox import resources
 from sandbox.errors import RequestError, sys_exit_as_error
 from sandbox.files import is_given
+from sandbox.parameters import wrong_group
 
 #: Scene folders are imported as packages below this name, which nothing else uses.
 NAMESPACE = "sandbox_scenes"
@@ -33,6 +36,8 @@ def module_in(folder: Path, name: str) -> ModuleType:
             _package(package, folder)
             is_given(folder / f"{name}.py")
             return importlib.import_module(f"{package}.{name}")
+    except ValidationError as error:  # a group without defaults, made where the module is imported
+        raise ValueError(wrong_group(error)).with_traceback(error.__traceback__) from None
     except (SyntaxError, ValueError):  # for NUL bytes Python names no file, and not always a SyntaxError
         file = folder / f"{name}.py"
         if b"\0" in file.read_bytes():

@@ -98,6 +98,7 @@ class Opening:
         if code and self.workers.helper is not self.workers.path:
             self.workers.helper.submit(forget, folder)
         self.messages.unreadable = None
+        self.messages.forget_error()
         if self.session.base.folder != folder:
             self.opened()
             self.aiming.history.add(self.session.changes)

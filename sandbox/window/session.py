@@ -8,6 +8,7 @@ from typing import Any
 
 from sandbox import parameters as declared
 from sandbox.scene import Scene, load
+from sandbox.scene.finding import find
 from sandbox.scene.modules import read_again
 from sandbox.sport.controls import Controls
 from sandbox.text import command_line
@@ -99,10 +100,11 @@ class Session:
 
     @property
     def files(self) -> list[Path]:
-        """All files that the scene is made from: the scene file, its scene's own, and the code."""
-        folder = self.base.folder
-        files = [self.file, folder / f"{folder.name}.toml", *sorted(folder.glob("*.py"))]
-        return list(dict.fromkeys(file for file in files if file is not None))
+        """All files that the scene is made from: the scene file and those that it begins from, its scene's own, and
+        the code."""
+        folder, own = self.base.folder, self.base.folder / f"{self.base.folder.name}.toml"
+        files = [*(file for file, _ in find(self.source).files), own, *sorted(folder.glob("*.py"))]
+        return list({file.resolve(): file for file in files if file != own or own.is_file()}.values())
 
     @property
     def title(self) -> str:
@@ -200,6 +202,8 @@ class Session:
         except BaseException:
             self.base = before
             raise
+        if [*self.watch.seen] != self.files:  # it begins from other files now
+            self.watch = Watch(self.files)
 
     def command(self) -> str:
         """The command line that runs this."""

@@ -57,12 +57,12 @@ def computed(scene: Scene) -> tuple[Packed, float]:
     started = perf_counter()
     try:
         run = simulate(scene)
+        took = perf_counter() - started
+        scene.verdict(run)  # its code runs here before it does in the window
     except SandboxError:
         raise
     except Exception as error:  # from a scene's own code, maybe of a class that the window's process cannot import
         raise RunError(one_line_error(error)) from None
-    took = perf_counter() - started
-    scene.verdict(run)  # its code runs here before it does in the window
     try:
         return pickle.dumps((run.data, run.result)), took
     except Exception:  # such as a force that is a lambda

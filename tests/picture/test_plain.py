@@ -11,8 +11,11 @@ import pygame
 import pytest
 
 import sandbox
+from sandbox import Ball, Gravity, Segment, Setup, Surface, Trap
 from sandbox.picture import plain
+from sandbox.scene.setup_scene import with_scene
 from tests.own_scene import DROP, copy_of
+from tests.picture.legible import assert_legible
 
 SCENES = Path(__file__).resolve().parents[2] / "scenes"
 SIZE = (640, 360)
@@ -124,3 +127,45 @@ def test_a_thin_body_is_called_one_and_stands_out_on_its_path(tmp_path: Path):
     light, dark = (max(column[6:11], key=sum), min(column[6:11], key=sum))
     assert sum(light) - sum(dark) > 200
     assert dist(light, picture.LOOK.colour) < 60
+
+
+def archery() -> sandbox.Run:
+    """An arrow past eleven rings of a target, and into a trap behind them."""
+    arrow = Ball("arrow", 0.02, 0.01, (0.0, 1.5), (50.0, 4.0), forces=[Gravity(9.81)])
+    rings = [Surface(f"ring {i}", Segment((30.0, 0.2 + 0.1 * i), (30.0, 0.3 + 0.1 * i)), 0.0, 0.5) for i in range(11)]
+    butts = Trap("butts", (31.0, 2.12), 0.3)
+    return sandbox.simulate(Setup([arrow], rings, duration=3.0, traps=[butts]))
+
+
+def test_targets_are_named_and_in_sight():
+    """Of many, those that were touched; a trap is one, too."""
+    shown = with_scene(archery())
+    view = shown.scene.picture(shown, SIZE)
+    view.poster()
+    assert "butts" in dict(view.sheet.written)
+    x, y = view.camera.pixel(31.0, 2.12)
+    assert 0 < x < SIZE[0]
+    assert view.sheet.top_row < y < view.card_row
+
+
+OWN = '''"""A ball tossed in the open."""
+from sandbox.kit import AboveView, Landscape, Look, Person, Place, SideView, Stands
+
+class Picture({kind}):
+    LOOKS = {{"ball": Look((200, 30, 40))}}
+    {place}
+'''
+OUTSIDE = "place = Place(Landscape(), things=[Person(-0.3, 1.8)])"
+
+
+@pytest.mark.parametrize(("kind", "place", "dark"), [("SideView", OUTSIDE, False), ("AboveView", "DUSK = None", True)])
+def test_text_is_legible_by_itself_and_balls_by_name(tmp_path: Path, kind: str, place: str, dark: bool):
+    folder = copy_of(DROP, tmp_path / "drop")
+    (folder / "picture.py").write_text(OWN.format(kind=kind, place=place))
+    scene = sandbox.load(folder)
+    run = sandbox.simulate(scene)
+    picture = scene.picture(run, SIZE)
+    poster = picture.poster()
+    assert_legible(picture.sheet)
+    assert picture.on_dark == dark
+    assert dist(colour(poster, picture.camera.pixel(*run.state("ball", run.duration)[:2])), (200, 30, 40)) < 90

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import time
 
 import pygame
@@ -46,6 +47,12 @@ class TestSaving:
         edit(own, "picture.py", "\n\nclass Picture", "\n\nMINE = True\n\n\nclass Picture")
         assert type(own.view.stages.latest.picture) is not kind
         assert own.view.stages.latest.shot is own.game.shot
+
+    def test_an_error_in_verdict_has_file_and_line(self, own):
+        edit(own, "scene.py", '    landed = run.result["distance"]', '    landed = run.result["distance"] + None')
+        assert any(re.search(r"TypeError: .*own/scene.py, line \d+", text) for text, bad in own.game.notices if bad)
+        edit(own, "scene.py", '    landed = run.result["distance"] + None', '    landed = run.result["distance"]')
+        assert [text for text, bad in own.game.notices if bad] == []
 
     @pytest.mark.parametrize("name", ["scene.py", "picture.py"])
     def test_a_syntax_error_is_shown_with_its_line_until_mended(self, own, name):

@@ -273,6 +273,21 @@ class TestSaving:
         assert player.game.path.before_save is before
         assert player.game.shot.run.result["carry"] > before.run.result["carry"]
 
+    def test_files_in_between_are_watched_too(self, player, file):
+        first, between = file.with_name("first.toml"), file.with_name("between.toml")
+        first.write_text(SCENE, encoding="utf-8")
+        between.write_text('scene = "./first.toml"\nlaunch.angle = 20', encoding="utf-8")
+        file.write_text('scene = "./between.toml"\nlaunch.spin = 0', encoding="utf-8")
+        player = player(str(file))
+        between.write_text('scene = "./first.toml"\nlaunch.angle = 25', encoding="utf-8")
+        self.wait(player)
+        assert player.game.session.value("launch.angle") == 25.0
+        file.write_text('scene = "./first.toml"\nlaunch.spin = 0', encoding="utf-8")
+        self.wait(player)
+        first.write_text(SCENE.replace("60.0", "70.0"), encoding="utf-8")
+        self.wait(player)
+        assert player.game.session.value("launch.speed") == 70.0
+
     @pytest.mark.parametrize("broken", ["scene = [", SCENE.replace("60.0", "-1.0"), SCENE + "spin_up = 3\n"])
     def test_a_broken_file_shows_its_error_and_the_window_goes_on(self, player, file, broken):
         player = player(str(file))

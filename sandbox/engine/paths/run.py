@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Protocol, Unpack
 
 from sandbox.display import Drawable
 from sandbox.engine.model.event import Event
-from sandbox.engine.paths.path import Above, Passage, Path
+from sandbox.engine.paths.path import Above, Path
 from sandbox.errors import RequestError
 
 if TYPE_CHECKING:
@@ -250,17 +250,19 @@ class Run(Drawable):
             times |= {0.0, self.duration, *path.starts}
         return np.array([(t, *self.state(ball, t)) for t in sorted(times)])
 
-    def crossings(self, ball: str, point: Vector, normal: Vector) -> Iterator[Passage]:
-        """Each time and state at which a ball's centre passes the line through ``point`` (m) against ``normal``.
+    def crossings(self, ball: str, point: Vector, normal: Vector) -> Iterator[tuple[float, State]]:
+        """Each time (s) and State at which a ball's centre passes the line through ``point`` (m) against ``normal``.
 
-        As exact as the path itself, for any step: roots of its polynomials.
+        With a normal of (0, 1) that is on its way down, with (-1, 0) on its way forward. As exact as the path itself,
+        for any step: roots of its polynomials.
         """
-        return iter(self._path(ball).passages(Above(*point, *normal)))
+        return ((t, State(*state)) for t, state in self._path(ball).passages(Above(*point, *normal)))
 
-    def highest(self, ball: str, until: float = inf) -> Passage:
-        """Time and state at which a ball's centre is highest, up to a time at which it is not."""
-        return self._path(ball).highest(until)
+    def highest(self, ball: str, until: float = inf) -> tuple[float, State]:
+        """Time (s) and State at which a ball's centre is highest, up to a time at which it is not."""
+        t, state = self._path(ball).highest(until)
+        return t, State(*state)
 
-    def ends(self, ball: str) -> Iterator[Passage]:
-        """Time and state at the end of each arc of a ball's path."""
-        return iter(self._path(ball).ends())
+    def ends(self, ball: str) -> Iterator[tuple[float, State]]:
+        """Time (s) and State at the end of each arc of a ball's path."""
+        return ((t, State(*state)) for t, state in self._path(ball).ends())

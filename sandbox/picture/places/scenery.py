@@ -15,7 +15,8 @@ from sandbox.picture.painter import Painter, blank, from_colours, from_coverage
 from sandbox.picture.palette import Colour, mix, palette
 from sandbox.picture.sheet import Sheet, rows_of
 
-HALL, SHADOW, WHITE = palette("hall"), palette("card")["shadow"], (255, 255, 255)
+HALL, STANDS, LANDSCAPE = palette("hall"), palette("stands"), palette("landscape")
+SHADOW, WHITE = palette("card")["shadow"], (255, 255, 255)
 
 #: Heads larger than this, in px, have shoulders below them.
 SHOULDERS = 4
@@ -58,13 +59,13 @@ def _layers(scenery: Scenery, size: tuple[int, int], foot: int) -> tuple[Layer, 
 class Stands(Scenery):
     """Stands with their roof, people, lamps on masts, and boards along their foot, under an evening sky."""
 
-    sky: tuple[Colour, Colour, Colour]  # top, middle, over the stands
-    glow: Colour  # where the sun went down
-    stands: tuple[Colour, Colour, Colour]  # roof, upper tier, lower tier
-    crowd: tuple[Colour, ...]
-    boards: tuple[Colour, ...]
-    mast: Colour
-    lamp: Colour
+    sky: tuple[Colour, Colour, Colour] = STANDS["sky"]  # top, middle, over the stands
+    glow: Colour = STANDS["glow"]  # where the sun went down
+    stands: tuple[Colour, Colour, Colour] = STANDS["stands"]  # roof, upper tier, lower tier
+    crowd: tuple[Colour, ...] = STANDS["crowd"]
+    boards: tuple[Colour, ...] = STANDS["boards"]
+    mast: Colour = STANDS["mast"]
+    lamp: Colour = STANDS["lamp"]
 
     def layers(self, size: tuple[int, int], foot: int) -> tuple[Layer, ...]:
         width, unit = size[0], rows_of(size) / 720
@@ -202,15 +203,15 @@ def _audience(hall: Hall, size: tuple[int, int], foot: int) -> pygame.Surface:
 class Landscape(Scenery):
     """Sky, sun, clouds, three lines of hills that fade with distance, trees: drawn once, then moved.
 
-    Hills and trees are from far to near; stars are in place of clouds, and no trees, where there is no air.
+    Hills and trees are from far to near; with a colour of stars there is no air, so neither clouds nor trees.
     """
 
-    sky: tuple[Colour, Colour]  # top, horizon
-    sun: Colour
-    hills: tuple[Colour, Colour, Colour]
-    haze: Colour
-    trees: tuple[Colour, ...] = ()
-    cloud: Colour | None = None
+    sky: tuple[Colour, Colour] = LANDSCAPE["sky"]  # top, horizon
+    sun: Colour = LANDSCAPE["sun"]
+    hills: tuple[Colour, Colour, Colour] = LANDSCAPE["hills"]
+    haze: Colour = LANDSCAPE["haze"]
+    trees: tuple[Colour, ...] = LANDSCAPE["trees"]
+    cloud: Colour = LANDSCAPE["cloud"]
     star: Colour | None = None
 
     def layers(self, size: tuple[int, int], foot: int) -> tuple[Layer, ...]:
@@ -218,9 +219,9 @@ class Landscape(Scenery):
         width, artist = size[0], _Artist(self, 2 * size[0], foot, rows_of(size) / 720)
         sky = shaded(width, np.linspace(0, 1, foot), self.sky, 1.15)
         sky = glowing(sky, self.sun, (0.74 * width, 0.80 * foot), (0.34 * width, 0.62 * foot), 0.75)
-        found = [(from_colours(sky), 0, 0.0), (*(artist.clouds(self.cloud) if self.cloud else artist.stars()), CLOUDS)]
+        found = [(from_colours(sky), 0, 0.0), (*(artist.stars() if self.star else artist.clouds(self.cloud)), CLOUDS)]
         found += [(*artist.hills(i), speed) for i, speed in enumerate(HILLS)]
-        return (*found, *([(*artist.trees(), TREES)] if self.trees else []))
+        return (*found, *([(*artist.trees(), TREES)] if self.trees and not self.star else []))
 
 
 class _Artist:
