@@ -13,6 +13,7 @@ SCENES := $(patsubst scenes/%/scene.py,%,$(wildcard scenes/*/scene.py))
 run: .venv/ready
 	@mkdir -p out
 	$(BIN)/sandbox run golf --poster out/golf.png
+	@echo "next, change a number: $(BIN)/sandbox run golf --set launch.speed='150 mph' --poster out/golf.png"
 
 play: .venv/ready
 	$(BIN)/sandbox play

@@ -24,6 +24,7 @@ from click.testing import CliRunner
 from PIL import Image
 
 import sandbox.physics
+from sandbox import kit
 from sandbox.cli import program
 from sandbox.cli.program import app
 from sandbox.new import FROM_ABOVE, FROM_SIDE, new_scene
@@ -166,6 +167,21 @@ def test_scenes_of_guide_and_templates_pass_strict_types(tmp_path: Path, strict_
     new_scene(tmp_path / "above", FROM_ABOVE)
     said = strict_types("-p", "beachvolley", "-p", "side", "-p", "above")
     assert said.startswith("Success: no issues found in"), said
+
+
+def test_parts_of_a_picture_are_called_as_the_guide_says():
+    """With every argument in order, and "=" after those that have a default."""
+    calls = re.findall(
+        r"`((?:plan\.)?[A-Z]\w+)\(([\w=,\s]+)\)`", WALK.partition("## The picture")[2].partition("```python")[0]
+    )
+    assert {name for name, _ in calls} > {"Place", "Landscape", "Person", "Net", "plan.Stripes", "Look"}
+    for name, arguments in calls:
+        part = kit.plan if name.startswith("plan.") else kit
+        given = inspect.signature(getattr(part, name.removeprefix("plan."))).parameters.values()
+        expected = [f"{one.name}{'=' * (one.default is not one.empty)}" for one in given]
+        assert re.split(r",\s+", arguments) == expected, name
+    made = [kit.Place(), kit.Hall(), kit.Stands(), kit.Landscape(), kit.Ground(), kit.Stripes(), kit.Person(0.0)]
+    assert all(made)
 
 
 # README -------------------------------------------------------------------------------------------------------------

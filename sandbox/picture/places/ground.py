@@ -16,7 +16,7 @@ from sandbox.picture.camera import Eye
 from sandbox.picture.painter import Painter, blank, from_coverage, gradient
 from sandbox.picture.palette import Colour, mix, palette
 
-FLOOR, WHITE = palette("floor"), (255, 255, 255)
+FLOOR, GRASS, WHITE = palette("floor"), palette("grass")["mown"], (255, 255, 255)
 
 #: The ground differs little from place to place, so a lower factor than for other shapes will do.
 OVERSAMPLING = 2
@@ -33,8 +33,8 @@ Project = Callable[[Line], np.ndarray]
 class Stripes:
     """Stripes across the plane of play, as of mown grass: even ones, odd ones, ``width`` m wide from ``start`` m on."""
 
-    colours: tuple[Colour, Colour]
-    width: float
+    colours: tuple[Colour, Colour] = GRASS
+    width: float = 4.0
     start: float = 0.0
 
     def draw(self, drawn: pygame.Surface, eye: Eye, far: float, near: float, project: Project) -> None:

@@ -19,6 +19,8 @@ from sandbox.picture.palette import ASSETS, Colour, palette
 from sandbox.picture.sheet import rows_of
 
 PERSON, SHADOW = palette("person"), palette("card")["shadow"]
+#: Of posts and nets of a scene that has no colours of its own.
+POST, MESH = palette("plain")["surface"], (236, 240, 244)
 
 #: The least that is drawn of a net's mesh, of a post's width and of a person's height, px on 720 rows.
 LEAST_MESH, LEAST_POST, LEAST_PERSON = 4.0, 1.8, 30.0
@@ -56,8 +58,8 @@ class Net:
     """Flat nets, each from a corner along two edges (m), with meshes ``mesh`` m wide."""
 
     planes: Sequence[tuple[Point3, Point3, Point3]]
-    colour: Colour
-    opacity: float
+    colour: Colour = MESH
+    opacity: float = 0.5
     mesh: float = 0.12
     near: bool = False
 
@@ -88,7 +90,7 @@ class Post:
 
     points: Sequence[Point3]
     radius: float
-    colour: Colour
+    colour: Colour = POST
     near: bool = False
 
     @property
@@ -143,7 +145,7 @@ class Person:
     """Somebody ``tall`` m high, whose feet are ``up`` m over the ground, x m along the plane of play, z m behind it."""
 
     x: float
-    tall: float
+    tall: float = 1.8
     colours: Mapping[str, Colour] = field(default_factory=PERSON.copy)
     pose: str = "standing"  # of assets/figures.toml
     z: float = 0.0
