@@ -51,6 +51,9 @@ map_option = click.option(
 where_option = click.option(
     "--where", metavar="COLUMN=TEXT", multiple=True, help="Only rows of that table with this text; repeatable."
 )
+strict_option = click.option(
+    "--strict", is_flag=True, help="Refuse a table with a bad row.  [default: leave it out, and say why]"
+)
 
 
 def changes_options(command: Command) -> Command:

@@ -16,6 +16,7 @@ from sandbox.cli.arguments import (
     pairs,
     say,
     scene_argument,
+    strict_option,
     where_option,
 )
 from sandbox.errors import RequestError
@@ -70,6 +71,7 @@ def print_formats(context: click.Context, option: click.Parameter, value: bool) 
     metavar="KEY[=A,B]",
     help="Fit each of these models, such as ball.drag.model=constant,none, and compare.",
 )
+@strict_option
 @click.option("--robust", is_flag=True, help="Count points with gross errors less or not at all (Tukey's biweight).")
 @click.option("--plot", metavar="F.png", type=Path, help="Points, path and residuals as a picture.")
 @click.option("--page", metavar="F.html", type=Path, help="The same with all numbers, as a page.")
@@ -88,6 +90,7 @@ def fit(
     mapping: tuple[str, ...],
     where: tuple[str, ...],
     models: str | None,
+    strict: bool,
     robust: bool,
     plot: Path | None,
     page: Path | None,
@@ -127,7 +130,7 @@ def fit(
         dict(map(parse_ball, balls)),
     )
     entries = tuple(map(parse_entry, mapping))
-    how = Reading(film, parse_free("--free", free), entries, pairs("--where", where))
+    how = Reading(film, parse_free("--free", free), entries, pairs("--where", where), strict)
     data = read_data(chosen, tracks, how)
     check_outputs(plot, page, save, has_points=not isinstance(data, Launches))
     found = (
@@ -151,6 +154,7 @@ def fit(
     help='With --map: how far off a result may be, as carry="5 yd" or carry=2%; repeatable.',
 )
 @changes_options
+@strict_option
 @click.option("--teeth", is_flag=True, help="Switch off, or change by 20 %, what each row tests: does it fall?")
 @json_option
 def validate(
@@ -160,6 +164,7 @@ def validate(
     where: tuple[str, ...],
     within: tuple[str, ...],
     changes: dict[str, Any],
+    strict: bool,
     teeth: bool,
     as_json: bool,
 ) -> None:
@@ -191,9 +196,9 @@ def validate(
         if teeth:
             raise RequestError("--teeth: says what the published numbers test; it cannot be combined with --against")
         entries = [parse_entry(text) for text in mapping]
-        own, notes = cases_against(against, scene, entries, pairs("--where", where), pairs("--within", within))
-    elif mapping or where or within:
-        raise RequestError("--map, --where and --within require --against F.csv")
+        own, notes = cases_against(against, scene, entries, pairs("--where", where), pairs("--within", within), strict)
+    elif mapping or where or within or strict:
+        raise RequestError("--map, --where, --within and --strict require --against F.csv")
     with bar("validate") as progress:
         rows = lab.validate(scene, changes, progress, own)
     if teeth:

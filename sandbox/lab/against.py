@@ -9,6 +9,7 @@ from sandbox import units
 from sandbox.errors import RequestError
 from sandbox.lab.fit.formats import Entry, recognized, stated
 from sandbox.lab.fit.mapped import Quantity, mapped
+from sandbox.lab.selection import used
 from sandbox.lab.table_file import Table, read_table
 from sandbox.lab.validate import KINDS, Case, assignments
 from sandbox.scene import Scene, load
@@ -21,13 +22,19 @@ OTHERS = {"scene": "", "case": "", "set": "", "unit": "", "source": "", "reason"
 
 
 def cases_against(
-    path: Path, source: str | None, entries: Sequence[Entry], where: Mapping[str, str], within: Mapping[str, str]
+    path: Path,
+    source: str | None,
+    entries: Sequence[Entry],
+    where: Mapping[str, str],
+    within: Mapping[str, str],
+    strict: bool = False,
 ) -> tuple[list[Case], tuple[str, ...]]:
     """The numbers of a user's table, and sentences on how it was read. Raises RequestError.
 
     Without ``entries`` it has the columns of the published tables; ``source`` is the scene of rows that name none, or
     of which only those of this scene are wanted. With them, or with columns that are known, each row is a launch and
-    its results, and ``within`` has the tolerance of each: a number with a unit, or a percentage.
+    its results, and ``within`` has the tolerance of each: a number with a unit, or a percentage. A row with a fault is
+    left out; with ``strict`` it is refused.
     """
     table = read_table("--against", path)
     if not entries and all(name in table.names for name in NEEDED):
@@ -41,7 +48,7 @@ def cases_against(
     if form is None:
         missing = next(name for name in NEEDED if name not in table.names)
         raise RequestError(f"{table.where}: has no column {missing}, and no known ones; name them by --map")
-    found = mapped(scene, table, form, where)
+    found = mapped(scene, table, form, where, strict)
     unknown = next((name for name in within if name not in found.measured), None)
     if unknown is not None:
         raise RequestError(f"--within {unknown}: is no result of the table, which has {', '.join(found.measured)}")
@@ -51,7 +58,9 @@ def cases_against(
         for place, row in enumerate(found.rows)
         for name, one in found.measured.items()
     ]
-    return cases, found.notes
+    left_out = used(len(found.rows) + len(found.left_out), found.left_out)
+    unused = f"columns that are not used: {', '.join(found.unused)}" if found.unused else ""
+    return cases, tuple(filter(None, (left_out, *found.notes, unused)))
 
 
 def _settings(given: Mapping[str, Quantity], place: int) -> str:

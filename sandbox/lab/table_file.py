@@ -10,8 +10,9 @@ from __future__ import annotations
 import csv
 import json
 import re
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from math import isfinite
 from pathlib import Path
 from typing import Any
@@ -61,6 +62,8 @@ class Table:
     columns: tuple[Column, ...]
     groups: tuple[str, ...] = ()  # a heading above each column, such as the track's name; empty if there are none
     comma: bool = False  # numbers have a decimal comma
+    broken: Mapping[int, str] = field(default_factory=dict)  # rows with other than one value per column, and why
+    is_named: bool = True  # False if its first line has numbers: columns are then named by their places, from 1
 
     def __len__(self) -> int:
         return len(self.columns[0].cells)
@@ -69,18 +72,30 @@ class Table:
     def names(self) -> list[str]:
         return [column.name for column in self.columns]
 
+    def others(self, taken: Collection[str]) -> tuple[str, ...]:
+        """The names of columns with any content that are not among those taken, which are in lower case."""
+        some = (column for column in self.columns if any(cell.strip() for cell in column.cells))
+        return tuple(column.name for column in some if column.name.lower() not in taken)
+
     def number(self, column: Column, row: int) -> float:
         """The number in a row, the first is 0. Raises RequestError for what is none, and for NaN and infinities."""
+        fault = self.fault(column, row)
+        if fault:
+            raise RequestError(f"{self.where}: row {row + 1}, {fault}")
+        return self._parsed(column.cells[row].strip())
+
+    def fault(self, column: Column, row: int) -> str:
+        """The reason why a cell is no finite number; "" if it is one."""
         text = column.cells[row].strip()
-        plain = text.replace(",", ".") if self.comma else text.replace(",", "") if _THOUSANDS.fullmatch(text) else text
         try:
-            value = float(plain)
+            return "" if isfinite(self._parsed(text)) else f"{column.name} = {text} is not finite"
         except ValueError:
             what = "is empty" if not text else f"= {shortened(text, 40)!r} is not a number"
-            raise RequestError(f"{self.where}: row {row + 1}, {column.name} {what}") from None
-        if not isfinite(value):
-            raise RequestError(f"{self.where}: row {row + 1}, {column.name} = {text} is not finite")
-        return value
+            return f"{column.name} {what}"
+
+    def _parsed(self, text: str) -> float:
+        thousands = not self.comma and _THOUSANDS.fullmatch(text)
+        return float(text.replace(",", "") if thousands else text.replace(",", ".") if self.comma else text)
 
     def numbers(self, column: Column, rows: Sequence[int] | None = None) -> np.ndarray:
         """The numbers of a column, or of some rows of it. Raises RequestError."""
@@ -160,22 +175,30 @@ def _is_data(row: Sequence[str]) -> bool:
 def _of_rows(where: str, rows: list[list[str]], separator: str) -> Table:
     """The table: of the lines before the first line of numbers the longest has the names."""
     first = next((place for place, row in enumerate(rows[:_HEAD]) if _is_data(row)), None)
-    if first == 0:
-        begins = shortened(", ".join(rows[0]), 40)
-        raise RequestError(f"{where}: begins with numbers ({begins}); its first line must name the columns")
+    if first == 0:  # no names: those of the places, for a --map to give others
+        rows, first = [[str(place) for place in range(1, len(_without_tail(rows[0])) + 1)], *rows], 1
+        is_named = False
+    else:
+        is_named = True
     head, data = (rows[:1], rows[1:]) if first is None else (rows[:first], rows[first:])
     data = [row for row in data if not row[0].startswith("#")]
     head = [[row[0].removeprefix("#").strip(), *row[1:]] for row in head]
-    given = head.pop() if len(head) > 1 and all(_UNIT_CELL.fullmatch(cell) for cell in head[-1]) else []
+    given = head.pop() if len(head) > 1 and _are_units(head[-1]) else []
     place = max(range(len(head)), key=lambda place: sum(map(bool, head[place])))  # the first of the longest
     names = _without_tail(head[place])
-    if len(names) < 2:
+    if len(names) < 2 and is_named:
         found = shortened(one_line(" ".join(names)), 50)
         raise RequestError(f"{where}: is no table: it has no line that names columns, but begins with {found!r}")
     above = head[place - 1] if place and len(head[place - 1]) > 1 else []
     groups = tuple(_spread(above, len(names))) if above else ()
     data = [row for row in head[place + 1 :] if any(row)] + data
-    cells = [_fitted(where, number, row, len(names)) for number, row in enumerate(data, start=1)]
+    # a last column without a name, if the head has a cell for it: more would be decimal commas between commas
+    names += [""] * (min(_usual_width(data), max(map(len, [*head, given]))) - len(names))
+    names = [name or f"column {number}" for number, name in enumerate(names, start=1)]
+    cells, broken = [(*row, *[""] * len(names))[: len(names)] for row in data], _broken(data, len(names))
+    if 2 * len(broken) > len(data):
+        number, why = next(iter(broken.items()))
+        raise RequestError(f"{where}: row {number + 1} {why}")
     if len(cells) > MOST_ROWS:
         raise RequestError(f"{where}: has {len(cells):,} rows; a table has at most {MOST_ROWS:,}")
     columns = []
@@ -183,7 +206,15 @@ def _of_rows(where: str, rows: list[list[str]], separator: str) -> Table:
         plain, unit = split_unit(name)
         own = given[place].strip("[]() ") if place < len(given) else ""
         columns.append(Column(plain, known_unit(own) if own else unit, tuple(row[place] for row in cells)))
-    return Table(where, tuple(columns), groups, separator != "," or _has_decimal_comma(cells))
+    comma = separator != "," or _has_decimal_comma(cells)
+    return Table(where, tuple(columns), groups, comma, broken, is_named)
+
+
+def _are_units(row: Sequence[str]) -> bool:
+    """True for a row of units such as ``[mph]``, some empty, and perhaps with one title among them."""
+    filled = [cell for cell in row if cell]
+    units_in = sum(_UNIT_CELL.fullmatch(cell) is not None for cell in filled)
+    return units_in >= max(len(filled) - 1, 1) and (units_in == len(filled) or units_in > 1)
 
 
 def _has_decimal_comma(cells: Sequence[Sequence[str]]) -> bool:
@@ -197,12 +228,21 @@ def _without_tail(row: Sequence[str]) -> list[str]:
     return list(row[:count])
 
 
-def _fitted(where: str, number: int, row: Sequence[str], count: int) -> list[str]:
-    """A row with as many cells as there are names: empty ones at its end do not count. Raises RequestError."""
-    filled = len(_without_tail(row))
-    if filled > count or (len(row) < count and filled < count):
-        raise RequestError(f"{where}: row {number} has {filled} values, but there are {count} columns")
-    return list(row[:count])
+def _usual_width(rows: Sequence[Sequence[str]]) -> int:
+    """The number of cells that most rows have, without empty ones at their ends; 0 if none is that common."""
+    widths = Counter(len(_without_tail(row)) for row in rows)
+    width, count = max(widths.items(), key=lambda item: item[1], default=(0, 0))
+    return width if 2 * count > len(rows) else 0
+
+
+def _broken(rows: Sequence[Sequence[str]], count: int) -> dict[int, str]:
+    """The places of rows that do not have a cell for each column, and why: empty ones at their ends do not count."""
+    filled = {place: len(_without_tail(row)) for place, row in enumerate(rows)}
+    return {
+        place: f"has {width} values, but there are {count} columns"
+        for place, width in filled.items()
+        if width > count or (len(rows[place]) < count and width < count)
+    }
 
 
 def _spread(row: Sequence[str], count: int) -> Iterator[str]:

@@ -18,6 +18,7 @@ from sandbox.lab.fit.launches import Launches
 from sandbox.lab.fit.outline import distances
 from sandbox.lab.fit.reading import Film, measurements, parse_scale
 from sandbox.lab.fit.report import as_text
+from sandbox.lab.selection import LeftOut
 from sandbox.lab.table_file import read_table
 
 PLAIN = Film()
@@ -288,7 +289,7 @@ def test_statcast_and_columns_by_hand(tmp_path):
     baseball = sandbox.load("baseball")
     known = read_data(baseball, [tmp_path / "statcast.csv"], Reading())
     assert known.measured["distance"] == pytest.approx(far["distance"])
-    assert "left out 1 of 4 rows that lack a value" in known.notes
+    assert known.left_out == (LeftOut(4, "launch_speed is missing"),)
     columns = {"Exit": "launch.speed mph", "Up": "launch.angle", "Far": "distance ft"}
     noise = [0.4, -0.3, 0.1]
     table = {

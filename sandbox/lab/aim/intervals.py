@@ -9,7 +9,7 @@ from math import inf
 import numpy as np
 
 from sandbox.lab.aim.question import Interval, Solution
-from sandbox.lab.aim.shots import Shots, dense, scan
+from sandbox.lab.aim.shots import Shots, dense_scan
 
 #: Runs between the known points in the first refinement of an end, where there may be several, and in later ones.
 FIRST, _LATER = 4, 3
@@ -24,11 +24,8 @@ _Change = tuple[float, float, bool]
 
 def intervals(shots: Shots) -> list[Solution]:
     """The middles of all intervals in which the target is met, the widest first."""
-    span, target, points = shots.spans[0], shots.targets[0], dense(shots)
-    shots.resolved(1.0 / (points - 1))
-    seen = [
-        (place, result is not None and target.met(result.get(target.name))) for place, result in scan(shots, points)
-    ]
+    span, target = shots.spans[0], shots.targets[0]
+    seen = [(place, result is not None and target.met(result.get(target.name))) for place, result in dense_scan(shots)]
     changes = [(low, high, met) for (low, met), (high, after) in pairwise(seen) if met != after]
     inner = _refined(shots, changes, finer=False)
     opens, stays_open = ([0.0] if met else [] for met in (seen[0][1], seen[-1][1]))  # errors of the range's own ends

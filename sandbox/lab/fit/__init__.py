@@ -44,6 +44,7 @@ def fit(
     where: Mapping[str, str] | None = None,
     models: str | Mapping[str, Sequence[Any]] | None = None,
     robust: bool = False,
+    strict: bool = False,
 ) -> Fit:
     """The values of parameters that explain a measured track, with 95 % intervals.
 
@@ -56,7 +57,8 @@ def fit(
     the scene's by the names in the table.
 
     A table of launches has ``columns``: ``{"Ball Speed": "launch.speed mph", "Carry": "carry yd"}``, or those of a
-    known device; only rows with the text that ``where`` names are used.
+    known device; only rows with the text that ``where`` names are used. A row with a fault is left out, and listed with
+    its reason in ``measured.left_out``; with ``strict`` it raises RequestError.
 
     Raises RequestError for an invalid request, and RunError if no run near the best values could be completed.
 
@@ -69,7 +71,7 @@ def fit(
     check_mapping("vary", vary, '{"launch.speed": (5, 15)}')
     film = Film(None if scale is None else parse_scale(scale), (float(origin[0]), float(origin[1])), fps, balls or {})
     entries = tuple(parse_entry(f"{column}={target}") for column, target in (columns or {}).items())
-    how = Reading(film, parse_free("free", [free] if isinstance(free, str) else free), entries, where or {})
+    how = Reading(film, parse_free("free", [free] if isinstance(free, str) else free), entries, where or {}, strict)
     if isinstance(track, Mapping):
         measured = data_of(chosen, [("", table_of(track))], how)
     else:

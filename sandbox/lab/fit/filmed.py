@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from sandbox.errors import RequestError
 from sandbox.lab.fit.flown import flown
 from sandbox.lab.fit.frame import Frame
 from sandbox.lab.fit.measured import Free
+from sandbox.lab.selection import LeftOut
 from sandbox.scene import Scene
 from sandbox.scene.scene_run import SceneRun
 
@@ -24,6 +25,9 @@ class Filmed:
     numbers: np.ndarray  # the row of each point in its file, the first is 1; shape (points,)
     frame: Frame
     where: str  # as messages begin
+    left_out: tuple[LeftOut, ...] = field(default=(), kw_only=True)
+    unused: tuple[str, ...] = field(default=(), kw_only=True)  # columns of the tables
+    notes: tuple[str, ...] = field(default=(), kw_only=True)  # on how the tables were read
 
     what = "point"
     runs = 1

@@ -11,7 +11,7 @@ from typing import Any
 
 from sandbox import units
 from sandbox.errors import RequestError
-from sandbox.lab.table_file import PIXEL, Table, split_unit
+from sandbox.lab.table_file import PIXEL, Column, Table, split_unit
 from sandbox.parameters import walk
 from sandbox.scene import Scene
 from sandbox.text import nearest, shortened
@@ -27,6 +27,27 @@ class Entry:
 
 
 @dataclass(frozen=True)
+class Rule:
+    """Rows that a scene does not describe, by one of their columns: those with a word, or with less than a number."""
+
+    column: str
+    why: str
+    words: tuple[str, ...] = ()
+    below: float | None = None
+
+    @property
+    def text(self) -> str:
+        """``launch_angle below 10``."""
+        return f"{self.column} " + (f"below {self.below:g}" if self.below is not None else " or ".join(self.words))
+
+    def holds(self, table: Table, column: Column, row: int) -> bool:
+        """True for a row that is left out by this rule."""
+        cell = column.cells[row].strip().lower()
+        less = self.below is not None and not table.fault(column, row) and table.number(column, row) < self.below
+        return cell in self.words or less
+
+
+@dataclass(frozen=True)
 class Form:
     """The columns of a table that are used."""
 
@@ -35,9 +56,10 @@ class Form:
     scene: str = ""  # the scene whose shots it measures
     source: str = ""  # where its names are from
     total_spin: tuple[str, ...] = ()  # columns whose spin, times the cosine of the axis's tilt, is the backspin
-    spin_axis: str = ""  # the column of that tilt in deg
+    spin_axis: tuple[str, ...] = ()  # columns of that tilt in deg, of which a file has one
     length_unit: str = ""  # the column that names the unit of lengths
     zeros: bool = False  # 0 stands for what was not measured
+    leave_out: tuple[Rule, ...] = ()  # rows that the scene does not describe
 
 
 def parse_entry(text: str) -> Entry:
@@ -63,7 +85,12 @@ def forms() -> Mapping[str, Form]:
 def _form(given: dict[str, Any]) -> Form:
     """A known device, as the file writes it."""
     columns, total = given.pop("columns"), tuple(given.pop("total_spin", ()))
-    return Form(tuple(parse_entry(f"{column}={to}") for column, to in columns.items()), total_spin=total, **given)
+    rules = tuple(
+        Rule(rule.pop("column"), rule.pop("why"), tuple(rule.pop("words", ())), **rule)
+        for rule in given.pop("leave_out", ())
+    )
+    entries = tuple(parse_entry(f"{column}={to}") for column, to in columns.items())
+    return Form(entries, total_spin=total, leave_out=rules, spin_axis=tuple(given.pop("spin_axis", ())), **given)
 
 
 def as_text() -> str:
@@ -73,7 +100,10 @@ def as_text() -> str:
         lines += ["", f"{form.title}, for {form.scene}", f"  names: {form.source}"]
         lines += [f'  --map "{one.column}={one.key} {one.unit}"' for one in form.entries]
         if form.spin_axis:
-            lines.append(f"  {' and '.join(form.total_spin)} times the cosine of {form.spin_axis} is the backspin")
+            total = " or ".join(form.total_spin)
+            axis = " or ".join(form.spin_axis)
+            lines += [f"  {total} times the cosine of {axis} is the backspin"] if total else []
+        lines += [f"  left out: {rule.text} ({rule.why})" for rule in form.leave_out]
     return "\n".join(lines)
 
 

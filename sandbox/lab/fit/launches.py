@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from math import isfinite
 
 import numpy as np
 
 from sandbox.errors import RequestError
-from sandbox.lab.axes import checked
 from sandbox.lab.fit.formats import Form
 from sandbox.lab.fit.mapped import mapped
 from sandbox.lab.fit.measured import Free
 from sandbox.lab.runs import runs
+from sandbox.lab.selection import LeftOut, reasons
 from sandbox.lab.table_file import Table
 from sandbox.scene import Scene
 from sandbox.scene.points import Points
@@ -30,6 +30,8 @@ class Launches:
     units: tuple[str, ...]  # of each fact
     notes: tuple[str, ...] = ()  # on how the table was read
     where: str = "track"  # as messages begin
+    left_out: tuple[LeftOut, ...] = ()
+    unused: tuple[str, ...] = ()  # columns of the table
 
     what = "shot"
     free: tuple[Free, ...] = ()
@@ -65,15 +67,29 @@ class Launches:
         return np.full(self.count * len(self.measured), np.nan)
 
     def check(self, scene: Scene) -> None:
-        """Raise RequestError for a launch that the scene cannot make, or that has no such result."""
-        for key, values in self.given.items():
-            for row, value in zip(self.numbers.tolist(), values.tolist(), strict=True):
-                checked(scene, f"{self.where}: row {row},", key, value)
+        """Raise RequestError for a launch that has no such result in the scene."""
+        fault = next(iter(self._without_result(scene)), None)
+        if fault is not None:
+            raise RequestError(f"{self.where}: row {fault.row}, {fault.why}")
+
+    def that_fly(self, scene: Scene) -> Launches:
+        """Those launches that have all results in the scene, the others left out. Raises RequestError if none has."""
+        faults = self._without_result(scene)
+        kept = ~np.isin(self.numbers, [fault.row for fault in faults])
+        left_out = tuple(sorted((*self.left_out, *faults), key=lambda each: each.row))
+        if not kept.any():
+            raise RequestError(f"{self.where}: no row can be used: {reasons(left_out)}")
+        given, measured = ({key: values[kept] for key, values in some.items()} for some in (self.given, self.measured))
+        return replace(self, given=given, measured=measured, numbers=self.numbers[kept], left_out=left_out)
+
+    def _without_result(self, scene: Scene) -> list[LeftOut]:
+        """The launches that lack one of the results, and which."""
         computed = self._computed(scene, (), np.empty((1, 0)))[0]
-        for place, row in enumerate(self.numbers.tolist()):
-            for name, value in zip(self.measured, computed[place].tolist(), strict=True):
-                if not isfinite(value):
-                    raise RequestError(f"{self.where}: row {row}, {scene.title} has no {name} for this launch")
+        lacking = [
+            (row, [name for name, value in zip(self.measured, results, strict=True) if not isfinite(value)])
+            for row, results in zip(self.numbers.tolist(), computed.tolist(), strict=True)
+        ]
+        return [LeftOut(row, f"{scene.title} has no {names[0]} for this launch") for row, names in lacking if names]
 
     def residuals(self, scene: Scene, keys: Sequence[str], values: np.ndarray, until: float) -> np.ndarray:
         """Measured minus computed results in their units, shape (candidates, launches times results)."""
@@ -101,14 +117,18 @@ class Launches:
         return (*self.notes, f"the launches are taken as measured: {', '.join(self.given)}")
 
 
-def launches(scene: Scene, table: Table, form: Form, where: Mapping[str, str]) -> Launches:
-    """The launches of a table. Raises RequestError."""
-    found = mapped(scene, table, form, where)
-    return Launches(
+def launches(scene: Scene, table: Table, form: Form, where: Mapping[str, str], strict: bool = False) -> Launches:
+    """The launches of a table, without those that have no such result in the scene. Raises RequestError; with
+    ``strict`` also for a row with a fault."""
+    found = mapped(scene, table, form, where, strict)
+    every = Launches(
         {key: one.values for key, one in found.given.items()},
         {key: one.values for key, one in found.measured.items()},
         np.array(found.rows),
         tuple(one.unit for one in found.measured.values()),
         found.notes,
         table.where,
+        found.left_out,
+        found.unused,
     )
+    return every if strict else every.that_fly(scene)

@@ -8,6 +8,7 @@ from typing import Protocol
 
 import numpy as np
 
+from sandbox.lab.selection import LeftOut
 from sandbox.scene import Scene
 from sandbox.scene.points import Points
 
@@ -61,6 +62,14 @@ class Measured(Protocol):
     @property
     def free(self) -> tuple[Free, ...]:
         """Numbers of the measurement itself that are fitted too."""
+
+    @property
+    def left_out(self) -> tuple[LeftOut, ...]:
+        """The rows of the data that are not used, each with its reason."""
+
+    @property
+    def unused(self) -> tuple[str, ...]:
+        """The names of columns that the fit does not use."""
 
     def check(self, scene: Scene) -> None:
         """Raise RequestError if this cannot be compared with runs of the scene."""

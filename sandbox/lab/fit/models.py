@@ -59,6 +59,14 @@ def _choices(parameters: Any, key: str) -> tuple[Any, ...]:
     return tuple(dict.fromkeys(word for some in words for word in some))
 
 
+def _has(scene: Scene, key: str, value: float) -> bool:
+    """True if the scene, with the model that it has, can be given a parameter."""
+    try:
+        return checked(scene, "--vary", key, value) is not None
+    except RequestError:
+        return False
+
+
 def compare(
     scene: Scene, measured: Measured, spans: Sequence[Span], key: str, words: Sequence[Any], robust: bool = False
 ) -> Fit:
@@ -71,7 +79,7 @@ def compare(
     for word in words:
         try:
             changed = scene.changed({key: word}, "--models")
-            own = [span for span in spans if value_at(changed.parameters, span.key) is not None]
+            own = [span for span in spans if _has(changed, span.key, span.low)]
             if not own:
                 raise RequestError(f"{word} has none of the parameters to fit")
             found[str(word)] = Model(0.0, solve(changed, measured, own, robust, near=False))

@@ -55,8 +55,8 @@ class Outline(Filmed):
         return Points(np.full(len(self), np.nan), self.frame.places(self.positions, free), self.named(scene))
 
     def remarks(self, scene: Scene, free: Sequence[float]) -> tuple[str, ...]:
-        """A sentence on how points without times are compared."""
-        return ("no times: each point is compared with the nearest place of the path",)
+        """Sentences on how the table was read, and on how points without times are compared."""
+        return (*self.notes, "no times: each point is compared with the nearest place of the path")
 
 
 def distances(run: SceneRun, ball: str, places: np.ndarray) -> np.ndarray:

@@ -41,7 +41,10 @@ class Problem:
         self.declared = np.array([isinstance(span, Declared) for span in spans] + [False] * len(free))
         self.low, high = np.array(ranges).T
         self.width = high - self.low
-        starts = [float(value_at(scene.parameters, key)) for key in self.scene_keys]
+        own = [value_at(scene.parameters, key) for key in self.scene_keys]
+        # a parameter that is not set, such as a density that follows from temperature and pressure, has the middle
+        middles = (0.5 * (span.low + span.high) for span in spans)
+        starts = [middle if value is None else float(value) for value, middle in zip(own, middles, strict=True)]
         self.own = np.clip((np.array([*starts, *(one.start for one in free)]) - self.low) / self.width, 0.0, 1.0)
         self.times = np.nan_to_num(measured.times, nan=0.0)  # without a time: in every window
         self.last = float(self.times.max())  # s

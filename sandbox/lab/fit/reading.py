@@ -4,23 +4,30 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from math import hypot
 
 import numpy as np
 
 from sandbox import units
 from sandbox.errors import RequestError
+from sandbox.lab.selection import LeftOut, Selection
 from sandbox.lab.table_file import PIXEL, Column, Table
 from sandbox.text import shortened
 
 #: The columns of a track, by how programs name them; lower case.
 NAMES = {
-    "t": ("t", "time"),
+    "t": ("t", "time", "timestamp", "time stamp"),
     "x": ("x", "position x", "x position", "x_pos", "pos_x"),
     "y": ("y", "position y", "y position", "y_pos", "pos_y"),
     "ball": ("ball",),
     "frame": ("frame", "frame number"),
+    "z": ("z", "position z", "z position", "z_pos", "pos_z"),
 }
+
+#: A coordinate is that of a falling ball if its acceleration is that of gravity within this share; it is taken from
+#: parabolas through this share of the points, at least so many.
+_FALLS, _PART, _FEWEST = 0.4, 0.25, 5
 
 #: ``120 px = 1 m``, ``1 m = 120 px`` or ``120 px/m``.
 _SCALE = re.compile(rf"\s*({units.NUMBER})\s*(\w+)\s*=\s*({units.NUMBER})\s*(\w+)\s*")
@@ -47,6 +54,7 @@ class Measurements:
     rows: np.ndarray  # the row of each point in its file, the first is 1; shape (points,)
     where: str  # the option and the file, as messages begin with them
     names: frozenset[str] = frozenset()  # of the balls in the file
+    left_out: tuple[LeftOut, ...] = ()
 
     def __len__(self) -> int:
         return len(self.positions)
@@ -93,9 +101,11 @@ def has_positions(table: Table) -> bool:
     return bool(_places(table, "x") and _places(table, "y"))
 
 
-def measurements(tables: Sequence[tuple[str, Table]], film: Film) -> Measurements:
-    """The points of one table, or of several, each with the name of its ball. Raises RequestError."""
-    parts = [part for name, table in tables for part in _of_table(table, film, name if len(tables) > 1 else "")]
+def measurements(tables: Sequence[tuple[str, Table]], film: Film, strict: bool = False) -> Measurements:
+    """The points of one table, or of several, each with the name of its ball. Raises RequestError; with ``strict`` also
+    for a row with a fault."""
+    several = len(tables) > 1
+    parts = [part for name, table in tables for part in _of_table(table, film, name if several else "", strict)]
     found = {name for part in parts for name in part.names}
     unused = next((name for name in film.balls if name and name not in found), None)
     if unused is not None:
@@ -109,36 +119,95 @@ def measurements(tables: Sequence[tuple[str, Table]], film: Film) -> Measurement
         tuple(ball for part in parts for ball in part.balls),
         np.concatenate([part.rows for part in parts]),
         tables[0][1].where,
+        left_out=tuple(each for part in parts for each in part.left_out),
     )
     if not len(every):
         raise RequestError(f"{tables[0][1].where}: has no points")
     return every
 
 
+def _plain(name: str) -> str:
+    return name.lower().rpartition(": ")[2]  # Vernier writes "Latest: Time (s)"
+
+
 def _places(table: Table, what: str) -> list[int]:
-    """The places of the columns for t, x, y, ball or frame."""
-    plain = [name.lower().rpartition(": ")[2] for name in table.names]  # Vernier writes "Latest: Time (s)"
-    return [place for place, name in enumerate(plain) if name in NAMES[what]]
+    """The places of the columns for t, x, y, z, ball or frame."""
+    return [place for place, name in enumerate(table.names) if _plain(name) in NAMES[what]]
 
 
-def _of_table(table: Table, film: Film, name: str) -> Iterable[Measurements]:
+def unknown_columns(table: Table) -> tuple[str, ...]:
+    """The names of columns with any content that a track does not use."""
+    known = {name for what in ("t", "x", "y", "ball", "frame") for name in NAMES[what]}
+    return table.others({name.lower() for name in table.names if _plain(name) in known})
+
+
+def flattened(table: Table, above: bool, gravity: float) -> tuple[Table, str]:
+    """A table of places in space as one of places in the plane of a scene, and a sentence on it; any other as it is.
+
+    Seen from above z is left out. From the side the height is the coordinate that falls with about ``gravity`` in
+    m/s^2, or else z; the distance is the one of the others that changes most.
+    """
+    places = {axis: _places(table, axis) for axis in "xyz"}
+    if any(len(found) != 1 for found in places.values()):
+        return table, ""
+    x, y, z = (table.columns[found[0]] for found in places.values())
+    rows = [row for row in range(len(table)) if not any(table.fault(column, row) for column in (x, y, z))]
+    spans = {column.name: float(np.ptp(table.numbers(column, rows))) if rows else 0.0 for column in (x, y, z)}
+    if above:
+        up, along, side = y, x, z
+    else:
+        falls = [_falls(table, column, rows, gravity) for column in (y, z)]
+        up, level = (y, z) if falls == [True, False] else (z, y)
+        along, side = (x, level) if spans[x.name] >= spans[level.name] else (level, x)
+    longer = 100.0 * (hypot(1.0, spans[side.name] / spans[along.name]) - 1.0) if spans[along.name] else 0.0
+    costs = f", which makes the distance {longer:.2g} % longer" if longer >= 0.05 and not above else ""
+    unit = f" {side.unit or 'm'}"
+    said = f"{along.name} is taken as x and {up.name} as y{'' if above else ', the height'}; {side.name} is not used: "
+    kept = [
+        replace(column, name="x" if column is along else "y" if column is up else column.name)
+        for column in table.columns
+        if column is not side
+    ]
+    named = f'; to choose others: --map "{along.name}=x" --map "{up.name}=y"'
+    return replace(table, columns=tuple(kept)), f"{said}it spans {spans[side.name]:.3g}{unit}{costs}{named}"
+
+
+def _falls(table: Table, column: Column, rows: Sequence[int], gravity: float) -> bool:
+    """True if a coordinate has about the acceleration of gravity, at the median of parabolas through the points."""
+    clock = _places(table, "t")
+    timed = [row for row in rows if clock and not table.fault(table.columns[clock[0]], row)]
+    count = max(_FEWEST, int(_PART * len(timed)))
+    if len(timed) < count:
+        return False
+    t = table.numbers(table.columns[clock[0]], timed) * _factor(table, table.columns[clock[0]], "s")
+    u = table.numbers(column, timed) * (1.0 if column.unit == PIXEL else _factor(table, column, "m"))
+    fits = [np.polyfit(t[at : at + count] - t[at], u[at : at + count], 2)[0] for at in range(len(t) - count + 1)]
+    return abs(2.0 * float(np.median(fits)) + gravity) < _FALLS * gravity
+
+
+def _of_table(table: Table, film: Film, name: str, strict: bool) -> Iterable[Measurements]:
     """The points of each ball of a table; Tracker writes several side by side, under their names."""
     xs, ys = (_places(table, what) for what in "xy")
     if len(xs) > 1 and len(xs) == len(ys) and table.groups:
         for x, y in zip(xs, ys, strict=True):
-            yield _of_ball(table, film, x, y, table.groups[x])
+            yield _of_ball(table, film, x, y, table.groups[x], strict)
         return
     for what, places in (("x", xs), ("y", ys)):
         if len(places) != 1:
             found = shortened(", ".join(table.names), 60)
             raise RequestError(f"{table.where}: needs one column {what} in its first line, which has: {found}")
-    yield _of_ball(table, film, xs[0], ys[0], name)
+    yield _of_ball(table, film, xs[0], ys[0], name, strict)
 
 
-def _of_ball(table: Table, film: Film, x: int, y: int, name: str) -> Measurements:
+def _of_ball(table: Table, film: Film, x: int, y: int, name: str, strict: bool) -> Measurements:
     columns = table.columns[x], table.columns[y]
+    selection = Selection(table, strict)
     # a program leaves a frame without a mark empty
-    rows = [row for row in range(len(table)) if any(column.cells[row].strip() for column in columns)]
+    selection.only(row for row in selection.rows if any(column.cells[row].strip() for column in columns))
+    selection.need_numbers([*columns, *_clock(table, film)])
+    rows = selection.rows
+    if selection.left_out:
+        selection.check_some()
     factor = _metres(table, columns, film)
     positions = np.column_stack([table.numbers(column, rows) for column in columns]) - film.origin
     positions = positions * (factor if film.scale is None else (factor, -factor))  # y is downwards in a picture
@@ -146,7 +215,14 @@ def _of_ball(table: Table, film: Film, x: int, y: int, name: str) -> Measurement
     given = [table.columns[named[0]].cells[row].strip() if named else name for row in rows]
     balls = [film.balls.get(one, film.balls.get("", one)) for one in given]
     times = _times(table, film, rows, balls)
-    return Measurements(times, positions, tuple(balls), np.array(rows, dtype=int) + 1, table.where, frozenset(given))
+    numbers, names = np.array(rows, dtype=int) + 1, frozenset(given)
+    return Measurements(times, positions, tuple(balls), numbers, table.where, names, selection.left_out)
+
+
+def _clock(table: Table, film: Film) -> list[Column]:
+    """The column of times, or of frames where their rate is known; none without one."""
+    places = _places(table, "t" if film.rate is None else "frame")
+    return [table.columns[places[0]]] if len(places) == 1 else []
 
 
 def _metres(table: Table, columns: tuple[Column, Column], film: Film) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from math import inf
 from typing import Any
@@ -10,6 +11,7 @@ from sandbox.files import json_text
 from sandbox.lab.fit.advice import advice
 from sandbox.lab.fit.loss import SQUARES, TUKEY
 from sandbox.lab.fit.squares import OUTLIER, Fit, Value
+from sandbox.lab.selection import used
 from sandbox.lab.tables import length, paragraph, table
 from sandbox.sport.amounts import significant
 from sandbox.text import counted, one_line
@@ -23,6 +25,9 @@ AS_GOOD, RULED_OUT = 2.0, 10.0
 
 #: Most outliers that are listed, and other minima.
 _MOST, _OTHERS = 12, 3
+
+#: Names of columns that say what a scene in one plane leaves out: they are listed first.
+_SIDEWAYS = re.compile(r"side|direction|azimuth|curve|offline|deviation|launch h|aim|axis|dispersion", re.IGNORECASE)
 
 #: Digits of a value that are shown, at most: data without noise tell more.
 _SHOWN = 7
@@ -46,8 +51,10 @@ def value_rows(found: Fit) -> list[tuple[str, ...]]:
     """Key, value, unit, interval, and half of it as a share of the value."""
     rows: list[tuple[str, ...]] = []
     for key, one in found.values.items():
-        digits = _digits(one)
-        half = 0.5 * (one.high - one.low)
+        digits, half = _digits(one), one.half
+        if half is None:
+            rows.append((key, f"{one.value:.{digits}f}", one.unit, "no result: at the end of its range", ""))
+            continue
         percent = round(100.0 * half / abs(one.value), _SHOWN - 1) if one.value and half < abs(one.value) else None
         share = "" if percent is None else f"± {significant(percent)} %"
         rows.append((key, f"{one.value:.{digits}f}", one.unit, f"{one.low:.{digits}f} to {one.high:.{digits}f}", share))
@@ -55,8 +62,11 @@ def value_rows(found: Fit) -> list[tuple[str, ...]]:
 
 
 def _digits(one: Value) -> int:
-    """Decimals that show the interval with two digits, but at most seven digits of the value."""
-    half = 0.5 * (one.high - one.low)
+    """Decimals that show the interval with two digits, but at most seven digits of the value; the fewest that show a
+    value without one."""
+    half = one.half
+    if half is None:
+        return min(len(f"{one.value:.6f}".rstrip("0").partition(".")[2]), 6)
     most = _SHOWN - 1 - _exponent(one.value)
     return max(0, min(1 - _exponent(half), most) if half > 0.0 else most)
 
@@ -76,6 +86,9 @@ def residual_text(found: Fit) -> str:
 def sentences(found: Fit) -> Iterator[str]:
     """All that is to be said of a fit, the most important first."""
     yield f"standard deviation of the residuals: {residual_text(found)}"
+    measured = found.measured
+    if measured.left_out:
+        yield used(measured.count + len(measured.left_out), measured.left_out, measured.what)
     if found.pattern:
         yield (
             f"the model does not explain all: the residuals have a pattern, and are {significant(found.pattern)} times "
@@ -97,6 +110,10 @@ def sentences(found: Fit) -> Iterator[str]:
             "compared with the run that goes on"
         )
     yield from found.remarks
+    if measured.unused:
+        more = f" and {len(measured.unused) - _MOST} more" if len(measured.unused) > _MOST else ""
+        first = sorted(measured.unused, key=lambda name: not _SIDEWAYS.search(name))
+        yield f"columns that are not used: {', '.join(first[:_MOST])}{more}"
     yield assumed(found)
 
 
@@ -114,7 +131,10 @@ def _of_values(found: Fit) -> Iterator[str]:
     for key, one in found.values.items():
         if one.at_bound:
             end = f"{one.value:g} {one.unit}".rstrip()
-            yield f"{key} stopped at the end of its range, {end}: its interval does not hold"
+            yield (
+                f"{key} stopped at the end of its range, {end}: that is no result, and has no interval. A wider range, "
+                "or other rows, may have one"
+            )
         elif one.unknown:
             yield f"{key} is not determined by these {found.measured.what}s: its interval is all of its range"
 
@@ -136,7 +156,7 @@ def _of_others(found: Fit) -> Iterator[str]:
         return
     said = []
     for other in found.others[:_OTHERS]:
-        apart = [key for key, one in found.values.items() if not one.low <= other.values[key] <= one.high]
+        apart = [key for key, one in found.values.items() if not one.holds(other.values[key])]
         named = [f"{key} = {other.values[key]:.{_digits(found.values[key])}f} {found.values[key].unit}".rstrip()
                  for key in apart]  # fmt: skip
         said.append(f"{', '.join(named)} (chi^2 {other.more:.1f} more)")
@@ -183,6 +203,8 @@ def as_json(found: Fit) -> str:
         "others": [{"values": other.values, "chi2_more": other.more} for other in found.others],
         "outliers": list(found.outliers),
         "points": found.measured.count,
+        "left_out": found.measured.left_out,
+        "unused": found.measured.unused,
         "late": found.late,
         "loss": found.loss,
         "pattern": found.pattern,

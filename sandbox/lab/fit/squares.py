@@ -49,14 +49,24 @@ NOTHING = 0.15
 
 @dataclass(frozen=True)
 class Value:
-    """A fitted value with its 95 % interval, in its unit."""
+    """A fitted value with its 95 % interval, in its unit; one that stopped at an end of its range is no result, and has
+    no interval."""
 
     value: float
-    low: float
-    high: float
+    low: float | None
+    high: float | None
     unit: str
-    at_bound: bool = False  # the fit stopped at an end of the range, so the interval does not hold
+    at_bound: bool = False  # the fit stopped at an end of the range
     unknown: bool = False  # the data do not say: the interval is the whole range
+
+    @property
+    def half(self) -> float | None:
+        """Half of the interval; None without one."""
+        return None if self.low is None or self.high is None else 0.5 * (self.high - self.low)
+
+    def holds(self, value: float) -> bool:
+        """True for a value in the interval, or for the same where there is none."""
+        return value == self.value if self.low is None or self.high is None else self.low <= value <= self.high
 
 
 @dataclass(frozen=True)
@@ -265,8 +275,11 @@ def _values(problem: Problem, share: np.ndarray, errors: Errors) -> dict[str, Va
     columns: Any = zip(problem.keys, problem.units, share, errors.half_widths, problem.low, problem.width, strict=True)
     for key, unit, at, half, low, width in columns:
         value, error = float(low + at * width), float(half * width)
-        ends = max(float(low), value - error), min(float(low + width), value + error)
-        found[key] = Value(value, *ends, unit, not AT_END < at < 1.0 - AT_END, bool(half >= 1.0))
+        if AT_END < at < 1.0 - AT_END:
+            ends = max(float(low), value - error), min(float(low + width), value + error)
+            found[key] = Value(value, *ends, unit, unknown=bool(half >= 1.0))
+        else:
+            found[key] = Value(value, None, None, unit, at_bound=True, unknown=bool(half >= 1.0))
     return found
 
 

@@ -59,6 +59,6 @@ class Track(Filmed):
         return Points(self.frame.elapsed(self.t, free), self.frame.places(self.positions, free), self.named(scene))
 
     def remarks(self, scene: Scene, free: Sequence[float]) -> tuple[str, ...]:
-        """The number of points that were not compared with a flight."""
+        """Sentences on how the table was read, and the number of points that were not compared with a flight."""
         early = int((self.frame.elapsed(self.t, free) < 0.0).sum())
-        return (f"points before the launch, compared with where it is: {early}",) if early else ()
+        return (*self.notes, *([f"points before the launch, compared with where it is: {early}"] if early else []))

@@ -1,0 +1,320 @@
+"""Rows and columns of measured tables that are not used: left out, counted, named with their reasons."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Sequence
+from math import cos, hypot, radians, sin
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import sandbox
+from sandbox.errors import RequestError
+from sandbox.lab.axes import Span
+from sandbox.lab.fit.data import Reading, read_data
+from sandbox.lab.fit.formats import parse_entry
+from sandbox.lab.fit.mapped import TILTED
+from sandbox.lab.fit.problem import Problem
+from sandbox.lab.fit.report import as_text
+from sandbox.lab.selection import LeftOut
+from sandbox.lab.table_file import read_table
+from sandbox.parameters import value_at, walk
+from sandbox.scene import listings
+from tests.own_scene import Outcome, assert_refused
+
+Call = Callable[..., Outcome]
+
+SPEEDS = [60.0, 62.0, 65.0, 68.0, 70.0]
+HEAD = "Club,Ball Speed (m/s),Launch Angle (deg),Spin Rate (rpm),Carry Flat - Length (m),Side (m)\n"
+
+
+@pytest.fixture(scope="module")
+def carries() -> list[float]:
+    """Carry in m of five drives in thin air."""
+    points = {"launch.speed": SPEEDS, "launch.angle": [12.0] * 5, "launch.spin": [2600.0] * 5}
+    found = sandbox.simulate_many(sandbox.load("golf", {"air.density": 1.1}), points, facts=("carry",))
+    return found["carry"].tolist()
+
+
+def shots(carries: Sequence[float]) -> list[str]:
+    return [f"D,{v},12,2600,{c},3\n" for v, c in zip(SPEEDS, carries, strict=True)]
+
+
+def written(folder: Path, text: str, name: str = "track.csv") -> Path:
+    (folder / name).write_text(text, "utf-8")
+    return folder / name
+
+
+def text_of(lines: Sequence[str]) -> str:
+    return " ".join(" ".join(lines).split())
+
+
+# Rows of launches ---------------------------------------------------------------------------------------------------
+
+BAD = {
+    "D,60,12,-21474836480,150,3\n": "Spin Rate = -21474836480 rpm is out of range",
+    "D,60,12,2600,-21474836480,3\n": "Carry Flat - Length = -21474836480 m is out of range",
+    "D,x,12,2600,150,3\n": "Ball Speed = 'x' is not a number",
+    "D,60,12,2600\n": "has 4 values, but there are 6 columns",
+    "D,60,12,nan,150,3\n": "Spin Rate = nan is not finite",
+}
+
+
+@pytest.mark.parametrize("row", BAD, ids=range(len(BAD)))
+def test_a_bad_row_is_left_out_and_named(call: Call, tmp_path: Path, carries: list[float], row: str):
+    good = shots(carries)
+    file = written(tmp_path, HEAD + "".join([*good[:2], row, *good[2:]]))
+    args = ("fit", "golf", file, "--vary", "air.density=1:1.3")
+    done = call(*args, "--json")
+    found = json.loads(done.out)
+    assert found["values"]["air.density"]["value"] == pytest.approx(1.1, abs=1e-6)
+    assert found["points"] == 5
+    (left,) = found["left_out"]
+    assert left["row"] == 3
+    assert BAD[row] in left["why"]
+    assert f"used 5 of 6 shots: row 3, {BAD[row]}" in text_of(found["said"])
+    assert_refused(call(*args, "--strict"), f"track {file}: row 3, {BAD[row]}")
+
+
+def test_empty_cells_and_sums_are_left_out_also_if_strict(tmp_path: Path, carries: list[float]):
+    rows = ["D,60,12,,150,3\n", *shots(carries), "Avg,64,12,2600,150,3\n"]
+    file = written(tmp_path, HEAD + "".join(rows))
+    for strict in (False, True):
+        found = sandbox.fit("golf", file, {"air.density": (1.0, 1.3)}, strict=strict).measured
+        assert found.left_out == (LeftOut(1, "Spin Rate is missing"), LeftOut(7, "sums other rows up"))
+
+
+def test_no_row_that_can_be_used_is_an_error(call: Call, tmp_path: Path):
+    file = written(tmp_path, HEAD + next(iter(BAD)) * 2)
+    refused = call("fit", "golf", file, "--vary", "air.density=1:1.3")
+    assert_refused(refused, "no row can be used: rows 1 and 2, Spin Rate = -21474836480 rpm is out of range")
+
+
+def test_a_launch_without_the_result_is_left_out(call: Call, tmp_path: Path):
+    """A pitch in the dirt has no height over the plate."""
+    points = {"launch.speed": [38.0, 40.0, 42.0], "launch.angle": [-1.0, -1.5, -2.0]}
+    heights = sandbox.simulate_many("baseball-pitch", points, facts=("plate_height",))["plate_height"].tolist()
+    rows = [*zip(*points.values(), heights, strict=True), (40.0, -20.0, 0.1)]
+    file = written(tmp_path, "v,up,height\n" + "".join(f"{v},{up},{h}\n" for v, up, h in rows))
+    maps = [part for one in ("v=launch.speed m/s", "up=launch.angle deg", "height=plate_height m")
+            for part in ("--map", one)]  # fmt: skip
+    done = call("fit", "baseball-pitch", file, *maps, "--vary", "air.density=1:1.4", "--json")
+    assert json.loads(done.out)["left_out"] == [{"row": 4, "why": "baseball-pitch has no plate_height for this launch"}]
+    strict = call("fit", "baseball-pitch", file, *maps, "--vary", "air.density=1:1.4", "--strict")
+    assert_refused(strict, "row 4, baseball-pitch has no plate_height for this launch")
+
+
+def test_ground_balls_are_left_out_by_rule(tmp_path: Path):
+    """Their distance is where they were fielded: with them the spin would stop at the end of its range."""
+    speeds, angles = [42.0, 45.0, 47.0, 44.0], [24.0, 28.0, 31.0, 19.0]
+    points = {"launch.speed": speeds, "launch.angle": angles}
+    far = sandbox.simulate_many(sandbox.load("baseball", {"launch.spin": 2100.0}), points, facts=("distance",))
+    rows = [f"{v / 0.44704},{a},{d / 0.3048 + 1},fly_ball\n"
+            for v, a, d in zip(speeds, angles, far["distance"].tolist(), strict=True)]  # fmt: skip
+    rows += ["104.2,-12,9,ground_ball\n", "101.0,4,140,line_drive\n", "98,15,120,ground_ball\n"]
+    file = written(tmp_path, "launch_speed,launch_angle,hit_distance_sc,bb_type\n" + "".join(rows))
+    found = sandbox.fit("baseball", file, {"launch.spin": (1000, 3500)})
+    spin = found.values["launch.spin"]
+    assert spin.low is not None
+    assert spin.value == pytest.approx(2100.0, abs=150.0)
+    assert [each.row for each in found.measured.left_out] == [5, 6, 7]
+    assert (
+        "used 4 of 7 shots: rows 5 and 7, is a ground ball: its distance is where it was fielded; row 6, "
+        in text_of(as_text(found))
+    )
+
+
+def test_a_value_at_the_end_of_its_range_is_no_result(call: Call, tmp_path: Path, carries: list[float]):
+    file = written(tmp_path, HEAD + "".join(shots(carries)))
+    done = call("fit", "golf", file, "--vary", "air.density=1.15:1.3", "--json")
+    value = json.loads(done.out)["values"]["air.density"]
+    assert (value["value"], value["low"], value["high"], value["at_bound"]) == (1.15, None, None, True)
+    said = call("fit", "golf", file, "--vary", "air.density=1.15:1.3", "--save", tmp_path / "x.toml").out
+    assert "1.15 kg/m^3 no result: at the end of its range" in text_of(said.splitlines())
+    assert "±" not in said
+    assert "no result" in (tmp_path / "x.toml").read_text("utf-8")
+
+
+def test_rows_are_left_out_of_a_validation(call: Call, tmp_path: Path, carries: list[float]):
+    file = written(tmp_path, HEAD + "".join([next(iter(BAD)), *shots(carries)]))
+    args = ("validate", "golf", "--against", file, "--within", "carry=2%", "--set", "air.density=1.1")
+    said = text_of(call(*args).out.splitlines())
+    assert "5 of 5 measured numbers hold" in said
+    assert "used 5 of 6 rows: row 1, Spin Rate = -21474836480 rpm is out of range" in said
+    assert_refused(call(*args, "--strict"), "row 1, Spin Rate = -21474836480 rpm is out of range")
+    assert_refused(call("validate", "golf", "--strict"), "--strict require --against")
+
+
+# Rows of tracks -----------------------------------------------------------------------------------------------------
+
+THROW = [(t, 1.0 + 5.0 * t, 2.0 + 3.0 * t - 4.905 * t * t) for t in (np.arange(12) / 20).tolist()]
+
+
+@pytest.mark.parametrize("cell", ["", "nan", "oops"])
+def test_an_empty_cell_of_a_track_leaves_out_its_row(call: Call, tmp_path: Path, cell: str):
+    """The times of the others stay: g is as it was thrown."""
+    lines = [f"{t},{x},{y if place != 2 else cell}\n" for place, (t, x, y) in enumerate(THROW)]
+    file = written(tmp_path, "t,x,y\n" + "".join(lines))
+    vary = ("--vary", "gravity=8:12", "--vary", "launch.speed=2:9", "--vary", "launch.angle=10:60")
+    args = ("fit", "throws", file, *vary, "--free", "origin", "--set", "ball.drag.model=none")
+    found = json.loads(call(*args, "--json").out)
+    assert found["values"]["gravity"]["value"] == pytest.approx(9.81, abs=1e-3)
+    assert (found["points"], [each["row"] for each in found["left_out"]]) == (11, [3])
+    assert_refused(call(*args, "--strict"), f"track {file}: row 3, y ")
+
+
+# Heads --------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "head",
+    [
+        "Club,Ball Speed,Carry,\nShots of Monday,[mph],[yds],\n",
+        "Club,Ball Speed,Carry,\n,[mph],[yds],[m]\n",
+        "Club,Ball Speed,Carry\nUnits,[mph],[yds],[m]\n",
+        ",Ball Speed,Carry,\n,[mph],[yds],\n",
+    ],
+)
+def test_a_head_with_a_title_or_without_a_name_is_read(tmp_path: Path, head: str):
+    table = read_table("track", written(tmp_path, head + "D,100,150,7\nI,90,140,8\n"))
+    assert [(one.name, one.unit) for one in table.columns][1:3] == [("Ball Speed", "mph"), ("Carry", "yd")]
+    assert len(table.columns) == 4
+    assert [column.cells for column in table.columns] == [("D", "I"), ("100", "90"), ("150", "140"), ("7", "8")]
+
+
+def test_a_translated_head_is_known(tmp_path: Path, carries: list[float]):
+    head = (
+        "Schlägerart;Ballgeschwindigkeit;Abflugwinkel;Drehrate;Drehachse;Carry-Distanz\n;[km/h];[deg];[rpm];[deg];[m]\n"
+    )
+    rows = "".join(f"Driver;{v * 3.6};12;2600;0;{c}\n".replace(".", ",") for v, c in zip(SPEEDS, carries, strict=True))
+    found = read_data(sandbox.load("golf"), [written(tmp_path, head + rows)], Reading())
+    assert found.given["launch.speed"] == pytest.approx(SPEEDS)
+    assert found.measured["carry"] == pytest.approx(carries)
+
+
+def test_accelerations_alone_are_nothing_to_fit(call: Call, tmp_path: Path):
+    head = "Time (s),Linear Acceleration x (m/s^2),Linear Acceleration y (m/s^2),Absolute acceleration (m/s^2)\n"
+    file = written(tmp_path, head + "0,-0.12,-0.39,0.44\n0.01,0.05,-0.33,0.36\n")
+    refused = call("fit", "throws", file, "--vary", "launch.speed")
+    assert_refused(refused, "no positions: there is nothing to fit. Such a file tells when something was hit")
+
+
+def test_columns_without_names_are_named_by_their_places(call: Call, tmp_path: Path):
+    rows = "".join(f"{t};{x};{y}\n" for t, x, y in THROW)
+    file = written(tmp_path, "\ufeff" + rows)
+    args = ("fit", "throws", file, "--vary", "launch.speed=2:9", "--vary", "launch.angle=10:60", "--free", "origin")
+    refused = call(*args)
+    assert_refused(refused, "begins with numbers (0.0, 1.0, 2.0)")
+    maps = refused.err.rpartition("by their places: ")[2].split()
+    assert maps == ["--map", "1=t", "--map", "2=x", "--map", "3=y"]
+    assert json.loads(call(*args, *maps, "--json").out)["points"] == 12
+
+
+# Columns that are not used ------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("head", "order", "unused"),
+    [
+        ("Timestamp,X,Y,Z", "txsy", "Y"),  # Z is the height
+        ("Timestamp,X,Y,Z", "txys", "Z"),  # Y falls
+        ("Timestamp,X,Y,Z", "tsxy", "X"),  # thrown along Y
+    ],
+)
+def test_the_height_of_three_coordinates_is_found(tmp_path: Path, head: str, order: str, unused: str):
+    rows = [{"t": t, "x": x, "y": y, "s": 0.3 + 0.05 * t} for t, x, y in THROW]
+    lines = [",".join(repr(row[name]) for name in order) + "\n" for row in rows]
+    found = read_data(sandbox.load("throws"), [written(tmp_path, f"{head}\n" + "".join(lines))], Reading())
+    assert found.t == pytest.approx([row["t"] for row in rows])
+    assert found.positions == pytest.approx(np.array([(row["x"], row["y"]) for row in rows]))
+    (note,) = found.notes
+    assert f"{unused} is not used: it spans 0.0275 m" in note
+
+
+def test_the_axes_of_three_coordinates_may_be_named(tmp_path: Path):
+    file = written(tmp_path, "Timestamp,X,Y,Z\n" + "".join(f"{t},{x},{y},{2 * x}\n" for t, x, y in THROW))
+    named = Reading(entries=tuple(map(parse_entry, ("Timestamp=t", "X=x", "Z=y"))))
+    found = read_data(sandbox.load("throws"), [file], named)
+    assert found.positions[:, 1] == pytest.approx([2.0 * x for _, x, _ in THROW])
+    from_above = read_data(sandbox.load("soccer-curl"), [file], Reading())
+    assert from_above.positions[:, 1] == pytest.approx([y for *_, y in THROW])
+
+
+def test_side_columns_are_listed_with_what_they_cost(tmp_path: Path, carries: list[float]):
+    head = HEAD.replace("Side (m)", "Spin Axis (deg),Launch Direction (deg)")
+    rows = "".join(
+        line.replace(",3\n", f",{tilt},2\n") for line, tilt in zip(shots(carries), (0, 5, 9, 20, 34), strict=True)
+    )
+    found = sandbox.fit("golf", written(tmp_path, head + rows), {"air.density": (1.0, 1.3)})
+    said = text_of(as_text(found))
+    assert "Spin Axis: only its cosine counts" in said
+    assert (
+        "too long by 0.5 % at 10 deg, 2.1 % at 20 deg, 4.7 % at 30 deg. Here it is 9 deg at the median, 34 at most"
+        in said
+    )
+    assert "columns that are not used: Launch Direction, Club" in said
+    assert found.measured.unused == ("Club", "Launch Direction")
+
+
+@pytest.mark.parametrize("tilt", TILTED)
+def test_a_tilted_axis_costs_as_much_as_is_said(tilt: int):
+    """m a = forces in space: drag along the velocity, lift across it and across the tilted axis of the spin."""
+    scene = sandbox.load("golf/driver")
+    (ball,) = scene.build().balls
+    axis = np.array([0.0, sin(radians(tilt)), cos(radians(tilt))])
+
+    def rates(t: float, y: np.ndarray) -> np.ndarray:
+        velocity, spin = y[3:6], y[6]
+        speed = float(np.linalg.norm(velocity))
+        flat = np.sum([force(t, (0.0, 0.0), (speed, 0.0), spin) for force in ball.forces[1:]], axis=0)
+        push = flat[0] * velocity / speed + flat[1] * np.cross(axis, velocity / speed)
+        return np.array([*velocity, *(push / ball.mass - [0.0, 9.81, 0.0]), 0.0])  # it decays by 4 %: in both alike
+
+    def landing(t: float, y: np.ndarray) -> float:
+        return float(y[1] - ball.position[1]) if t > 0.1 else 1.0
+
+    landing.terminal = True
+    start = [*ball.position, 0.0, *ball.velocity, 0.0, ball.spin]
+    end = solve_ivp(rates, (0.0, 20.0), start, events=landing, rtol=1e-8, atol=1e-8).y_events[0][0]
+    curved = hypot(end[0] - ball.position[0], end[2])
+    spin = scene.parameters.launch.spin * cos(radians(tilt))
+    ours = sandbox.simulate(scene.changed({"launch.spin": spin})).result["carry"]
+    assert 100.0 * (ours / curved - 1.0) == pytest.approx(TILTED[tilt], abs=0.06 * TILTED[tilt] + 0.05)
+
+
+# Parameters that are not set ----------------------------------------------------------------------------------------
+
+
+def test_a_parameter_that_is_not_set_starts_in_the_middle():
+    """Of every scene; such as a density that follows from temperature and pressure."""
+    seen = set()
+    track = sandbox.lab.fit.data.table_of({"t": [0.0, 0.1], "x": [0.0, 1.0], "y": [0.0, 1.0]})
+    for name in (listing.name for listing in listings() if "/" not in listing.name):
+        scene = sandbox.load(name)
+        unset = [one for one in walk(scene.parameters, entries=True)
+                 if one.low is not None and value_at(scene.parameters, one.key) is None]  # fmt: skip
+        measured = sandbox.lab.fit.data.data_of(scene, [("", track)], Reading())
+        problem = Problem(scene, measured, [Span(one.key, one.low, one.high) for one in unset])
+        assert problem.own == pytest.approx([0.5] * len(unset))
+        seen |= {f"{name} {one.key}" for one in unset}
+    assert {"baseball air.density", "baseball-pitch air.density", "bullet air.density"} <= seen
+
+
+def test_a_density_that_is_not_set_is_fitted(tmp_path: Path):
+    points = {"launch.speed": [42.0, 44.0, 45.0], "launch.angle": [30.0, 28.0, 27.0]}
+    far = sandbox.simulate_many(sandbox.load("baseball", {"air.density": 1.12}), points, facts=("distance",))[
+        "distance"
+    ]
+    table = {"v": points["launch.speed"], "up": points["launch.angle"], "far": far.tolist()}
+    columns = {"v": "launch.speed m/s", "up": "launch.angle deg", "far": "distance m"}
+    found = sandbox.fit("baseball", table, {"air.density": (1.0, 1.3)}, columns=columns)
+    assert found.values["air.density"].value == pytest.approx(1.12, abs=1e-6)
+    models = sandbox.fit(
+        "baseball", table, {"air.density": (1.0, 1.3)}, columns=columns, models={"ball.lift.model": ["nathan", "none"]}
+    )
+    assert models.models["nathan"].fit is not None
+    with pytest.raises(RequestError, match="unknown key"):
+        sandbox.fit("baseball", table, {"air.dense": (1.0, 1.3)}, columns=columns)
