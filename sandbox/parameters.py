@@ -198,6 +198,11 @@ class Group(BaseModel):
         extra="forbid", frozen=True, validate_default=True, protected_namespaces=(), defer_build=True
     )
 
+    @classmethod
+    def with_implied(cls, changes: Mapping[str, Any]) -> Mapping[str, Any]:
+        """Nested ``changes`` with others that they imply, such as how a shot begins where its components are given."""
+        return changes
+
 
 if TYPE_CHECKING:
     IntegratorName = str
@@ -372,8 +377,9 @@ def merged(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any
 
 
 def with_changes(schema: type[Group], values: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
-    """Nested ``values`` with nested ``changes`` applied; where these choose another drag model, say, the keys of the
-    old one are dropped."""
+    """Nested ``values`` with nested ``changes`` applied, and what these imply; where they choose another drag model,
+    say, the keys of the old one are dropped."""
+    changes = schema.with_implied(changes)
     return _without_leftovers(schema, merged(values, changes), changes)
 
 

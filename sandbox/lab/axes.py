@@ -288,7 +288,8 @@ class Varied:
     """
 
     def __init__(self, scene: Scene, keys: Sequence[str]) -> None:
-        self._scene = scene
+        implied = {key: value_at(scene.parameters, key) for key in keys}  # given at all, a key may imply others
+        self._scene = scene = scene.changed({key: value for key, value in implied.items() if value is not None})
         self._paths = [path_of("over", key) for key in keys]
         self._keys = list(keys)
         self._quick = [_can_set_unchecked(scene.parameters, path) for path in self._paths]

@@ -196,8 +196,10 @@ def counts_by_kind(rows: Sequence[Compared]) -> list[str]:
     """The counts of rows that hold, those that say how true the models are first."""
     own = {kind: [row for row in rows if row.kind == kind] for kind in sorted(KINDS, key=lambda it: it not in COUNTED)}
     body = [(kind, _holding(those), KINDS[kind]) for kind, those in own.items() if those]
-    others = "; those of the other kinds do not count" if any(row.kind not in COUNTED for row in rows) else ""
-    return [*paragraph(f"{counted(rows)} hold{others}", ""), *table(("kind", "hold", ""), body, "lrl")]
+    measured = [row for row in rows if row.kind in COUNTED]
+    first = f"{counted(rows)} hold" if measured else "nothing measured among these"
+    others = "; those of the other kinds do not count" if len(measured) < len(rows) else ""
+    return [*paragraph(first + others, ""), *table(("kind", "hold", ""), body, "lrl")]
 
 
 def counted(rows: Sequence[Compared]) -> str:

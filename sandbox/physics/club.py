@@ -105,3 +105,26 @@ def _impulse_along(head: Head, squeezed: float, slip: float, across: float, alon
             rubbed += step * force
             slip -= along * step * force + mixed * push
     return rubbed
+
+
+def book_strike(
+    mass: float, restitution: float, speed: float, loft: float, attack: float, ball_mass: float, radius: float
+) -> LaunchConditions:
+    """The launch of a solid ball that rolls on the face of a free head, as textbooks of game physics have it.
+
+    Across the face ``v_n = (1 + e) V cos(L - A) M / (M + m)``, along it ``v_t = (2/7) V sin(L - A) M / (M + m)``, and
+    backspin ``(5/7) V sin(L - A) / r``; so with A = 0 the ball goes forward with ``V M / (M + m) ((1 + e) cos^2 L +
+    (2/7) sin^2 L)``. Momentum along the face asks for ``1 / (1 + 2 m / (7 M))`` in place of M / (M + m), as ``strike``
+    has it with a stiff spring: for a head of 0.253 kg the book's v_t is 11 % less, and its spin 5 % more. Left out:
+    slip, the springs of the contact, the depth of the head. Source: Palmer 2005, Physics for Game Programmers, chapter
+    7; second-hand. Angles in rad, speeds in m/s, masses in kg, ``radius`` in m. Raises ValueError where the face moves
+    away from the ball.
+    """
+    if cos(loft - attack) < 0.0:
+        raise ValueError("the face moves away from the ball")
+    share = mass / (mass + ball_mass)
+    slip = speed * sin(loft - attack)
+    v_n, v_t = (1.0 + restitution) * speed * cos(loft - attack) * share, 2.0 / 7.0 * slip * share
+    return LaunchConditions(
+        v_n * cos(loft) + v_t * sin(loft), v_n * sin(loft) - v_t * cos(loft), 5.0 / 7.0 * slip / radius
+    )

@@ -114,7 +114,7 @@ class Flight(SceneParameters):
     """Parameters of a ball that flies, seen from the side; a sport adds its own, and says which ball and air it has."""
 
     launch: Launch = group(..., "the ball as it is launched")
-    gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
+    gravity: float = quantity(..., "m/s^2", 0, 100, "gravity")
     air: Air = group(..., "the air")
     ball: Sphere = group(..., "the ball")
 

@@ -136,7 +136,7 @@ class Parameters(SceneParameters):
     cloth: ClothParameters = group(..., "the cloth")
     cushion: Cushion = group(..., "the cushions")
     contact: BallContact = group(..., "how balls meet")
-    gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
+    gravity: float = quantity(..., "m/s^2", 0, 100, "gravity")
 
 
 CONTROLS = Controls(

@@ -69,7 +69,7 @@ class Parameters(SceneParameters):
     water: Water = group(..., "the water")
     harmless: float = quantity(..., "m/s", 1, 300, "speed below which it does not break the skin")
     duration: float = quantity(..., "s", 1e-4, 10, "how long it is watched")
-    gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
+    gravity: float = quantity(..., "m/s^2", 0, 100, "gravity")
     air: Weather = group(..., "the air")
 
 

@@ -115,7 +115,7 @@ class Parameters(SceneParameters):
     zero: Zero = group(..., "where the sights are zeroed")
     sight: Sight = group(..., "the sight")
     range: Range = group(..., "the shooting range")
-    gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
+    gravity: float = quantity(..., "m/s^2", 0, 100, "gravity")
     air: Weather = group(..., "the air")
 
 

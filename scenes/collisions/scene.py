@@ -91,7 +91,7 @@ class Parameters(SceneParameters):
     launch: Stroke = group(..., "the ball that is played")
     contact: BallContact = group(..., "between balls")
     floor: Floor = group(..., "what lies below")
-    gravity: float = quantity(..., "m/s^2", 0, 30, "gravity, along -y; none along a level bench")
+    gravity: float = quantity(..., "m/s^2", 0, 100, "gravity, along -y; none along a level bench")
     strings: float = quantity(
         ..., "m", 0, 50, "length of a cradle's strings, in which the balls hang in touch; 0: none"
     )

@@ -101,7 +101,7 @@ class Parameters(SceneParameters):
     """All parameters of a kick."""
 
     launch: PlaceKick = group(..., "the ball just after the kick")
-    gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
+    gravity: float = quantity(..., "m/s^2", 0, 100, "gravity")
     air: Air = group(..., "the air")
     ball: Football = group(..., "the ball")
     ground: Solid = group(..., "the grass")

@@ -90,6 +90,9 @@ class Pin(Group):
     distance: float = quantity(..., "m", -500, 2500, "from the tee to the middle of the cup")
     cup_width: float = quantity(..., "m", 0, 10, "width of the cup; 0 for none")
     cup_depth: float = quantity(..., "m", 0.01, 2, "depth of the cup")
+    reach: float = quantity(
+        ..., "m", 0, 100, "a ball that comes down within this meets the flag, and the run ends there; 0: the cup counts"
+    )
 
     def around(self, width: float) -> Vector:
         """The ends in m of what is so wide, with the pin in its middle."""

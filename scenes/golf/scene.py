@@ -13,10 +13,11 @@ moisture of the grass.
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from math import hypot, inf, radians
-from typing import Literal
+from typing import Any, Literal
 
 from sandbox.kit import (
     GOLF_DRAG,
@@ -28,11 +29,13 @@ from sandbox.kit import (
     Bounds,
     ConstantDrag,
     Controls,
+    Event,
     Fact,
     Flight,
     Goal,
     Group,
     Handle,
+    Launch,
     Moment,
     NoForce,
     OutdoorAir,
@@ -43,6 +46,8 @@ from sandbox.kit import (
     Spin,
     Spread,
     Touches,
+    Until,
+    amount,
     cached_per_run,
     choice,
     down_to,
@@ -53,15 +58,23 @@ from sandbox.kit import (
     quantity,
     roughly,
 )
-from sandbox.physics.club import Head, strike
+from sandbox.physics.club import Head, book_strike, strike
 from sandbox.sport.flight import SlowedSphere
 
 from .course import FAR, Ground, Pin, surfaces
 
 
+class Swing(Launch):
+    """The ball as it leaves the club."""
+
+    vx: float = quantity(..., "m/s", -340, 340, "speed along x, if start is \"components\"")
+    vy: float = quantity(..., "m/s", -340, 340, "speed up, if start is \"components\"")
+
+
 class Club(Group):
     """The head that strikes the ball, if start is \"club\"."""
 
+    model: Literal["springs", "book"] = choice(..., "springs in the contact, or the textbook's closed form")
     speed: float = quantity(..., "m/s", 0, 150, "speed of the head")
     mass: float = quantity(..., "kg", 0.01, 10, "mass of the head")
     loft: float = quantity(..., "deg", 0, 80, "angle of the face from the vertical")
@@ -91,12 +104,26 @@ class GolfBall(SlowedSphere, drag=GOLF_DRAG, lift=GOLF_LIFT):
 class Parameters(Flight):
     """All numbers of a golf shot."""
 
-    start: Literal["launch", "club"] = choice(..., "begin with the ball's launch, or with the club head")
+    start: Literal["launch", "components", "club"] = choice(
+        ..., "begin with the ball's speed and angle, with vx and vy, or with the club head"
+    )
+    launch: Swing = group(..., "the ball as it is launched")
     club: Club = group(..., "the club head")
     air: OutdoorAir = group(..., "the air")
     ball: GolfBall = group(..., "the ball")
     ground: Ground = group(..., "the course")
     pin: Pin = group(..., "the flag and its cup")
+
+    @classmethod
+    def with_implied(cls, changes: Mapping[str, Any]) -> Mapping[str, Any]:
+        """Who gives vx or vy begins with the components, and who gives speed or angle with those."""
+        launch = changes.get("launch")
+        if "start" in changes or not isinstance(launch, Mapping):
+            return changes
+        starts = {"components": ("vx", "vy"), "launch": ("speed", "angle")}
+        given = (start for start, keys in starts.items() if any(key in launch for key in keys))
+        start = next(given, None)
+        return changes if start is None else {**changes, "start": start}
 
 
 #: Slowest and fastest putt that is tried, in m/s.
@@ -130,8 +157,18 @@ def build(parameters: Parameters) -> Setup:
     ball = parameters.launched((0.0, height_on(course, parameters.ball.radius, above=highest)))
     if parameters.start == "club":
         ball = struck(parameters.club, ball)
-    until = Touches("water") if any(surface.name == "water" for surface in course) else None
+    elif parameters.start == "components":
+        ball = replace(ball, velocity=(parameters.launch.vx, parameters.launch.vy))
+    water = Touches("water") if any(surface.name == "water" for surface in course) else None
+    until = ComesDown() if parameters.pin.reach > 0.0 else water
     return Setup([ball], course, LONGEST, until, bounds=Bounds(-FAR, -FAR, FAR, FAR))
+
+
+class ComesDown(Until):
+    """Ends a run when the ball touches anything on its way down."""
+
+    def over(self, events: Sequence[Event]) -> bool:
+        return events[-1].kind != "leave" and events[-1].t > 0.0
 
 
 def struck(club: Club, ball: Ball) -> Ball:
@@ -140,8 +177,11 @@ def struck(club: Club, ball: Ball) -> Ball:
         raise RequestError(
             f"club.attack = {club.attack:g} deg: with club.loft = {club.loft:g} deg the face moves away from the ball"
         )
-    head = Head(club.mass, club.restitution, club.friction, club.stiffness, club.damping, club.depth, club.inertia)
     angles = radians(club.loft), radians(club.attack)
+    if club.model == "book":
+        vx, vy, spin = book_strike(club.mass, club.restitution, club.speed, *angles, ball.mass, ball.radius)
+        return replace(ball, velocity=(vx, vy), spin=spin)
+    head = Head(club.mass, club.restitution, club.friction, club.stiffness, club.damping, club.depth, club.inertia)
     vx, vy, spin = strike(head, club.speed, *angles, club.height, ball.mass, ball.radius)
     return replace(ball, velocity=(vx, vy), spin=spin)
 
@@ -184,7 +224,7 @@ def smash_factor(run: Run, parameters: Parameters) -> float | None:
 def compared_with_tour(run: Run, parameters: Parameters) -> str | None:
     """The speed of a driver's ball compared with those of tour players, which the model does not quite meet."""
     smash = smash_factor(run, parameters)
-    if smash is None or parameters.club.depth == 0.0:  # an iron's centre of mass is in its face
+    if smash is None or parameters.club.depth == 0.0 or parameters.club.model == "book":  # without depth
         return None
     apart = 100.0 * (smash / TOUR_SMASH_FACTOR - 1.0)
     how = "slower" if apart < 0.0 else "faster"
@@ -205,13 +245,17 @@ def roll_back(run: Run, parameters: Parameters) -> float | None:
 
 
 def holed(run: Run, parameters: Parameters) -> bool:
-    """True if the ball lies in the cup."""
+    """True if the ball lies in the cup; or where it counts that it comes down at the flag, if it does."""
     (x, y), pin = run.state("ball", run.duration)[:2], parameters.pin
+    if pin.reach > 0.0:
+        return run.ended == "until" and abs(x - pin.distance) <= pin.reach
     return abs(x - pin.distance) < 0.5 * pin.cup_width and y < parameters.ground.height(pin.distance)
 
 
 def ended(run: Run, parameters: Parameters) -> str:
-    """cup; water; or how the run ended otherwise."""
+    """cup; water; down, where that is all that counts; or how the run ended otherwise."""
+    if parameters.pin.reach > 0.0:
+        return "down" if run.ended == "until" else run.ended
     return "cup" if holed(run, parameters) else "water" if run.ended == "until" else run.ended
 
 
@@ -240,6 +284,10 @@ def verdict(run: SceneRun, parameters: Parameters) -> str:
     """Return the outcome in a sentence."""
     result, pin = run.result, parameters.pin.distance
     carry, total = result["carry"], result["total"]
+    side = "short of" if (pin - total) * pin > 0.0 else "past"
+    if result["ended"] == "down":
+        where = f"{amount(result['distance_to_pin'], 'm', 1)} {side} the flag at {roughly(abs(pin))}"
+        return f"Meets the flag: down {where}" if result["holed"] else f"Comes down {where}"
     if result["holed"]:
         return f"Holed from {roughly(abs(pin))}"
     if carry is None:
@@ -253,5 +301,4 @@ def verdict(run: SceneRun, parameters: Parameters) -> str:
         story += f", comes back {roughly(result['comes_back'])}" if result["comes_back"] else ""
     if result["ended"] == "water":
         return f"{story}, into the water"
-    side = "short of" if (pin - total) * pin > 0.0 else "past"
     return f"{story}, stops {roughly(result['distance_to_pin'])} {side} the pin"

@@ -86,7 +86,7 @@ class Parameters(SceneParameters):
     motor: Solid = group(..., "the motor")
     ball: Rocket = group(..., "the rocket")
     duration: float = quantity(..., "s", 0.01, 300, "longest flight: until ejection or self-destruction")
-    gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
+    gravity: float = quantity(..., "m/s^2", 0, 100, "gravity")
     air: Air = group(..., "the air")
 
 

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from sandbox.physics.club import Head, LaunchConditions, strike
+from sandbox.physics.club import Head, LaunchConditions, book_strike, strike
 
 BALL, RADIUS = 0.04593, 0.021335  # kg, m
 RPM, MPH = pi / 30.0, 0.44704
@@ -130,3 +130,24 @@ def test_a_face_that_moves_away_is_refused():
 
 def test_a_head_that_cannot_turn_is_the_default():
     assert Head(0.2, 0.83, 0.4, 1.0, 0.24).inertia == inf
+
+
+def test_the_book_s_recoil_is_not_that_of_momentum():
+    """A stiff spring with friction enough is the rolling ball: the book's is 11 % slower along the face, spins 5 % more."""
+    loft, mass, ball = radians(27.0), 0.253, 0.0459
+    rolls = strike(Head(mass, 0.78, 10.0, 100.0, 1.0), 42.0, loft, 0.0, 0.0, ball, RADIUS)
+    book = book_strike(mass, 0.78, 42.0, loft, 0.0, ball, RADIUS)
+
+    def across_and_along(launch: LaunchConditions) -> tuple[float, float]:
+        return (
+            launch.vx * cos(loft) + launch.vy * sin(loft),
+            launch.vx * sin(loft) - launch.vy * cos(loft),
+        )
+
+    (n, t), (book_n, book_t) = across_and_along(rolls), across_and_along(book)
+    assert book_n == pytest.approx(n, rel=1e-9)
+    assert book_t / t == pytest.approx(mass / (mass + ball) * (1 + 2 * ball / (7 * mass)), rel=5e-3)
+    assert book_t / t == pytest.approx(0.89, abs=0.005)
+    assert book.spin / rolls.spin == pytest.approx(1.05, abs=0.005)
+    with pytest.raises(ValueError, match="moves away"):
+        book_strike(mass, 0.78, 42.0, radians(80.0), radians(-20.0), ball, RADIUS)

@@ -37,6 +37,7 @@ TOUR_AIR = {"air.density": 1.1839}
 VERDICTS = dict.fromkeys(sorted(path.stem for path in PRESETS.glob("*.toml")), "rest") | {
     "putt": "cup",
     "splash": "water",
+    **{f"slide-{number}": "down" for number in range(1, 9)},
 }
 
 play = playing("golf")
@@ -158,7 +159,7 @@ def test_the_golf_game_is_the_books_equations(wind: tuple[float, float]):
     start = (0.0, 0.0, speed * cos(angle), speed * sin(angle))
     book = solve_ivp(equations, (0.0, 60.0), start, method="DOP853", rtol=1e-12, atol=1e-12, events=down)
     x, _, vx, vy = book.y_events[0][0]
-    found = play("golf/golf-game", air__wind=wind).result
+    found = play("golf/golf-game", air__wind=wind, launch__speed=speed, launch__angle=degrees(angle)).result
     assert found["carry"] == pytest.approx(x, abs=1e-5)
     assert found["flight_time"] == pytest.approx(book.t_events[0][0], abs=1e-6)
     assert found["landing_angle"] == pytest.approx(degrees(atan2(-vy, vx)), abs=1e-5)
@@ -173,6 +174,56 @@ def test_the_golf_game_has_the_numbers_of_the_contract():
     assert (ball.lift.model, ball.lift.velocity, ball.spin_decay) == ("spin-ratio", "ground", 0.0)
     assert parameters.launch.spin * RPM == pytest.approx(300.0)
     assert parameters.pin.distance == 200.0
+
+
+@pytest.mark.parametrize(
+    ("number", "vx", "carry"),
+    [(1, 28, 199.8), (2, 62, 198.3), (3, 46, 199.2), (4, 86, 198.7), (5, 36, 197.4), (6, 72, 197.8), (7, 87, 196.6),
+     (8, 145, 198.3)],
+)  # fmt: skip
+def test_the_lecture_s_launches_come_down_at_the_flag(number: int, vx: float, carry: float):
+    """vx and 35 m/s up, at a flag 200 m away; without air 2 vx vy / g."""
+    run = play(f"golf/slide-{number}")
+    launch = run.scene.parameters.launch
+    assert (launch.vx, launch.vy, run.scene.parameters.pin.distance) == (vx, 35.0, 200.0)
+    assert run.setup.balls[0].velocity == (vx, 35.0)
+    assert run.result["carry"] == pytest.approx(carry, abs=0.05)
+    assert (run.result["holed"], run.result["ended"]) == (True, "down")
+    assert run.result["total"] == pytest.approx(run.result["carry"], rel=1e-12)
+    if number == 1:
+        assert run.result["carry"] == pytest.approx(2 * vx * 35.0 / G, rel=1e-9)
+
+
+def test_a_launch_by_components_is_begun_by_giving_them():
+    """And ended by giving speed or angle, in a file, as an override, and by one who varies either."""
+    by_parts = play(launch__vx=40.0, launch__vy=30.0).result
+    by_angle = play("golf/slide-1", launch__speed=50.0, launch__angle=degrees(atan2(30.0, 40.0)), pin__reach=0.0)
+    assert (by_parts["ball_speed"], by_parts["launch_angle"]) == pytest.approx((50.0, degrees(atan2(30.0, 40.0))))
+    assert by_angle.scene.parameters.start == "launch"
+    assert by_angle.result["ball_speed"] == pytest.approx(50.0)
+    assert play(start="launch", launch__vx=40.0).result["ball_speed"] == pytest.approx(171 * 0.44704)
+    many = sandbox.simulate_many("golf/slide-1", {"launch.speed": [50.0, 60.0]}, facts=("ball_speed",))
+    assert [*many["ball_speed"]] == pytest.approx([50.0, 60.0])
+    (found,) = sandbox.aim("golf/slide-1", {"launch.vx": (20.0, 40.0)}, {"carry": 200.0}).solutions
+    assert found.values["launch.vx"] == pytest.approx(200.0 * G / 70.0, abs=1e-3)
+
+
+def test_a_ball_that_comes_down_beside_the_flag_misses_it():
+    run = play("golf/slide-1", launch__vx=30.0)
+    assert (run.result["holed"], run.result["ended"]) == (False, "down")
+    assert run.scene.verdict(run) == "Comes down 14.1 m past the flag at 200 m"
+    assert play("golf/slide-1", launch__vx=30.0, pin__reach=15.0).result["holed"]
+
+
+def test_the_books_club_is_its_closed_form():
+    """v_x = V M / (M + m) ((1 + e) cos^2 L + (2/7) sin^2 L), v_y = V M / (M + m) sin L cos L (1 + e - 2/7)."""
+    run = play("golf/book-club")
+    club, ball = run.scene.parameters.club, run.scene.parameters.ball
+    loft, share = radians(club.loft), club.speed * club.mass / (club.mass + ball.mass)
+    forward = share * ((1 + club.restitution) * cos(loft) ** 2 + 2 / 7 * sin(loft) ** 2)
+    up = share * sin(loft) * cos(loft) * (1 + club.restitution - 2 / 7)
+    assert run.setup.balls[0].velocity == pytest.approx((forward, up), rel=1e-12)
+    assert run.result["launch_spin"] * RPM == pytest.approx(5 / 7 * club.speed * sin(loft) / ball.radius, rel=1e-9)
 
 
 def test_a_shot_to_the_left_mirrors_one_to_the_right():
@@ -343,7 +394,7 @@ def test_presets_end_the_same_at_every_accuracy(name: str):
     )
     for found in (fast, balanced, precise):
         assert found["ended"] == VERDICTS[name]
-        assert found["holed"] is (VERDICTS[name] == "cup")
+        assert found["holed"] is (VERDICTS[name] in ("cup", "down"))
     assert balanced["carry"] == pytest.approx(precise["carry"], abs=1e-4)
     assert balanced["total"] == pytest.approx(precise["total"], abs=1e-3)
     assert fast["carry"] == pytest.approx(precise["carry"], abs=1e-2)
@@ -362,7 +413,7 @@ def test_there_is_a_preset_for_every_club_of_the_tour():
 @pytest.mark.parametrize("name", [None, *(name for name, verdict in VERDICTS.items() if verdict == "rest")])
 def test_shots_that_are_meant_to_end_near_the_pin_do(name: str | None):
     found = play("golf" if name is None else f"golf/{name}").result
-    short_on_purpose = {"headwind": 69.0, "topped": 139.0, "blow-up": 59.0}
+    short_on_purpose = {"headwind": 69.0, "topped": 139.0, "blow-up": 59.0, "golf-game": 48.0}
     assert found["distance_to_pin"] == pytest.approx(short_on_purpose.get(name or "", 3.5), abs=3.5)
 
 
