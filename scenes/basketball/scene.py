@@ -1,18 +1,19 @@
 """Basketball from the side: from the hand to the ring, directly or off rim and backboard.
 
-Models: gravity; drag and lift in flight; impacts with rim, bracket, backboard and floor, with spin and friction; the
-net, which slows a ball that falls through it (its form and strength are assumed: no measurement was found); wind if
-the scene file sets it. A shot that is off to the side (launch.side) is computed in its own plane, in which the ring is
-two tubes as far apart as leaves the ball's centre the room that it has in the round ring; off the board it goes on to
-the side with what friction leaves of that speed. Fan, map and spread scatter to the side by launch.aside.
-Leaves out: the ball's loss of spin in the air; what the side of the ring does, so a ball that falls on it misses, while
-some of those go in; the deformation of ball, rim and board.
+Models: gravity; drag in flight, and lift if the scene file sets it; impacts with rim, bracket, backboard and floor,
+with spin and friction; the net, which slows a ball that falls through it (its form and strength are assumed: no
+measurement was found); wind if the scene file sets it. A shot that is off to the side (launch.side) is computed in
+its own plane, in which the ring is two tubes as far apart as leaves the ball's centre the room that it has in the
+round ring; off the board it goes on to the side with what friction leaves of that speed. Fan, map and spread scatter
+to the side by launch.aside.
+Leaves out: the ball's loss of spin in the air; what the side of the ring does, so a ball that falls on it misses,
+while some of those go in; the deformation of ball, rim and board.
 
 Sizes of effects, measured on the default free throw as the shift of the point where the ball comes down to the ring:
-1 m/s of headwind, 7.5 cm shorter. Of what is modelled, drag takes 45 cm, and lift as large as the spin ratio (assumed),
-Cl = S = 0.3, carries it 9.5 cm further and makes it 1.4 deg steeper: without it the same shot takes 0.07 m/s more. The
-swish is 10 cm wide: from 4.7 cm short of the middle of the ring to 5.3 cm beyond it. The net costs 49 % more force
-evaluations (437 instead of 294, 50 % more time), and a swish lands 1.6 m nearer.
+1 m/s of headwind, 11 cm shorter; drag takes 44 cm, and 4 cm more or less for a coefficient of 0.55 or 0.45. Lift is
+left out, as in textbooks: no basketball's was found measured. As large as the spin ratio, Cl = S, it would carry the
+ball 9.6 cm further and make it 1.4 deg steeper. The swish is 9 cm wide: from 4.3 cm short of the middle of the ring
+to 5.1 cm beyond it.
 """
 
 from __future__ import annotations
