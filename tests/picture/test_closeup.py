@@ -61,7 +61,7 @@ def test_an_impact_is_labelled_once():
     assert sum(text == "38.5 m/s" for text, rect in picture.sheet.written if rect.bottom < picture.card_row) == 1
 
 
-@pytest.mark.parametrize(("name", "speeds"), [("basketball/bank-shot", ["4.6 m/s"]), ("basketball/brick", ["5.7 m/s"])])
+@pytest.mark.parametrize(("name", "speeds"), [("basketball/bank-shot", ["4.7 m/s"]), ("basketball/brick", ["5.7 m/s"])])
 def test_the_lens_at_the_ring_has_its_speeds(name, speeds):
     picture = picture_of(name)
     picture.poster()
