@@ -67,8 +67,8 @@ from .course import FAR, Ground, Pin, surfaces
 class Swing(Launch):
     """The ball as it leaves the club."""
 
-    vx: float = quantity(..., "m/s", -340, 340, "speed along x, if start is \"components\"")
-    vy: float = quantity(..., "m/s", -340, 340, "speed up, if start is \"components\"")
+    vx: float = quantity(..., "m/s", -340, 340, 'speed along x, if start is "components"')
+    vy: float = quantity(..., "m/s", -340, 340, 'speed up, if start is "components"')
 
 
 class Club(Group):
