@@ -133,7 +133,7 @@ def test_a_head_that_cannot_turn_is_the_default():
 
 
 def test_the_book_s_recoil_is_not_that_of_momentum():
-    """A stiff spring with friction enough is the rolling ball: the book's is 11 % slower along the face, spins 5 % more."""
+    """Compared with a stiff spring that does not slip: 11 % slower along the face, and 5 % more spin."""
     loft, mass, ball = radians(27.0), 0.253, 0.0459
     rolls = strike(Head(mass, 0.78, 10.0, 100.0, 1.0), 42.0, loft, 0.0, 0.0, ball, RADIUS)
     book = book_strike(mass, 0.78, 42.0, loft, 0.0, ball, RADIUS)
