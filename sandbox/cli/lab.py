@@ -1,4 +1,4 @@
-"""The commands that measure the sandbox: ``aim``, ``spread``, ``sweep``, ``trade``, ``stress``."""
+"""The commands that measure the sandbox: ``aim``, ``coefficients``, ``spread``, ``sweep``, ``trade``, ``stress``."""
 
 from __future__ import annotations
 
@@ -392,3 +392,37 @@ def stress(scene: str | None, changes: dict[str, Any], as_json: bool) -> None:
     with bar("stress") as progress:
         outcomes = lab.stress(scenes, changes.get("accuracy.level", "balanced"), scene is None, progress)
     say(json_text(outcomes) if as_json else "\n".join(lab.as_text(outcomes)))
+
+
+@click.command()
+@scene_argument
+@changes_options
+@click.option(
+    "--plot",
+    metavar="[F.png]",
+    type=Path,
+    is_flag=False,
+    flag_value=Path("-"),
+    help="Draw Cd over Reynolds number and Cl over spin ratio.  [default: SCENE-coefficients.png]",
+)
+@json_option
+def coefficients(scene: str, changes: dict[str, Any], plot: Path | None, as_json: bool) -> None:
+    """Drag and lift coefficients of the ball by every model that it may have.
+
+    \b
+    Examples:
+      sandbox coefficients soccer
+      sandbox coefficients golf --plot golf.png
+    """
+    from sandbox.lab import chart
+    from sandbox.lab import coefficients as of_ball
+
+    chosen = load(scene, changes)
+    if plot is not None:
+        plot = Path(f"{chosen.name}-coefficients.png") if plot == Path("-") else plot
+        chart.check_chart("--plot", plot)
+    found = of_ball.coefficients(chosen)
+    if plot is not None:
+        of_ball.draw(chosen, plot)
+    wrote = [] if plot is None else ["", f"wrote {plot}"]
+    say(json_text(of_ball.as_json(found)) if as_json else "\n".join([*of_ball.as_text(found), *wrote]))

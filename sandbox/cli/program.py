@@ -21,7 +21,7 @@ COMMANDS = {
     "run": ("run",),
     "serve": ("serve",),
     "tasks": ("tasks",),
-    "lab": ("aim", "spread", "sweep", "trade", "stress"),
+    "lab": ("aim", "coefficients", "spread", "sweep", "trade", "stress"),
     "compare": ("fit", "validate"),
 }
 

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from math import hypot, pi
+from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
+import sandbox
 from sandbox.engine.motion.forces_on_ball import cause
 from sandbox.physics.air import LogWind, UniformWind
 from sandbox.physics.coefficients import Constant, spin_ratio_lift, tour_fit_drag, tour_fit_lift
 from sandbox.physics.forces import Drag, Gravity, Inside, Magnus, SpinDecay, Thinning
 
+ROOT = Path(__file__).resolve().parents[2]
 RADIUS, DENSITY = 0.021335, 1.2
 DRAG = Drag(RADIUS, DENSITY, tour_fit_drag)
 LIFT = Magnus(RADIUS, DENSITY, tour_fit_lift)
@@ -25,6 +28,17 @@ SPINS = st.floats(-2000.0, 2000.0)
 
 def test_gravity():
     assert Gravity(9.81, 0.5)(0.0, HERE, (3.0, 4.0), 5.0) == (0.0, -0.5 * 9.81)
+
+
+@pytest.mark.parametrize(("name", "said"), [("throws", "0.01 %"), ("golf", "0.1 %"), ("volleyball", "2.2 %")])
+def test_the_buoyancy_left_out_is_what_the_page_says(name: str, said: str):
+    """The density of the air over that of the ball."""
+    parameters = sandbox.load(name).parameters
+    ball = parameters.ball
+    share = 100.0 * parameters.air.air.density * 4.0 / 3.0 * pi * ball.radius**3 / ball.mass
+    digits = len(said.partition(".")[2].split()[0])
+    assert f"{share:.{digits}f} %" == said
+    assert said in (ROOT / "docs" / "physics.md").read_text("utf-8").partition("### Drag")[0]
 
 
 def test_drag_by_its_formula():

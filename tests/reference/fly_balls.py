@@ -7,7 +7,8 @@ such a launch (Nathan, trajectory calculator), with backspin -763 + 120 per degr
 the opposite field, sidespin 849 + 94 per degree of spray that way, all in rpm. Nothing is fitted. The air is the
 scene's.
 
-It prints the errors, what they are without sidespin, and the means of groups of some eight balls as rows of
+It prints the errors, what they are for who does not know the spray (the spin of a ball straight away) and without
+sidespin, and the means of groups of some eight balls as rows of
 sandbox/lab/published/baseball_fly.csv.
 """
 
@@ -15,7 +16,7 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from statistics import mean, stdev
 
@@ -73,6 +74,11 @@ def errors(balls: Sequence[FlyBall], sidespin: float = 1.0) -> list[float]:
     return [float(far) / FOOT - ball.distance for far, ball in zip(found, balls, strict=True)]
 
 
+def straight_away(balls: Sequence[FlyBall]) -> list[FlyBall]:
+    """The same balls with the spin of one that is hit straight away."""
+    return [replace(ball, opposite=0.0) for ball in balls]
+
+
 def groups(balls: Sequence[FlyBall]) -> list[list[FlyBall]]:
     """Some eight balls each, of like launch angle and speed."""
     found = []
@@ -88,8 +94,9 @@ def described(name: str, off: Sequence[float]) -> str:
 
 def main() -> None:
     balls = read()
-    for words, share in (("", 1.0), (", no sidespin", 0.0)):
-        off = errors(balls, share)
+    ways = (("", balls, 1.0), (", spray unknown", straight_away(balls), 1.0), (", no sidespin", balls, 0.0))
+    for words, thrown, share in ways:
+        off = errors(thrown, share)
         print(described(f"all{words}", off))
         print(
             described(f"below {HIGH} deg{words}", [e for e, ball in zip(off, balls, strict=True) if ball.angle < HIGH])

@@ -7,7 +7,7 @@ from statistics import mean, stdev
 import pytest
 
 import sandbox
-from tests.reference.fly_balls import errors, groups, read
+from tests.reference.fly_balls import errors, groups, read, straight_away
 from tests.scenes.play import results_of
 
 hit = results_of("baseball")
@@ -22,6 +22,8 @@ def test_tracked_fly_balls_are_right_on_average():
     assert stdev(off) < 15.0
     assert abs(mean(error for error, ball in zip(off, balls, strict=True) if ball.angle < 30)) < 3.0
     assert mean(errors(balls, sidespin=0.0)) > 15.0
+    unknown = errors(straight_away(balls))
+    assert (mean(unknown), stdev(unknown)) == pytest.approx((17.3, 17.7), abs=0.1)  # of who does not know the spray
     assert sum(map(len, groups(balls))) == 85
 
 

@@ -29,7 +29,7 @@ def parse_models(scene: Scene, option: str, text: str) -> tuple[str, tuple[Any, 
 
 def chosen_models(scene: Scene, option: str, key: str, words: Sequence[Any] = ()) -> tuple[Any, ...]:
     """The models to compare, by default all that the parameter ``key`` can name. Raises RequestError."""
-    known = _choices(scene.parameters, key)
+    known = choices_of(scene.parameters, key)
     if not known:
         if isinstance(value_at(scene.parameters, key), int | float):
             raise RequestError(f"{option} {key}: is a number, not a choice of models; --vary fits it")
@@ -45,7 +45,7 @@ def chosen_models(scene: Scene, option: str, key: str, words: Sequence[Any] = ()
     return found
 
 
-def _choices(parameters: Any, key: str) -> tuple[Any, ...]:
+def choices_of(parameters: Any, key: str) -> tuple[Any, ...]:
     """The words that a parameter can be, also those that make another kind of group of the one it is in."""
     try:
         *groups, name = path_of("models", key)
