@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from math import isfinite
 from typing import TYPE_CHECKING, Any
@@ -11,6 +12,7 @@ from sandbox.engine.ledger import warnings
 from sandbox.errors import RunError
 from sandbox.files import json_ready, json_text
 from sandbox.lab.tables import paragraph, table
+from sandbox.progress import PATIENCE
 from sandbox.scene.running import NUDGE
 from sandbox.sport.amounts import margin
 from sandbox.sport.readings import words_of
@@ -22,6 +24,9 @@ if TYPE_CHECKING:
 
 #: The fields of an event in JSON.
 EVENT = ("t", "kind", "ball", "with", "speed", "x", "y")
+
+#: Time in s that an impact, a step of a heap, a cluster and an evaluation of forces take, about.
+_OF_AN_IMPACT, _OF_A_HEAP, _OF_A_CLUSTER, _OF_FORCES = 5e-4, 2e-3, 5e-3, 2e-5
 
 #: Events shown on a card; a ball that rolls through a rack has hundreds.
 EVENTS_SHOWN = 6
@@ -122,6 +127,7 @@ def card(
         *_events(run),
         "",
         f"  {_numerics(run)}",
+        *(f"  {line}" for line in _what_took_long(run)),
         *(f"  warning: {warning}" for warning in _warnings(run)),
         *([] if check is None else _check_lines(check, scene)),
     ]
@@ -150,6 +156,23 @@ def _numerics(run: SceneRun) -> str:
         f"{accuracy.level}, {accuracy.method} method, {accuracy.steps}: {_count(cost.steps, 'step')}, "
         f"{_count(cost.impacts, 'impact')}, {cost.wall_s * 1e3:.1f} ms"
     )
+
+
+def _what_took_long(run: SceneRun) -> list[str]:
+    """A line on what took most of the time of a run that takes long, as far as its counts say, on any machine."""
+    cost = run.numerics
+    stepped = max(0, cost.pymunk_steps - cost.impacts)  # one is that of an impact
+    hit = Counter(event.partner for event in run.events if event.kind == "impact").most_common(1)
+    others = [f"{count:,} of them with {partner}" for partner, count in hit if count > 1]
+    parts = {
+        ", ".join([f"{cost.impacts:,} impacts in {run.duration:.4g} s", *others]): cost.impacts * _OF_AN_IMPACT,
+        f"{stepped:,} steps of what lies on one another": stepped * _OF_A_HEAP,
+        f"{cost.clusters:,} contacts of several balls at once": cost.clusters * _OF_A_CLUSTER,
+        f"{cost.force_evaluations:,} evaluations of forces": cost.force_evaluations * _OF_FORCES,
+    }
+    if sum(parts.values()) <= PATIENCE:
+        return []
+    return [f"what took long: {max(parts, key=lambda text: parts[text])}"]
 
 
 def _count(number: int, noun: str) -> str:

@@ -21,6 +21,7 @@ import pytest
 from PIL import Image
 
 import sandbox
+from sandbox import report
 from sandbox.cli.interrupts import Interrupts
 from sandbox.engine.model.accuracy import LEVELS
 from sandbox.files import folder_of_parts
@@ -143,6 +144,16 @@ def test_an_impact_has_the_speed_of_the_whole_motion(call):
     assert speeds[0] == float(landing[1])
     assert speeds == sorted(speeds, reverse=True)
     assert len(speeds) > 3
+
+
+def test_the_card_of_a_long_run_says_what_took_long():
+    """A run of 20,000 impacts; that of a few says nothing."""
+    scene = sandbox.load("pinball", {"launch.speed": 2.0})
+    run = sandbox.simulate(scene)
+    assert "what took long" not in "".join(report.card(scene, run))
+    run.numerics.impacts = 20_000
+    said = next(line for line in report.card(scene, run) if "what took long" in line)
+    assert said.startswith("  what took long: 20,000 impacts in ")
 
 
 def test_the_card_names_the_preset_and_check_adds_errors(call):

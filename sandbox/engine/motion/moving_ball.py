@@ -226,7 +226,8 @@ class MovingBall:
 
     def near(self, t: float, x: float, y: float, gap: float = TOUCHING_GAP) -> list[Near]:
         """The surfaces that the ball touches at (x, y) at time t, up to a ``gap`` in m, each at its nearest feature."""
-        return touched(self.obstacles_at(t), x, y, gap)
+        within = [each.at(t) for each in self.obstacles if each.reaches(x, y, gap)] if self._moves else self.obstacles
+        return touched(within, x, y, gap)
 
     # ------------------------------------------------------------------ one piece of path
 
