@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import os
 import shutil
+import subprocess
 import sys
+import time
 from pathlib import Path
 from typing import NamedTuple
 
@@ -15,12 +18,29 @@ COMMAND = [sys.executable, "-c", "import sys; from sandbox.cli import main; sys.
 BUILD = "def build(parameters: Parameters) -> Setup:\n"
 
 
+#: A test that waits for longer than this, in s, is taken to hang. Nothing is measured by it: a machine may be busy.
+HANG = 600.0
+
+
 class Outcome(NamedTuple):
     """Of a call of the program: exit code, stdout and stderr."""
 
     code: int
     out: str
     err: str
+
+
+def wait_for_work(process: subprocess.Popen[str], seconds: float) -> None:
+    """Wait until a process has computed for so many s of processor time from now, on a system that says so."""
+
+    def worked() -> float:
+        fields = Path(f"/proc/{process.pid}/stat").read_text().rpartition(")")[2].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+    until, end = worked() + seconds, time.monotonic() + HANG
+    while process.poll() is None and worked() < until:
+        assert time.monotonic() < end
+        time.sleep(0.01)
 
 
 def copy_of(scene: Path, folder: Path) -> Path:

@@ -26,7 +26,7 @@ from sandbox.cli.interrupts import Interrupts
 from sandbox.engine.model.accuracy import LEVELS
 from sandbox.files import folder_of_parts
 from sandbox.parameters import every_key
-from tests.own_scene import BUILD, COMMAND, DROP, Outcome, assert_refused, change
+from tests.own_scene import BUILD, COMMAND, DROP, HANG, Outcome, assert_refused, change
 
 
 def read_rows(file: Path) -> list[dict[str, str]]:
@@ -581,16 +581,17 @@ def test_modules_in_the_current_folder_shadow_none_of_pythons(tmp_path: Path, pr
 
 
 def stopped(by: int, sign: Path, *args: object) -> Outcome:
-    """Run the program in a process, and send it a signal once ``sign`` is there."""
+    """Run the program in a process, and send it a signal once ``sign`` is there; without what a slow machine says of
+    the progress."""
     process = subprocess.Popen(
         [*COMMAND, *map(str, args)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
     )
     while not sign.exists() and process.poll() is None:
         time.sleep(0.01)
-    time.sleep(0.05)
     os.killpg(process.pid, by)  # as a terminal does
-    out, err = process.communicate(timeout=30)
-    return Outcome(process.returncode, out, err)
+    out, err = process.communicate(timeout=HANG)
+    lines = [line for line in err.splitlines(keepends=True) if not line.startswith(f"{args[0]}: ")]
+    return Outcome(process.returncode, out, "".join(lines))
 
 
 ENDLESS = """
@@ -631,7 +632,10 @@ def test_ctrl_c_ends_a_force_that_never_does(drop: Path, tmp_path: Path, monkeyp
 def test_other_signals_stop_as_ctrl_c_does_and_leave_no_frames(drop: Path, tmp_path: Path, by: int):
     sign = tmp_path / "running"
     begun = "    def frame(self, t: float) -> pygame.Surface:\n"
-    waits = f"        import pathlib, time\n        pathlib.Path({str(sign)!r}).touch()\n        time.sleep(0.1)\n"
+    waits = (
+        "        if t > 0.2:\n            import pathlib, time\n"
+        f"            pathlib.Path({str(sign)!r}).touch()\n            time.sleep({HANG})\n"
+    )
     change(drop / "picture.py", begun, begun + waits)
     outcome = stopped(by, sign, "run", drop, "--frames", tmp_path / "new" / "frames")
     assert outcome == (130, "", "stopped\n")
@@ -686,10 +690,28 @@ def test_ctrl_c_is_not_lost_where_python_drops_exceptions(monkeypatch, dropped: 
         Interrupts().begin()
         dropped()
         with pytest.raises(KeyboardInterrupt):
-            time.sleep(10.0)
+            time.sleep(HANG)
     finally:
         signal.signal(signal.SIGINT, before)
         signal.signal(signal.SIGTERM, signal.SIG_DFL)
+
+
+def test_signals_close_together_are_one_request(monkeypatch: pytest.MonkeyPatch):
+    """``timeout`` tells a process and then its group, which it is in."""
+    now = [100.0]
+    monkeypatch.setattr("sandbox.cli.interrupts.time.monotonic", lambda: now[0])
+    before = signal.getsignal(signal.SIGTERM)
+    interrupts = Interrupts()
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            interrupts(signal.SIGTERM, None)
+        now[0] += 0.2
+        interrupts(signal.SIGTERM, None)
+        now[0] += 0.2
+        with pytest.raises(KeyboardInterrupt):
+            interrupts(signal.SIGTERM, None)
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 def test_a_folder_of_parts_is_removed_despite_an_interrupt(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):

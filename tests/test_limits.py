@@ -18,7 +18,7 @@ from sandbox.errors import sys_exit_as_error
 from sandbox.files import write_together
 from sandbox.lab.plan import Record
 from sandbox.lab.sweep import InTurn, RowsInOrder
-from tests.own_scene import BUILD, COMMAND, DROP, Outcome, assert_refused, change
+from tests.own_scene import BUILD, COMMAND, DROP, HANG, Outcome, assert_refused, change, wait_for_work
 
 Call = Callable[..., Outcome]
 
@@ -141,12 +141,12 @@ def test_a_second_ctrl_c_ends_a_call_of_c_without_an_end(drop: Path, tmp_path: P
     process = subprocess.Popen([*COMMAND, "run", str(drop)], start_new_session=True)
     while not (tmp_path / "there").exists():
         time.sleep(0.01)
-    time.sleep(0.1)
+    wait_for_work(process, 0.1)  # until it is in that call
     process.send_signal(signal.SIGINT)
-    with pytest.raises(subprocess.TimeoutExpired):
-        process.wait(0.2)
+    wait_for_work(process, 0.1)
+    assert process.poll() is None
     process.send_signal(signal.SIGINT)
-    assert process.wait(5.0) == -signal.SIGINT
+    assert process.wait(HANG) == -signal.SIGINT
 
 
 def test_threads_of_a_scene_end_with_ctrl_c(drop: Path, tmp_path: Path):

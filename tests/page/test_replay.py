@@ -21,6 +21,7 @@ from sandbox.page.playing import stage_data
 from sandbox.page.replay import LAYOUTS, command, page_of
 from sandbox.parameters import parse_assignment
 from sandbox.sport.amounts import amount, shown_in
+from tests.own_scene import HANG
 from tests.scenes.play import run_of
 
 #: A flight with rolling, balls that turn about all axes, a heap, a body that turns.
@@ -160,12 +161,14 @@ def test_it_plays_by_mouse_keyboard_and_touch(browser, pages):
     assert "sandbox run golf --compare golf/headwind" in browser.text("code")
     assert not browser.run("player.playing")
     # play, and go on to the end by dragging; step, events, speed
+    browser.run("player.power = -4")  # so slowly that it does not end before it is stopped
     driver.find_element(By.ID, "play").click()
-    WebDriverWait(driver, 10).until(lambda _: browser.run("player.t") > 0.2)
+    WebDriverWait(driver, HANG).until(lambda _: browser.run("player.t") > 0.2)
     driver.find_element(By.ID, "play").click()
     stopped = browser.run("player.t")
     assert 0.2 < stopped < run.duration
     assert not browser.run("player.playing")
+    browser.run("player.power = 0")
     body = ActionChains(driver)
     browser.run("document.activeElement.blur()")
     body.send_keys(".", ".", ",", "-", "-").perform()

@@ -15,9 +15,10 @@ from urllib.parse import urlsplit
 
 import pytest
 
-from tests.own_scene import COMMAND
+from tests.own_scene import COMMAND, HANG
 
-PATIENCE = 60.0  # s, on a machine that does much else besides
+#: The program, with runs that may take long: on a busy machine they do.
+PATIENT = COMMAND[-1].replace("import sys;", f"import sys; from sandbox.serve import lanes; lanes.RUN = {HANG};")
 
 pytest.importorskip("starlette", reason="serving is tested with the extra serve")
 
@@ -35,7 +36,7 @@ class Served(NamedTuple):
 @contextmanager
 def serving(*args: str, cwd: Any = None, port: int = 0, state: Any = os.devnull) -> Iterator[Served]:
     """A server of its own process, by default on any port of the loopback and where nothing can be kept."""
-    command = [*COMMAND, "serve", *args, "--port", str(port), "--json"]
+    command = [*COMMAND[:-1], PATIENT, "serve", *args, "--port", str(port), "--json"]
     env = os.environ | {"XDG_STATE_HOME": str(state)}
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=cwd, env=env)
     said = process.stdout.readline()
@@ -43,7 +44,7 @@ def serving(*args: str, cwd: Any = None, port: int = 0, state: Any = os.devnull)
     def stop() -> int:
         if process.poll() is None:
             process.send_signal(signal.SIGINT)
-        return process.wait(PATIENCE)
+        return process.wait(HANG)
 
     try:
         address = json.loads(said or "{}") or pytest.fail(process.stderr.read())
@@ -81,7 +82,7 @@ class Client:
         self.say(do=do, n=self.n, changes=changes or {}, **more)
         return self.n
 
-    def hear(self, kind: str, within: float = PATIENCE, **wanted: Any) -> dict[str, Any]:
+    def hear(self, kind: str, within: float = HANG, **wanted: Any) -> dict[str, Any]:
         """The next message of a kind, with these entries."""
         end = time.monotonic() + within
         while True:

@@ -13,6 +13,7 @@ import pytest
 
 from sandbox.serve import lanes
 from sandbox.serve.lanes import Lanes
+from tests.own_scene import HANG
 
 
 def kept(**what: Any) -> Any:
@@ -41,10 +42,10 @@ def run(play: Callable[[Lanes], Awaitable[Any]], width: int) -> Any:
 def test_the_newest_wins_and_one_runs_at_a_time(tmp_path: Path):
     async def play(made: Lanes) -> Any:
         first = asyncio.create_task(made.compute("ann", "path", "slow", held_until, str(tmp_path / "go")))
-        await asyncio.sleep(0.05)
+        await asyncio.sleep(0)
         later = [asyncio.create_task(made.compute("ann", "path", "x", dict, [("kept", n)])) for n in range(5)]
         other = asyncio.create_task(made.compute("ann", "stage", "x", dict, [("kept", "stage")]))
-        await asyncio.sleep(0.05)
+        await asyncio.sleep(0)
         assert not later[-1].done()  # although there is a process to spare
         (tmp_path / "go").touch()
         await first
@@ -59,7 +60,7 @@ def test_long_jobs_never_keep_others_waiting(monkeypatch: pytest.MonkeyPatch, tm
     """With three processes on two cores, one of three breaks runs at a time once it is known how long they take: putts
     are computed while none of them ends."""
     monkeypatch.setattr(lanes, "cores", lambda: 2)
-    monkeypatch.setattr(lanes, "RUN", 120.0)
+    monkeypatch.setattr(lanes, "RUN", 2 * HANG)
     go = str(tmp_path / "go")
 
     async def play(made: Lanes) -> None:
@@ -67,7 +68,7 @@ def test_long_jobs_never_keep_others_waiting(monkeypatch: pytest.MonkeyPatch, tm
         breaks = [asyncio.create_task(made.compute(f"break {n}", "path", "break", held_until, go)) for n in range(3)]
         for n in range(20):
             putt = made.compute(f"putt {n}", "path", "putt", dict, [("kept", n)])
-            assert await asyncio.wait_for(putt, 60.0) == {"kept": n}
+            assert await asyncio.wait_for(putt, HANG) == {"kept": n}
         assert sum(job.alike == "break" for job in made._running.values()) == 1
         assert not any(each.done() for each in breaks)
         Path(go).touch()
@@ -79,7 +80,7 @@ def test_long_jobs_never_keep_others_waiting(monkeypatch: pytest.MonkeyPatch, tm
 def test_slow_players_keep_no_quiet_one_waiting(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
     """Six whose paths of the same scene never end, and one whose paths are known to be short: he waits for none."""
     monkeypatch.setattr(lanes, "cores", lambda: 2)
-    monkeypatch.setattr(lanes, "RUN", 120.0)
+    monkeypatch.setattr(lanes, "RUN", 2 * HANG)
     go = str(tmp_path / "go")
 
     async def play(made: Lanes) -> None:
@@ -89,7 +90,7 @@ def test_slow_players_keep_no_quiet_one_waiting(monkeypatch: pytest.MonkeyPatch,
         slow = [asyncio.create_task(made.compute(f"slow {n}", "path", alike[n], held_until, go)) for n in range(6)]
         for n in range(20):
             path = made.compute("quiet", "path", "golf", dict, [("kept", n)])
-            assert await asyncio.wait_for(path, 60.0) == {"kept": n}
+            assert await asyncio.wait_for(path, HANG) == {"kept": n}
         assert len(made._running) >= 2
         assert not any(each.done() for each in slow)
         Path(go).touch()
@@ -124,7 +125,7 @@ def test_what_takes_too_long_or_breaks_is_ended(monkeypatch: pytest.MonkeyPatch)
 
     async def play(made: Lanes) -> list[Any]:
         slow = await made.compute("ann", "path", "slow", time.sleep, 60)
-        monkeypatch.setattr(lanes, "RUN", 20.0)
+        monkeypatch.setattr(lanes, "RUN", HANG)
         lost = await made.compute("ann", "path", "lost", os._exit, 3)
         raised = await made.compute("ann", "path", "raised", int, "x")
         good = await made.compute("ann", "path", "good", dict, [("kept", 1)])

@@ -18,9 +18,9 @@ from selenium.webdriver.support.wait import WebDriverWait
 
 import sandbox
 from tests.browser import Browser
+from tests.own_scene import HANG
 from tests.serve.conftest import Client, Served, serving
 
-PATIENCE = 60  # s, on a machine that does much else besides
 NAME = '<img src=x onerror="x">'  # 23 characters: cut to 20
 
 
@@ -43,7 +43,7 @@ class Page:
 
     def until(self, expression: str, *arguments: Any) -> None:
         """Wait until an expression is true."""
-        wait = WebDriverWait(self.driver, PATIENCE, 0.02)
+        wait = WebDriverWait(self.driver, HANG, 0.02)
         wait.until(lambda _: self.browser.run(f"Boolean({expression})", *arguments))
 
     def aimed(self) -> None:
@@ -111,7 +111,7 @@ def test_aim_shoot_and_compare_by_mouse_and_keys(pages, browser: Browser):
     browser.run("document.getElementById('keep').click()")
     mouse = ActionChains(page.driver, duration=20)
     mouse.release().perform()
-    page.until("state.shot && player.playing")
+    page.until("state.shot && player.watched")
     assert browser.run("player.data.forces.causes.length") > 0
     assert browser.text("#energy-legend li")[0].startswith("at the end, of ")
     assert browser.text("#card thead th")[0] == "now"

@@ -21,8 +21,27 @@ from sandbox.window.game import Game
 from sandbox.window.session import Session
 from sandbox.window.shots import Shot
 from sandbox.workers import Processes
+from tests.own_scene import HANG
 
 FRAME = 1 / 60  # s
+
+
+class Clock:
+    """The window's clock, in s: it stands unless a test lets time pass, so that what is computed may take long."""
+
+    def __init__(self) -> None:
+        self.now, self.stands = 1000.0, True
+
+    def __call__(self) -> float:
+        return self.now if self.stands else time.perf_counter()
+
+
+@pytest.fixture(autouse=True)
+def clock(monkeypatch: pytest.MonkeyPatch) -> Clock:
+    stands = Clock()
+    for module in ("background", "opening"):
+        monkeypatch.setattr(f"sandbox.window.{module}.perf_counter", stands)
+    return stands
 
 
 class Player:
@@ -32,8 +51,8 @@ class Player:
         pygame.display.init()
         self.screen = pygame.display.set_mode(size, pygame.RESIZABLE)
         pygame.event.clear()
-        self.game = Game(Session(source), worker, patience=60.0)  # this machine may be busy
-        self.app = App(self.game, self.screen, patience=60.0)
+        self.game = Game(Session(source), worker, patience=HANG)  # this machine may be busy
+        self.app = App(self.game, self.screen, patience=HANG)
         self.view, self.pointer = self.app.view, self.app.pointer
         self.settle()
 
@@ -43,13 +62,13 @@ class Player:
 
     def settle(self) -> None:
         """Frames until there is nothing left to compute or compose."""
-        end = time.monotonic() + 60.0
-        while time.monotonic() < end:
+        end, busy = time.monotonic() + HANG, True
+        while busy:
+            assert time.monotonic() < end
             self.game.settle()
             self.frames(1)
-            if not (self.view.busy or self.game.watching.awaited or self.game.jobs.waiting):
-                break
-            time.sleep(0.001)
+            busy = self.view.busy or self.game.watching.awaited or bool(self.game.jobs.waiting)
+            time.sleep(0.001 * busy)
         self.frames(1)
 
     def send(self, kind: int, **values: object) -> None:

@@ -26,6 +26,7 @@ from sandbox.window.panel import SLIDER_OF
 from sandbox.window.prediction import Prediction
 from sandbox.window.referee import AFTER, decided_at, deciding_ball
 from sandbox.window.shots import LONGEST_FRAME, SHOWN
+from tests.own_scene import HANG
 
 from .conftest import Player
 from .test_see import said
@@ -477,6 +478,7 @@ class TestTheBestList:
         assert set(BestList(tmp_path / "best.json").tasks) == {"a", "b"}
 
     def test_two_windows_that_write_at_once_wait_for_each_other(self, tmp_path, monkeypatch):
+        monkeypatch.setattr("sandbox.window.best.PATIENCE", HANG)
         one, other = BestList(tmp_path / "best.json"), BestList(tmp_path / "best.json")
         write, meanwhile = one._write, Thread(target=lambda: other.add("b", 2.0, 2, lower_is_better=False))
 

@@ -25,6 +25,7 @@ from sandbox.window.session import Session
 from sandbox.window.shots import PATHS
 from sandbox.window.worker import computed
 from sandbox.workers import WorkerLost
+from tests.own_scene import HANG
 
 STUCK = "\n\ndef stuck(t, position, velocity, spin):\n    while velocity[0] > 9:\n        pass\n    return 0.0, 0.0\n"
 PLAIN = "\n\ndef stuck(t, position, velocity, spin):\n    return 0.0, 0.0\n"
@@ -92,7 +93,7 @@ def own(tmp_path):
 
 def test_it_draws_nothing():
     code = "import sys, sandbox.window.game; sys.exit('pygame' in sys.modules)"
-    subprocess.run([sys.executable, "-c", code], check=True, timeout=60)
+    subprocess.run([sys.executable, "-c", code], check=True, timeout=HANG)
 
 
 def test_a_game_aims_is_watched_pauses_and_aims_again(game):

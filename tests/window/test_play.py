@@ -17,6 +17,7 @@ from sandbox.scene import Scene, listings
 from sandbox.window.commands import TABLE
 from sandbox.window.screen import SMALLEST
 from sandbox.window.shots import LONGEST_FRAME, STEP
+from tests.own_scene import HANG
 
 from .conftest import Player
 from .test_game import Here
@@ -463,7 +464,7 @@ def test_without_a_display_it_says_so(tmp_path):
     environment = {key: value for key, value in os.environ.items() if key not in hidden}
     code = "import sys; from sandbox.cli import main; sys.exit(main(['play', 'golf']))"
     command = [sys.executable, "-c", code]
-    done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=60, check=False)
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=HANG, check=False)
     assert done.returncode == 2
     assert done.stdout == ""
     assert "no display" in done.stderr

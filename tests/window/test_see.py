@@ -6,7 +6,7 @@ import re
 from concurrent.futures import Future
 from itertools import combinations
 from math import hypot, inf
-from time import perf_counter, sleep
+from time import sleep
 from unittest import mock
 
 import numpy as np
@@ -245,7 +245,7 @@ class TestTheFan:
         assert player.view.fan.job.value.shots == SHOTS
         assert player.view.fan.job.value.said[0] in [text for text, _ in written]
 
-    def test_an_endless_shot_is_killed_when_the_aim_changes(self, player, monkeypatch):
+    def test_an_endless_shot_is_killed_when_the_aim_changes(self, player, monkeypatch, clock):
         player = player(PUTT)
         player.key(pygame.K_f)
         player.settle()
@@ -253,7 +253,7 @@ class TestTheFan:
         view = player.view
         for latest in (view.fan.job, view.map.job):
             monkeypatch.setattr(latest, "abandon", killed.append)
-            latest.work, latest.began, latest.work_for = Future(), perf_counter() - 3.0, "before"
+            latest.work, latest.began, latest.work_for = Future(), clock.now - 3.0, "before"
         player.key(pygame.K_UP)
         player.frames(1)
         assert not killed  # a break takes so long
@@ -266,13 +266,13 @@ class TestTheFan:
         assert view.fan.job.key[0] is player.game.shot
         assert view.fan.job.value.shots
 
-    def test_the_path_does_not_wait_for_endless_shots_of_the_fan(self, player, monkeypatch):
+    def test_the_path_does_not_wait_for_endless_shots_of_the_fan(self, player, monkeypatch, clock):
         player = player(PUTT)
         player.key(pygame.K_f)
         player.settle()
         killed, latest = [], player.view.fan.elsewhere
         monkeypatch.setattr(latest, "abandon", killed.append)
-        latest.work, latest.began, latest.work_for = Future(), perf_counter(), "before"
+        latest.work, latest.began, latest.work_for = Future(), clock.now, "before"
         player.game.workers.path.never = True
         player.key(pygame.K_UP)
         player.frames(1)
