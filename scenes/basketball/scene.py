@@ -304,13 +304,24 @@ def out(run: Run, parameters: Parameters) -> float | None:
 
 @cached_per_run
 def made(run: Run, parameters: Parameters) -> bool:
-    """True if it had come down through the ring."""
+    """True if it had come down through the ring, and not up through it before (FIBA rules, art. 16: from above)."""
     left = out(run, parameters)
-    if left is None:
+    if left is None or from_below(run, parameters):
         return False
     up = max((t for t, _ in run.crossings("ball", parameters.hoop.middle, (0.0, -1.0)) if t < left), default=0.0)
     falls = falls_to(run, parameters)
     return any(up < t <= left and inside(state, parameters) and not on_side(t, run, parameters) for t, state in falls)
+
+
+@cached_per_run
+def from_below(run: Run, parameters: Parameters) -> bool:
+    """True if the ball is first between the inner edges on its way up."""
+    rises = run.crossings("ball", parameters.hoop.middle, (0.0, -1.0))
+    first_up, first_down = (
+        next((t for t, state in crossings if inside(state, parameters)), inf)
+        for crossings in (rises, falls_to(run, parameters))
+    )
+    return first_up < first_down
 
 
 def inside(state: State, parameters: Parameters) -> bool:
@@ -435,6 +446,8 @@ def verdict(run: SceneRun, parameters: Parameters) -> str:
         return f"In, {how[result['verdict']]}"
     if abs(result["entry_aside"] or 0.0) >= parameters.room > 0.0:
         return "Off to the side"
+    if from_below(run, parameters):
+        return "Up through the ring: it does not count"
     touched = next((name for name in result["touches"] if name != "floor"), None)
     if touched:
         return "Off the board, and out" if touched == "backboard" else "Off the rim, and out"

@@ -277,7 +277,7 @@ class TestTheFan:
         player.key(pygame.K_UP)
         player.frames(1)
         assert not killed
-        latest.began -= LONG
+        latest.began -= 1.01 * LONG
         player.frames(1)
         assert len(killed) == 1
 
