@@ -93,7 +93,7 @@ class TestTheFan:
         camera = Camera((0.0, 0.0), (100.0, 300.0), 50.0)
         session.reset()
         session.change({"launch.speed": 7.5})
-        with mock.patch("sandbox.window.fan.SHOTS", 30):
+        with mock.patch("sandbox.window.fan.SHOTS", 30), mock.patch("sandbox.window.fan.QUICK", inf):
             found = cloud(session.scene, 1.0, camera, False, "", (640, 360), ((0, 255, 0), (255, 255, 255)))
         assert 0 < found.scored == made < 30
 
