@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 
 from sandbox.engine.event_queue import QueuedEvent
 from sandbox.engine.model.event import Event
-from sandbox.engine.model.setup import Setup
+from sandbox.engine.model.setup import Setup, Until
 from sandbox.engine.motion.moving_ball import MovingBall
 from sandbox.engine.paths.run import Numerics
 
 if TYPE_CHECKING:
-    from sandbox.engine.heap.heap import HeapState
+    from sandbox.engine.heap.stepping import HeapState
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,9 +39,16 @@ class Checkpoint:
     standstill: tuple[float, int]
     heap: HeapState | None
 
-    def alone(self) -> Checkpoint:
-        """Return the same without what the simulation did later, to be written to a file."""
-        movers = [
-            mover.copy(mover.path[:count], self.numerics) for mover, count in zip(self.movers, self.arcs, strict=True)
-        ]
-        return replace(self, movers=movers, events=self.events[: self.noted])
+    def alone(self, history: bool = True) -> Checkpoint:
+        """Return the same without what the simulation did later, to be written to a file; without ``history`` also
+        without what it did before: then paths begin with their last arc, and only events that ``until`` may count are
+        left."""
+        setup, ends = self.eras[-1][1], zip(self.movers, self.arcs, strict=True)
+        begins = 0 if history else -1
+        movers = [mover.copy(mover.path[:count][begins:], self.numerics) for mover, count in ends]
+        alone = replace(self, movers=movers, events=self.events[: self.noted])
+        if history:
+            return alone
+        events = alone.events if isinstance(setup.until, Until) else []
+        arcs = [len(mover.path) for mover in movers]
+        return replace(alone, eras=((0.0, setup),), changes=0, arcs=arcs, events=events, noted=len(events))

@@ -17,10 +17,9 @@ from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.tolerances import CLOSING, TOUCHING_GAP
 from sandbox.engine.motion.forces_on_ball import acceleration_function, by_cause
 from sandbox.engine.motion.leaning import Leaning
-from sandbox.engine.motion.moving_ball import InCluster, InHeap
 from sandbox.engine.motion.sustained_contact import SustainedContact
 from sandbox.engine.paths.arc import Arc
-from sandbox.engine.paths.phase import SetByHand
+from sandbox.engine.paths.phase import InCluster, InHeap, SetByHand
 from sandbox.engine.paths.run import Run
 from sandbox.physics.integrators import INTEGRATORS, Acceleration, State
 from sandbox.physics.plane import Plane, strip

@@ -24,6 +24,7 @@ from sandbox.engine.model.event import Event
 from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.setup_errors import setup_errors_named
 from sandbox.engine.model.tolerances import TOUCHING_GAP
+from sandbox.engine.motion.forces_on_ball import refuse_unrepeatable
 from sandbox.engine.motion.moving_ball import MovingBall
 from sandbox.engine.movers import Surroundings
 from sandbox.engine.paths.arc import resting_arc
@@ -36,7 +37,8 @@ from sandbox.errors import RequestError
 from sandbox.physics.integrators import State
 
 if TYPE_CHECKING:
-    from sandbox.engine.heap.heap import Heap, HeapState
+    from sandbox.engine.heap.heap import Heap
+    from sandbox.engine.heap.stepping import HeapState
 
 #: Events from one checkpoint to the next: at least so many, and so many for each ball. Fewer: runs take more time and
 #: memory; more: a fork first resolves more events again.
@@ -63,6 +65,16 @@ class Record:
         """Return the record of what has happened so far."""
         other = Record(self.setup, self.accuracy)
         other.changes, other.checkpoints = [*self.changes], [*self.checkpoints]
+        return other
+
+    def saved_at(self, t: float, history: bool) -> Record:
+        """Return what is needed to go on from t in s, with at most one checkpoint, where it begins without
+        ``history``."""
+        last = [each for each in self.checkpoints if each.t <= t][-1:]
+        begins = last and not history
+        other = Record(last[0].eras[-1][1] if begins else self.setup, self.accuracy)
+        other.changes = self.changes[last[0].changes :] if begins else [*self.changes]
+        other.checkpoints = [each.alone(history) for each in last]
         return other
 
     def at(self, t: float) -> LiveSimulation:
@@ -111,7 +123,7 @@ class LiveSimulation(Simulation):
         self._t, self._over, self._ended = checkpoint.t, checkpoint.over, checkpoint.ended
         self._moving = {*checkpoint.moving}
         self._queue.restore(checkpoint.pending)
-        self._moment, self._in_place = checkpoint.standstill
+        self._guard.moment, self._guard.in_place = checkpoint.standstill
         if checkpoint.heap is not None and self._heap is not None:
             self._heap.restore(checkpoint.heap)
 
@@ -119,12 +131,12 @@ class LiveSimulation(Simulation):
 
     def advance(self, t: float) -> None:
         """Resolve all events up to t in s."""
-        self._cost_before = replace(self._numerics)
+        self._guard.begin(self._t, self._numerics)
         self._loop(t)
 
     def complete(self, started: float) -> Run:
         """Go on to the end; ``started`` is the clock time from which the run's cost is counted."""
-        self._cost_before = replace(self._numerics)
+        self._guard.begin(self._t, self._numerics)
         return self._finish(started)
 
     def so_far(self, t: float) -> Run:
@@ -198,7 +210,7 @@ class LiveSimulation(Simulation):
             self._queue.pending(),
             self._over,
             self._ended,
-            (self._moment, self._in_place),
+            (self._guard.moment, self._guard.in_place),
             heap,
         )
 
@@ -244,6 +256,9 @@ class LiveSimulation(Simulation):
         around = Surroundings(change.setup, self._accuracy.skin)
         new = [around.mover(ball, _start(change.setup, ball), self._accuracy, self._numerics) for ball in change.added]
         self._refuse_overlaps(t, change, there, new)
+        for ball in change.setup.balls:
+            if ball.name in change.forced:
+                refuse_unrepeatable(ball, t, self.state_at(present[ball.name], t))
         self.record.changes.append((t, changes))
         self._eras.append((t, change.setup))
         self._t = t

@@ -11,6 +11,7 @@ from sandbox.engine.model.ball import Ball
 from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.surface import Surface, Trap
 from sandbox.engine.motion.carried_ball import CarriedBall
+from sandbox.engine.motion.forces_on_ball import refuse_unrepeatable
 from sandbox.engine.motion.moving_ball import MovingBall
 from sandbox.engine.motion.moving_body import MovingBody
 from sandbox.engine.motion.on_plane import OnPlane
@@ -63,7 +64,9 @@ def movers_at_start(setup: Setup, accuracy: Accuracy, numerics: Numerics) -> lis
     """Return the balls and bodies of a setup at its start. Raises RequestError if some overlap."""
     around = Surroundings(setup, accuracy.skin)
     places = starts(setup.balls, around.obstacles)
-    return [
-        around.mover(ball, (x, y, *map(float, setup.start_of(ball)[2:])), accuracy, numerics)
-        for ball, (x, y) in zip(setup.balls, places, strict=True)
-    ]
+    movers = []
+    for ball, (x, y) in zip(setup.balls, places, strict=True):
+        state = (x, y, *map(float, setup.start_of(ball)[2:]))
+        refuse_unrepeatable(ball, 0.0, state)
+        movers.append(around.mover(ball, state, accuracy, numerics))
+    return movers

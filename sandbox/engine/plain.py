@@ -207,7 +207,7 @@ class PlainSimulation:
         held = self._setup.plane is not None or self._steps - tracked.touched <= 1
         if not (slow and held):
             tracked.moved = self._t
-        return self._t - tracked.moved >= _REST_TIME
+        return not tracked.ball.timing.depends and self._t - tracked.moved >= _REST_TIME
 
     def _note(self, event: Event) -> None:
         self._events.append(event)

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 from sandbox.engine.contact.manifold import all_round
 from sandbox.engine.contact.touch import Obstacle
 from sandbox.engine.event_queue import EventQueue, QueuedEvent
+from sandbox.engine.guard import Guard
 from sandbox.engine.impact.impacts import Hit, Impacts, Outcome
 from sandbox.engine.model.accuracy import Accuracy
 from sandbox.engine.model.event import Event
@@ -26,27 +27,16 @@ from sandbox.engine.motion.event_kind import EventKind
 from sandbox.engine.motion.moving_ball import MovingBall
 from sandbox.engine.motion.on_plane import slowest_hop
 from sandbox.engine.movers import movers_at_start
-from sandbox.engine.paths.arc import resting_arc
+from sandbox.engine.paths.arc import Arc, resting_arc
 from sandbox.engine.paths.path import Path
 from sandbox.engine.paths.phase import Phase
 from sandbox.engine.paths.run import Numerics, Run
 from sandbox.engine.prediction import Prediction
-from sandbox.errors import RunError
 from sandbox.physics.integrators import State
 
 if TYPE_CHECKING:
     from sandbox.engine.heap.heap import Heap
     from sandbox.engine.impact.cluster_search import ClusterSearch
-
-#: Most events while time advances by less than _STANDSTILL s, beyond which the run has stalled.
-_MOST_EVENTS_IN_PLACE = 2_000
-_STANDSTILL = 1e-6
-
-#: Most impacts in one run, beyond which it has stalled; Galperin's billiard with mass ratio 1e8 needs 31,415.
-_MOST_IMPACTS = 200_000
-
-#: Most steps in one run, beyond which its forces are too stiff: about 5 s of computing.
-MOST_STEPS = 100_000
 
 #: Events that change nothing at the end of the run's duration.
 _GO_ON = EventKind.ARC_END, EventKind.HEAP_STEP, EventKind.CLUSTER_END
@@ -72,8 +62,7 @@ class Simulation:
         self._movers = movers_at_start(setup, accuracy, self._numerics) if movers is None else [*movers]
         self._moving = {*range(len(self._movers))}  # the balls that neither rest nor are caught
         self._queue = EventQueue(self._movers)
-        self._moment, self._in_place = 0.0, 0  # s, since when time stands still, and events since
-        self._cost_before = Numerics()  # of what the limits on steps and impacts do not count
+        self._guard = Guard()
         self._set_up(setup)
 
     def _set_up(self, setup: Setup) -> None:
@@ -126,8 +115,15 @@ class Simulation:
     def _finish(self, started: float) -> Run:
         """Go on to the end of the run; ``started`` is the clock time of its start."""
         self._loop()
+        self._end_at_rest()
         self._numerics.wall_s += perf_counter() - started
         return self._run_until(self._t, self._movers)
+
+    def _end_at_rest(self) -> None:
+        """End the run where all came to rest, if what depends on time moved nothing from then on."""
+        if self._ended == "duration" and not self._moving and all(each.motion is None for each in self._setup.surfaces):
+            ends = (mover.path[-1].t1 if mover.caught else mover.arc.t0 for mover in self._movers)
+            self._t, self._ended = max(ends), "rest"
 
     def _run_until(self, t: float, movers: Sequence[MovingBall]) -> Run:
         """Return the run up to t in s, in which these balls take part."""
@@ -143,7 +139,7 @@ class Simulation:
         """Resolve one event after another, up to ``until`` in s or to the end of the run."""
         while not self._over and not self._ended and self._goes_on and (event := self._queue.pop(until)):
             self._t = event.t
-            self._refuse_endless(event)
+            self._guard.check(event.t, self._movers[event.ball], self._numerics, self._events)
             if event.kind in _GO_ON and event.t >= self._setup.duration:
                 self._t, self._ended = self._setup.duration, "duration"
             else:
@@ -160,10 +156,14 @@ class Simulation:
 
     @property
     def _goes_on(self) -> bool:
-        """True if a ball moves, or one at rest will be struck: only by a surface that moves."""
-        return bool(self._moving) or (
-            any(surface.motion is not None for surface in self._setup.surfaces)
-            and any(event.kind in (EventKind.TOUCH, EventKind.EDGE) for event in self._queue.pending())
+        """True if a ball moves, or one at rest may: by forces that depend on time, or struck by a surface."""
+        return (
+            bool(self._moving)
+            or any(mover.ball.timing.depends and not mover.caught for mover in self._movers)
+            or (
+                any(surface.motion is not None for surface in self._setup.surfaces)
+                and any(event.kind in (EventKind.TOUCH, EventKind.EDGE) for event in self._queue.pending())
+            )
         )
 
     def _resolve(self, event: QueuedEvent) -> None:
@@ -181,14 +181,21 @@ class Simulation:
             case EventKind.CLUSTER_END:
                 self._collide(t, [event.ball])  # with the walls it has entered during the contact
             case EventKind.HEAP_STEP:
-                self._step_heap(t, ())
+                self._go_on_in_heap(t, event.ball)
             case _:
                 self._change_contact(t, event.ball, kind)
 
     def _next_arc(self, t: float, index: int) -> None:
-        """Move a ball to the end of its arc, and plan the next: it goes on as before."""
-        self._arrive_at_end(t, index, EventKind.ARC_END)
+        """Move a ball to the end of its arc, and plan the next: it goes on as before. A rest is one arc in the end."""
+        mover, before = self._movers[index], self._movers[index].arc
+        lasts = before.rests and mover.ball.timing.depends
+        if not lasts:
+            self._arrive_at_end(t, index, EventKind.ARC_END)
         self._plan(index, t)
+        if lasts and mover.arc.rests:
+            mover.arc.t0 = before.t0
+        elif lasts:  # what carries it moves
+            mover.path.append(before)
 
     def _end_spin(self, t: float, index: int) -> None:
         """Go on along the predicted path, without spin: what is on it is known."""
@@ -298,6 +305,17 @@ class Simulation:
         if heap and heap.members:
             self._step_heap(t, ())
 
+    def _go_on_in_heap(self, t: float, index: int) -> None:
+        """Step the heap from t; or let the part in which a ball rests do so longer than it was known to."""
+        heap = self._heap
+        assert heap is not None
+        resting = heap.rest_on(t, self._setup.duration, index)
+        if resting:
+            self._follow_in_heap(t, resting)
+            return
+        heap.wake([index])
+        self._step_heap(t, ())
+
     def _step_heap(self, t: float, joining: Collection[int]) -> Collection[int]:
         """Step the heap from t, with these balls if they press on others. Returns the balls in it."""
         heap = self._heap
@@ -308,15 +326,21 @@ class Simulation:
             self._movers[index].arrive(t, self._movers[index].arc.state(t))
         states = {index: self._movers[index].state for index in sorted(members.union(joining))}
         stepped = heap.step(t, self._setup.duration, states)
-        for index, arc in stepped.items():
-            self._movers[index].version += 1
-            self._movers[index].arc = arc
-        for index, others in self._prediction.neighbours(stepped.keys(), t).items():
-            self._note_rest(index, t)
-            self._prediction.predict(index, t, EventKind.HEAP_STEP, partial(heap.keeps_apart, index), others)
+        self._follow_in_heap(t, stepped)
         for index in members - set(joining) - stepped.keys():
             self._resume(index, t)
         return stepped.keys()
+
+    def _follow_in_heap(self, t: float, arcs: dict[int, Arc]) -> None:
+        """Let the balls of a heap go on along these arcs from t."""
+        heap = self._heap
+        assert heap is not None
+        for index, arc in arcs.items():
+            self._movers[index].version += 1
+            self._movers[index].arc = arc
+        for index, others in self._prediction.neighbours(arcs.keys(), t).items():
+            self._note_rest(index, t)
+            self._prediction.predict(index, t, EventKind.HEAP_STEP, partial(heap.keeps_apart, index), others)
 
     # ------------------------------------------------------------------ planning
 
@@ -373,28 +397,3 @@ class Simulation:
             self._moving.discard(index)
             if t > 0.0 or mover.on:
                 self._note(t, "rest", mover, mover.on, mover.state)
-
-    # ------------------------------------------------------------------ guards
-
-    def _refuse_endless(self, event: QueuedEvent) -> None:
-        """Raise RunError if the run has stalled, or takes too many steps."""
-        if event.t > self._moment + _STANDSTILL:
-            self._moment, self._in_place = event.t, 0
-        self._in_place += 1
-        if self._in_place > _MOST_EVENTS_IN_PLACE or self._numerics.impacts - self._cost_before.impacts > _MOST_IMPACTS:
-            raise self._stalled(event.t, event.ball)
-        if self._numerics.steps - self._cost_before.steps > MOST_STEPS:
-            remedy = "its forces are very stiff: raise accuracy.tolerance, or shorten the duration"
-            name = self._movers[event.ball].ball.name
-            raise failed(event.t, name, f"{MOST_STEPS:,} steps and still not finished; {remedy}")
-
-    def _stalled(self, t: float, index: int) -> RunError:
-        mover = self._movers[index]
-        x, y = mover.arc.state(t)[:2]
-        name = mover.ball.name
-        where = f"t = {t:.6g} s, ball {name!r} at ({x:.4g}, {y:.4g}) m"
-        last = next((event for event in reversed(self._events) if name in (event.ball, event.partner)), None)
-        if last is None or last.t < t - _STANDSTILL:
-            return RunError(f"{where}: the velocity changes too fast for any step; look for a force that is not smooth")
-        other = last.partner if last.ball == name else last.ball
-        return RunError(f"{where}: events never stop; the last was with {other!r}")

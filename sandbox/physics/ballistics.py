@@ -76,6 +76,7 @@ class BulletDrag:
     Source: McCoy 1999, Modern Exterior Ballistics, chapter 6; second-hand.
     """
 
+    timed: ClassVar = ("wind",)
     mass: float  # kg
     shape: str
     coefficient: float  # lb/in^2

@@ -33,7 +33,8 @@ _ALMOST_ZERO = 1e-30
 
 class MassLoss(Protocol):
     """The mass in kg that a ball has lost by a time t (s), and the rate in kg/s at which it loses it. What it loses
-    keeps its velocity and spin: the push that it gives is a force like any other."""
+    keeps its velocity and spin: the push that it gives is a force like any other. It may have ``discontinuities`` and a
+    ``time_scale`` (``timing.py``)."""
 
     def lost(self, t: Any) -> Any: ...
     def rate(self, t: Any) -> Any: ...
@@ -54,6 +55,7 @@ class Gravity(OfBall):
     (0.0, -4.905)
     """
 
+    timed: ClassVar = ("_loss",)
     gravity: float  # m/s^2
     mass: float | None = None  # kg, at the start; default: the ball's, and what it loses
     loss: MassLoss | None = field(default=None, kw_only=True)
@@ -151,6 +153,7 @@ class Drag(_InAir):
     -1.302
     """
 
+    timed: ClassVar = ("wind",)
     coefficient: Coefficient | float = 0.47
 
     def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
@@ -181,6 +184,7 @@ class Magnus(_InAir):
     1.863
     """
 
+    timed: ClassVar = ("wind",)
     coefficient: Coefficient | float = spin_ratio_lift
     along_ground: bool = False
 
@@ -203,6 +207,7 @@ class Inside(OfBall):
     ``normal`` is the unit vector out of the medium. What a splash does is left out.
     """
 
+    timed: ClassVar = ("force",)
     force: Force
     point: tuple[float, float]  # m, on the line
     normal: tuple[float, float]
@@ -230,6 +235,7 @@ class Thinning(OfBall):
     Only the density falls: the Reynolds and Mach numbers stay those at the ground.
     """
 
+    timed: ClassVar = ("force",)
     force: Force
 
     @property
@@ -257,6 +263,7 @@ class SpinDecay(OfBall):
     True
     """
 
+    timed: ClassVar = ("wind",)
     inertia: float | None = None  # kg m^2; default: the ball's
     radius: float | None = None  # m; default: the ball's
     rate: float = 2e-5  # k

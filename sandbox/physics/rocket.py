@@ -6,6 +6,7 @@ from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
+from math import inf
 from typing import Any, ClassVar
 
 from sandbox.physics.elementwise import clip, smooth, where
@@ -22,6 +23,8 @@ class Motor:
     1903). Source of curves and of that rule: static tests as the RASP format has them.
     """
 
+    depends_on_time: ClassVar = True
+    time_scale: ClassVar = inf  # it bends at its points, and is straight between them
     times: Sequence[Any]  # s, growing
     thrusts: Sequence[Any]  # N
     propellant: Any  # kg
@@ -36,6 +39,11 @@ class Motor:
             total = total + 0.5 * (before + after) * (end - start)
         object.__setattr__(self, "_pieces", tuple(pieces))
         object.__setattr__(self, "impulse", total)
+
+    @property
+    def discontinuities(self) -> Sequence[Any]:
+        """The times in s of its points."""
+        return self.times
 
     def _piece(self, t: float) -> Any:
         """The piece of the curve at time t, or the one nearest to it."""
@@ -80,6 +88,7 @@ class Thrust:
     direction of the flow, by how much depends on its length and fins, and loses some height.
     """
 
+    timed: ClassVar = ("motor", "wind")
     motor: Motor
     start: tuple[Any, Any]  # m
     along: tuple[Any, Any]  # unit vector of the rail

@@ -15,6 +15,7 @@ class DragByAngle:
     """Quadratic drag that depends on the angle a between the long axis and the wind:
     ``F = -1/2 rho A (Cn cos^2 a + Cs sin^2 a) |u| u``, with A the round cross-section. The form is assumed."""
 
+    timed: ClassVar = ("wind",)
     density: float  # kg/m^3
     area: float  # m^2
     nose: float  # Cn

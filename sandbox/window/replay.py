@@ -20,11 +20,10 @@ from sandbox.engine.model.accuracy import Accuracy
 from sandbox.engine.model.ball import Ball
 from sandbox.engine.model.setup import Setup
 from sandbox.engine.motion.body_point_contact import BodyPointContact
-from sandbox.engine.motion.moving_ball import InCluster, InHeap
 from sandbox.engine.motion.sustained_contact import SustainedContact
 from sandbox.engine.paths.arc import Arc
 from sandbox.engine.paths.path import Path as Arcs
-from sandbox.engine.paths.phase import Phase
+from sandbox.engine.paths.phase import InCluster, InHeap, Phase
 from sandbox.engine.paths.run import Event, Numerics
 from sandbox.errors import RequestError
 from sandbox.files import atomic_write, read_given, writing

@@ -15,8 +15,7 @@ from sandbox.engine.model.motion import Swinging
 from sandbox.engine.model.setup import Setup, Touches
 from sandbox.engine.model.shapes import box
 from sandbox.engine.model.surface import Moving, Segment, Surface
-from sandbox.engine.motion.moving_ball import InCluster
-from sandbox.engine.paths.phase import Phase
+from sandbox.engine.paths.phase import InCluster, Phase
 from sandbox.engine.simulation import Simulation
 from sandbox.errors import RequestError, RunError
 from sandbox.physics.forces import Gravity

@@ -131,3 +131,12 @@ def test_a_bounce_below_the_lowest_is_lost_in_the_surface():
         landed = next(event.t for event in run.events if event.kind == "impact")
         highest = max(run.state("ball", min(landed + 0.01 * k, run.duration))[1] for k in range(1, 30)) - 0.02
         assert highest == pytest.approx(rises, abs=6e-4)
+
+
+def test_what_lies_feels_a_push_that_comes_later():
+    """x = 10/2 (t - 1)^2."""
+    ball = Ball("ball", 1.0, 0.1, (0.0, 0.1), forces=[Gravity(9.81), lambda t, *_: (10.0 * (t >= 1.0), 0.0)])
+    floor = Surface("floor", Segment((-99.0, 0.0), (99.0, 0.0)), 0.0, 0.0)
+    run = simulate(Setup([ball], [floor], duration=2.0), resolve(method="plain"))
+    assert (run.ended, run.duration) == ("duration", 2.0)
+    assert run.state("ball", 2.0).x == pytest.approx(5.0, abs=0.05)

@@ -32,7 +32,7 @@ quickly = settings(
 @pytest.fixture(autouse=True)
 def fewer_steps(monkeypatch: pytest.MonkeyPatch) -> None:
     """What is far too stiff is refused after a tenth of the steps."""
-    monkeypatch.setattr("sandbox.engine.simulation.MOST_STEPS", 10_000)
+    monkeypatch.setattr("sandbox.engine.guard.MOST_STEPS", 10_000)
 
 
 def numbers(value: Any) -> Iterator[float]:

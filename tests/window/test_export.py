@@ -14,7 +14,7 @@ from PIL import Image
 import sandbox
 from sandbox import Ball, Gravity, Moving, Segment, Setup, Surface, Swinging
 from sandbox.engine.ledger import ledger
-from sandbox.engine.motion.moving_ball import InCluster, InHeap
+from sandbox.engine.paths.phase import InCluster, InHeap
 from sandbox.errors import RequestError
 from sandbox.scene.setup_scene import with_scene
 from sandbox.window import export, replay, sound

@@ -16,7 +16,6 @@ from __future__ import annotations
 
 from collections.abc import Collection, KeysView, Mapping, Sequence
 from math import hypot, inf
-from typing import Any, NamedTuple
 
 from sandbox.engine.contact.manifold import (
     ContactManifold,
@@ -30,16 +29,18 @@ from sandbox.engine.contact.manifold import (
 from sandbox.engine.contact.surfaces import press
 from sandbox.engine.contact.touch import Obstacle
 from sandbox.engine.heap.member import Member
-from sandbox.engine.heap.stepping import Accounts, Group, Stepper, Touch
+from sandbox.engine.heap.stepping import Group, HeapState, Stepper, Touch
 from sandbox.engine.model.accuracy import Accuracy
-from sandbox.engine.model.ball import Ball, outline_of
+from sandbox.engine.model.ball import outline_of, thickness
 from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.setup_errors import failed
 from sandbox.engine.model.tolerances import STILL, TOUCHING_GAP
 from sandbox.engine.motion.body_point_contact import body_point_contact
 from sandbox.engine.motion.carried_ball import CarriedBall
-from sandbox.engine.motion.moving_ball import InHeap, MovingBall
+from sandbox.engine.motion.moving_ball import MovingBall
+from sandbox.engine.motion.rest import next_jump, steady_end
 from sandbox.engine.paths.arc import Arc, resting_arc
+from sandbox.engine.paths.phase import InHeap
 from sandbox.engine.paths.run import Numerics
 from sandbox.physics.integrators import Acceleration, State
 
@@ -86,16 +87,6 @@ _DEEP = 1e-3
 _APART = 1e-2
 
 
-class HeapState(NamedTuple):
-    """The state of a heap between two steps; plain data."""
-
-    members: dict[int, dict[str, Any]]  # by index, in the order in which they are stepped
-    pressed: dict[frozenset[int], float]
-    resting: dict[int, set[int]]
-    numbers: tuple[float, float, float, float, int]
-    accounts: Accounts
-
-
 class Heap:
     """All balls of a run that press on one another, in one heap or in several; they are stepped together."""
 
@@ -110,7 +101,7 @@ class Heap:
         self._resting: dict[int, set[int]] = {}  # balls at rest, each with its heap
         self._forced = 0.0  # m/s^2, the largest acceleration by forces, or of a point of a body that turns
         self._fastest = 0.0  # m/s, approach in the heap that is no impact of its own
-        self._thin = min(map(_thickness, setup.balls))  # m
+        self._thin = min(map(thickness, setup.balls))  # m
         self._coarser = 1.0 if all_round(*setup.balls) else (accuracy.tolerance / _TOLERANCE) ** 0.25
         self._share = _STEP if all_round(*setup.balls) else _STEP_OF_BODIES * self._coarser
         self._span = accuracy.step  # s, of a step that nothing cuts
@@ -240,7 +231,8 @@ class Heap:
         self._span = min(self._longest, self._lasting(self._share, self._forced))
         for index in fresh:
             self._resist_at_once(index, t, states[index])
-        groups, h = self._do(t, min(self._span, until - t), states)
+        jump = next_jump(self._setup, (self._movers[index].ball for index in states), t, until)
+        groups, h = self._do(t, min(self._span, jump - t), states)
         self._stepper.settle_accounts(t + h, groups, self._forced)
         for member in self._members.values():
             member.resistance = 0.0
@@ -260,12 +252,24 @@ class Heap:
             member.slow_for = member.slow_for + max(h, still * rests / _PATIENCE) if slow else 0.0
         for heap in self._apart(held):
             if all(self._members[index].slow_for >= rests for index in heap):
+                at_rest = {index: (*states[index][:2], 0.0, 0.0, 0.0, *states[index][5:]) for index in heap}
+                end = steady_end(self._movers, at_rest, t, t, until)
+                if end - t < min(rests, until - t):  # forces that change now would wake it at once
+                    for index in heap:
+                        self._members[index].slow_for = 0.0
+                    continue
                 self._resting |= dict.fromkeys(heap, heap)
-                for index in heap:
-                    at_rest = (*states[index][:2], 0.0, 0.0, 0.0, *states[index][5:])
-                    arcs[index] = resting_arc(t, until, at_rest, InHeap())
+                arcs |= {index: resting_arc(t, end, state, InHeap()) for index, state in at_rest.items()}
         self._take(held - self._resting.keys())
         return arcs
+
+    def rest_on(self, t: float, until: float, index: int) -> dict[int, Arc]:
+        """Return the arcs of the balls that rest with this one, as far as they are known to rest longer than to t; none
+        if their forces change then."""
+        arcs = {each: self._movers[each].arc for each in sorted(self._resting.get(index, ()))}
+        states, since = {each: arc.start for each, arc in arcs.items()}, self._movers[index].arc.t0
+        end = steady_end(self._movers, states, since, t, until)
+        return {each: resting_arc(since, end, state, InHeap()) for each, state in states.items() if end > t}
 
     def _do(self, t: float, h: float, states: Mapping[int, State]) -> tuple[list[Group], float]:
         """Step the members by h s from t, or by less if they end with spins that need shorter steps: what touches in
@@ -392,8 +396,3 @@ class Heap:
             pairs = zip(ways, others, strict=True)
             met = (meeting(here.ball, at, there.ball, then) for at, then in pairs)
         return together <= self._fastest or all(each.closing <= self._fastest for each in met)
-
-
-def _thickness(body: Ball) -> float:
-    """The size of a ball or body across its long side, in m."""
-    return outline_of(body).mass_properties().area / (2.0 * body.radius)

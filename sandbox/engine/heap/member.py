@@ -12,8 +12,9 @@ from sandbox.engine.contact.touch import Obstacle
 from sandbox.engine.heap.pymunk_world import PymunkWorld
 from sandbox.engine.model.ball import kinetic
 from sandbox.engine.model.surface import Surface
-from sandbox.engine.motion.moving_ball import InHeap, MovingBall
+from sandbox.engine.motion.moving_ball import MovingBall
 from sandbox.engine.paths.arc import Arc
+from sandbox.engine.paths.phase import InHeap
 from sandbox.physics.integrators import Acceleration, State
 
 #: The attributes of a member that outlast a step.

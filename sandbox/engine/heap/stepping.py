@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from operator import attrgetter
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import pymunk
 
@@ -72,6 +72,16 @@ class Accounts(NamedTuple):
 
     gained: float  # J, negative, as contacts take energy
     most: dict[int, float]  # J, of kinetic energy, by index
+
+
+class HeapState(NamedTuple):
+    """The state of a heap between two steps; plain data."""
+
+    members: dict[int, dict[str, Any]]  # by index, in the order in which they are stepped
+    pressed: dict[frozenset[int], float]
+    resting: dict[int, set[int]]
+    numbers: tuple[float, float, float, float, int]
+    accounts: Accounts
 
 
 class Stepper:

@@ -17,8 +17,9 @@ from sandbox.engine.impact.impacts import Hit, Outcome
 from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.surface import ConstantBounce
 from sandbox.engine.model.tolerances import TOUCHING_GAP
-from sandbox.engine.motion.moving_ball import InCluster, MovingBall
+from sandbox.engine.motion.moving_ball import MovingBall
 from sandbox.engine.paths.arc import Arc
+from sandbox.engine.paths.phase import InCluster
 from sandbox.errors import RunError
 from sandbox.physics.hertz import contact_time
 from sandbox.physics.integrators import State

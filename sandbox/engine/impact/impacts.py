@@ -15,8 +15,9 @@ from sandbox.engine.model.ball import Ball, kinetic
 from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.surface import Bounce, Surface
 from sandbox.engine.model.tolerances import CLOSING, TOUCHING_GAP
-from sandbox.engine.motion.moving_ball import InCluster, MovingBall
+from sandbox.engine.motion.moving_ball import MovingBall
 from sandbox.engine.paths.arc import Arc, uniform_arc
+from sandbox.engine.paths.phase import InCluster
 from sandbox.engine.paths.run import Numerics
 from sandbox.errors import RunError
 from sandbox.physics.integrators import State

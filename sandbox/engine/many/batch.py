@@ -136,7 +136,8 @@ class Batch:
         arcs as columns, and where on them a slide or a roll ends, as u."""
         flying, counts = self._flying, self._record.counts
         h = np.minimum(flying.next_step, flying.setup.duration - flying.t)
-        h = np.where(flying.repeats, flying.next_step, allowed(flying.setup, flying.t, h, flying.state, known))
+        longest = allowed(flying.setup, flying.setup.balls[0], flying.t, h, flying.state, known)
+        h = np.where(flying.repeats, flying.next_step, longest)
         fits, following, after, last = self._control.attempt(
             self._step, flying.t, flying.state, known, h, flying.next_step, flying.setup.balls[0].radius
         )

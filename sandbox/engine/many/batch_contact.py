@@ -169,7 +169,8 @@ class BatchContacts:
         along = obstacles.outline.along(x, y)
         inside = clear & stays & (along > SEAM) & (along < obstacles.outline.length - SEAM)
         holds = inside & ((phase == Phase.SLIDING) | (phase == Phase.ROLLING))
-        rests = inside & ~hit & (phase == Phase.RESTING)
+        waits = flying.setup.balls[0].timing.depends  # a rest that may end is followed alone
+        rests = inside & ~hit & (phase == Phase.RESTING) & (not waits)
         return _NextMotion(shots, surface, hit, held, flies, holds, rests, state, phase, direction)
 
     def _leaves(self, lanes: np.ndarray, most: np.ndarray) -> np.ndarray:

@@ -8,8 +8,9 @@ import numpy as np
 
 from sandbox.engine.many.in_flight import InFlight
 from sandbox.engine.many.stacking import Stack
+from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.tolerances import ROUNDING
-from sandbox.engine.motion.forces_on_ball import acceleration_function, by_cause
+from sandbox.engine.motion.forces_on_ball import acceleration_function, by_cause, cause
 from sandbox.physics.integrators import AccelerationFunction
 
 
@@ -36,6 +37,40 @@ def accelerations(acceleration_at: AccelerationFunction, t: np.ndarray, state: n
         raise_if_ctrl_c(error)
         raise NotVectorizable from error
     return found
+
+
+def why_alone(setup: Setup) -> str:
+    """Return why shots of this kind run one by one, as a line that names the force or torque that does not take arrays;
+    "" if all take them, or there is another reason."""
+    if not setup.is_single_ball:
+        return ""
+    ball = setup.balls[0]
+    t, state = np.array([0.0, 0.5 * setup.duration]), np.array([[part, part] for part in setup.start_of(ball)], float)
+    arguments = (state[0], state[1]), (state[2], state[3]), state[4]
+    for term in (*ball.forces, *ball.torques):
+        try:
+            each = [term(float(at), *(_of(part, i) for part in arguments)) for i, at in enumerate(t)]
+        except Exception:
+            return ""  # each run reports it
+        try:
+            together = np.array([np.broadcast_to(part, 2) for part in _several(term(t, *arguments))]).T
+            if np.allclose(together, np.array([_several(one) for one in each]), ROUNDING, 0.0):
+                continue
+            said = "returns other values for them"
+        except Exception as error:
+            said = " ".join(f"{error}".split())
+        return f"{cause(term)} does not take arrays ({said:.80}), so its shots ran one by one"
+    return ""
+
+
+def _of(part: Any, place: int) -> Any:
+    """Return the float, or the pair of floats, of one shot."""
+    return tuple(float(each[place]) for each in part) if isinstance(part, tuple) else float(part[place])
+
+
+def _several(found: Any) -> tuple[Any, ...]:
+    """Return a force's components, or a torque."""
+    return tuple(found) if isinstance(found, tuple | list) else (found,)
 
 
 def check_forces(setups: Stack, flying: InFlight, lanes: np.ndarray, together: np.ndarray) -> None:

@@ -11,6 +11,7 @@ from sandbox.engine.model.shapes import Shape, Vector, disc
 from sandbox.engine.model.tolerances import ROUNDING
 from sandbox.physics.checks import check, short
 from sandbox.physics.of_ball import on_ball
+from sandbox.physics.timing import Timing, timing_of
 from sandbox.renamed import with_old_fields_named
 
 if TYPE_CHECKING:
@@ -28,7 +29,8 @@ DISC = 1 / 2
 class Force(Protocol):
     """Force on a ball in N, as (fx, fy). Time (s), components of position (m) and velocity (m/s), and the spin (rad/s,
     counter-clockwise) are floats, or arrays of shape (n,) when many shots fly at once. It must depend on nothing
-    else, since steps may be repeated.
+    else, since steps may be repeated: another ``Ball`` that it reads is where it started, and the world that steps it
+    may not be read. If it depends on time it may have ``time_scale`` and ``discontinuities`` (``physics/timing.py``).
 
     >>> from sandbox import Ball
     >>> def fan(t, position, velocity, spin):
@@ -75,6 +77,7 @@ class Ball:
     torques: Sequence[Torque] = ()
     loss: MassLoss | None = None  # ``mass`` is that at the start
     inertia: float = field(init=False, repr=False)  # kg m^2, at the start
+    timing: Timing = field(init=False, repr=False, compare=False)  # of its forces and torques
     rotates: ClassVar[bool] = False  # its angle matters, and is a part of its state
 
     @property
@@ -99,6 +102,7 @@ class Ball:
         for name in lists:
             terms = getattr(self, name)
             object.__setattr__(self, name, type(terms)(on_ball(term, self) for term in terms))
+        object.__setattr__(self, "timing", timing_of((*self.forces, *self.torques, self.loss)))
 
 
 @with_old_fields_named
@@ -163,6 +167,11 @@ class Body(Ball):
 def outline_of(ball: Ball) -> Shape:
     """The outline of a ball or body about its centre."""
     return ball.outline if isinstance(ball, Body) else disc(ball.radius)
+
+
+def thickness(ball: Ball) -> float:
+    """Return the size of a ball or body across its long side, in m."""
+    return outline_of(ball).mass_properties().area / (2.0 * ball.radius)
 
 
 def kinetic(ball: Ball, state: State, t: float = 0.0) -> float:

@@ -18,8 +18,9 @@ from sandbox.engine.model.setup_errors import failed
 from sandbox.engine.model.tolerances import PUSH
 from sandbox.engine.motion.event_kind import EventKind
 from sandbox.engine.motion.moving_ball import MovingBall
+from sandbox.engine.motion.rest import AHEAD, first_change
 from sandbox.engine.motion.sustained_contact import SustainedContact, rest_margin
-from sandbox.engine.paths.arc import Arc, crossing, resting_arc
+from sandbox.engine.paths.arc import Arc, resting_arc
 from sandbox.engine.paths.phase import Phase
 from sandbox.physics.integrators import Acceleration, State
 
@@ -78,13 +79,14 @@ class CarriedBall(MovingBall):
             arc = self._under(lambda t, state: contact.forces(ball, applied(t, state), state)[0], t, until)
             return self._cut_where_contact_changes(arc, contact, applied)
 
-        def holds(t: float, state: State) -> float:
-            return rest_margin(ball, state, contact, applied(t, state))
+        def holds(at: float) -> bool:
+            return rest_margin(ball, self.state, contact, applied(at, self.state)) >= 0.0
 
-        for test in range(1, _TESTS + 1):
-            arc = resting_arc(t, t + test / _TESTS * (until - t), self.state, contact)
-            if holds(arc.t1, self.state) < 0.0:
-                return resting_arc(t, crossing(arc, holds), self.state, contact), EventKind.LIFT_OFF
+        timing = ball.timing
+        until = min(until, t + AHEAD) if timing.depends else until
+        wakes = first_change(holds, t, until, min(timing.scale, (until - t) / _TESTS), timing.jumps)
+        if wakes is not None:
+            return resting_arc(t, wakes, self.state, contact), EventKind.WAKE
         return resting_arc(t, until, self.state, contact), EventKind.ARC_END
 
     def snap_to_contact(self, t: float, kind: EventKind) -> None:

@@ -23,6 +23,9 @@ class EventKind(Enum):
     GRIP_LOSS = auto()
     """It rolls and friction cannot keep it rolling: it slides from now on."""
 
+    WAKE = auto()
+    """It has rested, and its forces, which depend on time, move it from now on."""
+
     EDGE = auto()
     """It reaches the end of what it slides or rolls on."""
 

@@ -86,6 +86,27 @@ def force_error(
     return failed(t, ball.name, _wrong_term(ball, t, state) or otherwise)
 
 
+def refuse_unrepeatable(ball: Ball, t: float, state: State) -> None:
+    """Raise RunError for a force or torque of a scene's own that returns something else when it is called again."""
+    for term in (*ball.forces, *ball.torques):
+        if not type(term).__module__.startswith("sandbox."):
+            try:
+                wrong = _differing(term, t, _position(state), state[2:4], state[4])
+            except Exception:  # which the run meets, and reports
+                continue
+            if wrong is not None:
+                raise failed(t, ball.name, wrong)
+
+
+def _differing(term: Any, *arguments: Any) -> str | None:
+    """Describe a force or torque that returns something else when it is called again; None if it does not."""
+    first, again = (" ".join(repr(term(*arguments)).split()) for _ in range(2))
+    if first == again:
+        return None
+    rule = "it must depend on nothing but (t, position, velocity, spin)"
+    return f"{_name(term)}, called twice with the same, returned {first:.40} and {again:.40}: {rule}"
+
+
 def by_cause(terms: Sequence[Any], t: float, state: State) -> Iterator[tuple[str, Any]]:
     """The name and value of each force or torque: (fx, fy) in N, or N m."""
     arguments = _position(state), state[2:4], state[4]
@@ -100,7 +121,7 @@ def cause(term: object) -> str:
 
 
 def _wrong_term(ball: Ball, t: float, state: State) -> str | None:
-    """Describe the force or torque on a ball that does not return finite numbers; None if all do."""
+    """Describe the force or torque on a ball that does not return finite numbers, the same ones; None if all do."""
     arguments = _position(state), state[2:4], state[4]
     for term, parts in (*((force, 2) for force in ball.forces), *((torque, 0) for torque in ball.torques)):
         try:
@@ -111,6 +132,8 @@ def _wrong_term(ball: Ball, t: float, state: State) -> str | None:
             return f"{_rule(term)}: {error}"
         if not right:
             return f"{_rule(term)}, and returned {' '.join(repr(found).split()):.60}"
+        if (wrong := _differing(term, t, *arguments)) is not None:
+            return wrong
     return None
 
 

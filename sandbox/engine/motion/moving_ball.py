@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import hypot
-from typing import Any, NamedTuple, Self
+from typing import Any, Self
 
 from sandbox.engine.contact.driven import MovingObstacle
 from sandbox.engine.contact.surfaces import press, takeoff_speed
@@ -16,10 +16,10 @@ from sandbox.engine.contact.touch import Near, Obstacle, flush, touched
 from sandbox.engine.model.accuracy import Accuracy
 from sandbox.engine.model.ball import Ball
 from sandbox.engine.model.setup import Setup
-from sandbox.engine.model.shapes import Vector
-from sandbox.engine.model.tolerances import CLOSING, PUSH, STARTING, STILL, TOUCHING_GAP
+from sandbox.engine.model.tolerances import AT_DISCONTINUITY, CLOSING, PUSH, STARTING, STILL, TOUCHING_GAP
 from sandbox.engine.motion.event_kind import EventKind
 from sandbox.engine.motion.forces_on_ball import acceleration_function, force_error
+from sandbox.engine.motion.rest import rest_end
 from sandbox.engine.motion.step_control import StepControl, allowed, shortest
 from sandbox.engine.motion.sustained_contact import BECOMES, SustainedContact, motion_on, wedged
 from sandbox.engine.paths.arc import Arc, crossing, hermite_arc, resting_arc
@@ -31,53 +31,6 @@ _TOO_FAST = (
     "the velocity changes too fast for any step (down to {:.1e} s); look for a force that is not smooth, or raise "
     "accuracy.tolerance"
 )
-
-
-class InCluster(NamedTuple):
-    """Value of ``Arc.contact`` for a ball in a simulated contact with others: when that begins and ends, in s."""
-
-    start: float
-    end: float
-
-    @property
-    def phase(self) -> Phase:
-        return Phase.CLUSTER
-
-    @property
-    def surface(self) -> None:
-        return None
-
-    @property
-    def span(self) -> tuple[float, float]:
-        return self.start, self.end
-
-    @property
-    def drift(self) -> Vector:
-        return 0.0, 0.0
-
-
-class InHeap(NamedTuple):
-    """Value of ``Arc.contact`` for a ball in a heap: how fast position correction moves it along the arc, in m/s; that
-    is no part of its velocity."""
-
-    vx: float = 0.0
-    vy: float = 0.0
-
-    @property
-    def phase(self) -> Phase:
-        return Phase.HEAP
-
-    @property
-    def surface(self) -> None:
-        return None
-
-    @property
-    def span(self) -> None:
-        return None
-
-    @property
-    def drift(self) -> Vector:
-        return self.vx, self.vy
 
 
 class MovingBall:
@@ -236,13 +189,36 @@ class MovingBall:
 
         Raises RunError with the time, the ball and the quantity if the state is not finite or out of bounds.
         """
-        if self.contact is None:
-            return self._integrate(t, until, self._acceleration_at, self._step), EventKind.ARC_END
         contact, ball = self.contact, self.ball
+        if contact is None:
+            if ball.timing.depends and not any(self.state[2:5]) and not any(self.applied(t, self.state)):
+                arc, kind = self._rest(t, until)
+                if arc.t1 - t > AT_DISCONTINUITY * max(1.0, t):
+                    return arc, kind
+            return self._integrate(t, until, self._acceleration_at, self._step), EventKind.ARC_END
         if contact.phase is Phase.RESTING:
-            return resting_arc(t, until, self.state, contact), EventKind.ARC_END
+            return self._rest(t, until)
         arc = self._under(lambda at, state: contact.forces(ball, self._acceleration_at(at, state), state)[0], t, until)
-        return self._cut_where_contact_changes(arc, contact, self.applied)
+        arc, kind = self._cut_where_contact_changes(arc, contact, self.applied)
+        held_anew = contact.phase is Phase.PINNED and ball.timing.depends and arc.t1 < until
+        return arc, EventKind.EDGE if held_anew and kind is EventKind.ARC_END else kind
+
+    def _rest(self, t: float, until: float) -> tuple[Arc, EventKind]:
+        """A rest from t, as far as it is known to last."""
+        state = self.state
+        end, wakes = rest_end(self.ball.timing, lambda at: self.applied(at, state), self._rests_under, t, until)
+        return resting_arc(t, end, state, self.contact), EventKind.WAKE if wakes else EventKind.ARC_END
+
+    def _rests_under(self, t: float, applied: Acceleration) -> bool:
+        """Return True if it would come to rest where it is, under this acceleration at t."""
+        if self.contact is None:
+            return not any(applied)
+        before = self.state, self.contact, self._known
+        self.contact = None
+        self._stay(self.near(t, *self.state[:2]), applied, False, self._accuracy.settle, leaves=PUSH)
+        phase = Phase.FREE if self.contact is None else self.contact.phase
+        self.state, self.contact, self._known = before
+        return phase is Phase.RESTING
 
     def _under(self, acceleration_at: AccelerationFunction, t: float, until: float) -> Arc:
         """A step under accelerations that are not those of the ball in flight."""
@@ -257,7 +233,7 @@ class MovingBall:
             acceleration = acceleration_at(t, state)
             self._numerics.force_evaluations += 1
         wanted = self.next_step
-        h = allowed(self._setup, t, min(wanted, until - t), state, acceleration)
+        h = allowed(self._setup, self.ball, t, min(wanted, until - t), state, acceleration)
         if contact is not None:
             h = min(h, contact.longest(state))
         ball, control = self.ball, self._control
@@ -327,8 +303,11 @@ class MovingBall:
         if near:
             self._stay(near, self.applied(t, self.state), slips, height)
 
-    def _stay(self, near: Sequence[Near], applied: Acceleration, slips: bool, height: float) -> None:
-        """Find the contact that lasts among the surfaces that are touched."""
+    def _stay(
+        self, near: Sequence[Near], applied: Acceleration, slips: bool, height: float, leaves: float = -PUSH
+    ) -> None:
+        """Find the contact that lasts among the surfaces that are touched; a second one holds the ball up to an
+        acceleration away from it, in m/s^2, at which it ``leaves``."""
         x, y, vx, vy, spin = self.state
         kept: list[Near] = []
         hardest = 0.0
@@ -352,10 +331,16 @@ class MovingBall:
             if any(vx * other.nx + vy * other.ny < -STILL and not flush(other, first) for _, other in near):
                 return
         self.state = (x, y, vx, vy, spin)
-        self._hold(kept, near, applied, slips, height)
+        self._hold(kept, near, applied, slips, height, leaves)
 
     def _hold(
-        self, kept: Sequence[Near], near: Sequence[Near], applied: Acceleration, slips: bool, height: float
+        self,
+        kept: Sequence[Near],
+        near: Sequence[Near],
+        applied: Acceleration,
+        slips: bool,
+        height: float,
+        leaves: float,
     ) -> None:
         """Choose the contact among the surfaces that the ball stays on; a ball that ``slips`` has lost its grip.
 
@@ -379,7 +364,7 @@ class MovingBall:
                 (obstacle, other)
                 for obstacle, other in near
                 if not flush(other, contact.touching)
-                and (by := -(ax * other.nx + ay * other.ny)) > PUSH
+                and (by := -(ax * other.nx + ay * other.ny)) > -leaves
                 and vx * other.nx + vy * other.ny <= takeoff_speed(by, max(height, obstacle.surface.lowest_bounce))
             ]
             if not against:

@@ -12,7 +12,7 @@ from sandbox.engine.model.setup_errors import failed
 from sandbox.engine.motion.event_kind import EventKind
 from sandbox.engine.motion.leaning import Leaning
 from sandbox.engine.motion.moving_ball import MovingBall
-from sandbox.engine.paths.arc import Arc, crossing, resting_arc
+from sandbox.engine.paths.arc import Arc, crossing
 from sandbox.engine.paths.bernstein import downward_crossings
 from sandbox.physics.integrators import Acceleration, AccelerationFunction, State
 from sandbox.physics.plane import Applied, Plane, PlaneMode, PlanePhase, strip
@@ -68,7 +68,7 @@ class OnPlane(MovingBall):
         phase = self._phase_from(law, t)
         if phase.mode is PlaneMode.RESTING:
             self._numerics.steps += 1
-            return resting_arc(t, until, state, self.contact), EventKind.ARC_END
+            return self._rest(t, until)
         if phase.acceleration_at is None:
             h = min(phase.duration, until - t)
             arc = self._in_closed_form(law, phase, t, h)
@@ -88,6 +88,14 @@ class OnPlane(MovingBall):
             arc.end = (*arc.state(arc.t1)[:4], 0.0, *arc.state(arc.t1)[5:])
         arc = self._while_it_lasts(phase, arc)
         return (arc, EventKind.ARC_END) if self.contact is None else self._cut_where_it_leaves(law, arc, self.contact)
+
+    def applied(self, t: float, state: State) -> Acceleration:
+        """Acceleration from the applied forces, without the plane's; m/s^2, rad/s^2. Counts evaluations."""
+        return super().applied(t, state[:5])
+
+    def _rests_under(self, t: float, applied: Acceleration) -> bool:
+        law, _, _ = strip(self._setup.plane_of(self.ball.name), self.state)
+        return self._phase_from(law, t).mode is PlaneMode.RESTING
 
     def _phase_from(self, law: Plane, t: float) -> PlanePhase:
         """The phase that starts at t under the plane's law, and under the forces on the ball if there are any."""

@@ -7,6 +7,7 @@ from math import inf
 from typing import Any
 
 from sandbox.engine.model.accuracy import Accuracy
+from sandbox.engine.model.ball import Ball
 from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.tolerances import AT_DISCONTINUITY, ROUNDING, SHORTEST_STEP, TINY
 from sandbox.physics.elementwise import anywhere, clip, maximum, minimum, smallest, stacked, where
@@ -22,8 +23,10 @@ SPIN_WEIGHT = 0.1  # s
 #: First step tried under error control; it shrinks by 5 until the error fits.
 FIRST_STEP = 0.05  # s
 
-#: Longest step, so that forces that vary along the path are evaluated several times a second.
-LONGEST = 0.5  # s
+#: Longest step, so that forces that vary along the path are evaluated several times a second. It may be longer, up to a
+#: share of the time so far, while a ball moves by no more than NEARBY; and FAR where nothing acts, for rounding's sake.
+LONGEST, LONGER_SHARE = 0.5, 0.1  # s, 1
+NEARBY, FAR = 0.01, 100.0  # m
 
 #: Ratio of the next step to the last: a safety factor, the bounds, and the ratio after an error that is not finite.
 SAFETY, SHORTER, LONGER, AFTER_NONFINITE = 0.9, 0.2, 5.0, 0.1
@@ -95,11 +98,16 @@ def shortest(t: Any) -> Any:
     return SHORTEST_STEP * maximum(t, 1.0)
 
 
-def allowed(setup: Setup, t: Any, h: Any, state: State, acceleration: Acceleration) -> Any:
+def allowed(setup: Setup, ball: Ball, t: Any, h: Any, state: State, acceleration: Acceleration) -> Any:
     """Return a step from t of h s or less: not across a discontinuity or a region's border, where it would be rejected,
-    or lose its order; and inside a region no longer than that allows."""
-    h = minimum(h, LONGEST)
-    for at in setup.discontinuities:
+    or lose its order; and no longer than forces that depend on time, or a region, allow."""
+    if anywhere(h > LONGEST):
+        calm = minimum(_time_nearby(state, acceleration), LONGER_SHARE * t)
+        h = minimum(h, maximum(calm, LONGEST))
+    timing = ball.timing
+    if timing.depends:
+        h = minimum(h, timing.scale)
+    for at in (*setup.discontinuities, *timing.jumps):
         room = at - t
         h = where((room > AT_DISCONTINUITY) & (room < h), room, h)
     for region in setup.force_regions:
@@ -127,6 +135,13 @@ def allowed(setup: Setup, t: Any, h: Any, state: State, acceleration: Accelerati
     return h
 
 
+def _time_nearby(state: State, acceleration: Acceleration) -> Any:
+    """Return a time in s in which it moves no farther than NEARBY at a constant acceleration; FAR without any."""
+    speed, change = abs(state[2]) + abs(state[3]), abs(acceleration[0]) + abs(acceleration[1])
+    reach = where(change == 0.0, FAR, NEARBY)
+    return minimum(0.5 * reach / (speed + TINY), (reach / (change + TINY)) ** 0.5)
+
+
 def _time_to_travel(distance: Any, speed: Any, change: Any, soonest: Any) -> Any:
     """Return the first time in s after the ``soonest`` at which it has travelled this ``distance`` (m) at a constant
     acceleration; inf if it never has."""
@@ -142,8 +157,9 @@ def stiff(
 ) -> Any:
     """Return True if a fixed step is too long for forces that depend on velocity: in it they change by more than
     ``limit`` times the change of velocity, over h. A force that starts on a ball at rest, as a thrust, is not."""
-    pulled = abs(before[2]) + abs(before[3]) + abs(acceleration[0]) + abs(acceleration[1])
+    pulled, follows = (abs(each[0]) + abs(each[1]) for each in (acceleration, following))
+    starts = (abs(before[2]) + abs(before[3]) == 0.0) & (pulled <= JUMP * follows)
     change = h * (abs(following[0] - acceleration[0]) + abs(following[1] - acceleration[1]))
     gain = abs(after[2] - before[2]) + abs(after[3] - before[3])
     speed = maximum(abs(before[2]) + abs(before[3]), abs(after[2]) + abs(after[3]))
-    return ((change <= limit * gain) | (change <= JUMP * speed) | (pulled == 0.0)) ^ True
+    return ((change <= limit * gain) | (change <= JUMP * speed) | starts) ^ True

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 from sandbox.engine.model.shapes import Vector
 from sandbox.engine.model.surface import Surface
@@ -74,3 +74,50 @@ class SetByHand:
     @property
     def drift(self) -> Vector:
         return 0.0, 0.0
+
+
+class InCluster(NamedTuple):
+    """Value of ``Arc.contact`` for a ball in a simulated contact with others: when that begins and ends, in s."""
+
+    start: float
+    end: float
+
+    @property
+    def phase(self) -> Phase:
+        return Phase.CLUSTER
+
+    @property
+    def surface(self) -> None:
+        return None
+
+    @property
+    def span(self) -> tuple[float, float]:
+        return self.start, self.end
+
+    @property
+    def drift(self) -> Vector:
+        return 0.0, 0.0
+
+
+class InHeap(NamedTuple):
+    """Value of ``Arc.contact`` for a ball in a heap: how fast position correction moves it along the arc, in m/s; that
+    is no part of its velocity."""
+
+    vx: float = 0.0
+    vy: float = 0.0
+
+    @property
+    def phase(self) -> Phase:
+        return Phase.HEAP
+
+    @property
+    def surface(self) -> None:
+        return None
+
+    @property
+    def span(self) -> None:
+        return None
+
+    @property
+    def drift(self) -> Vector:
+        return self.vx, self.vy

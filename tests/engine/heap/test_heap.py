@@ -21,7 +21,7 @@ from sandbox.engine.model.ball import Body as Outlined
 from sandbox.engine.model.setup import ContactModel, Setup
 from sandbox.engine.model.shapes import Ellipse, box
 from sandbox.engine.model.surface import Bounce, ConstantBounce, Segment, Surface
-from sandbox.engine.motion.moving_ball import InCluster, InHeap
+from sandbox.engine.paths.phase import InCluster, InHeap
 from sandbox.errors import RunError
 from sandbox.physics.forces import Gravity
 from tests.engine.contact_law import by_contact_law
