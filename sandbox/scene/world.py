@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import pickle
-from collections.abc import Mapping
-from math import isfinite
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from math import isfinite, nextafter
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, NamedTuple, Unpack
@@ -17,12 +18,12 @@ from sandbox.engine.model.event import Event
 from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.setup_errors import setup_errors_named
 from sandbox.engine.paths.run import Run, State
-from sandbox.errors import RequestError
+from sandbox.errors import RequestError, RunError
 from sandbox.scene.scene import Scene, as_scene
 from sandbox.scene.scene_run import SceneRun
 
 #: The first item of a save; another number where its form changes.
-_FORM = "sandbox world 1"
+_FORM = "sandbox world 2"
 
 
 class _Saved(NamedTuple):
@@ -35,6 +36,7 @@ class _Saved(NamedTuple):
     t: float
     events: list[Event]
     unreported: list[Event]
+    failed: str
 
 
 class World:
@@ -57,11 +59,25 @@ class World:
     when everything rests: then time goes on, and ``apply`` may set something in motion again.
     """
 
-    def __init__(self, setup_or_scene: Setup | Scene | str | Path, accuracy: Accuracy | str | None = None) -> None:
-        """It starts at t = 0. ``accuracy`` is a level's name or an Accuracy; by default that of the scene, and
-        "balanced" for a setup."""
-        scene = None if isinstance(setup_or_scene, Setup) else as_scene(setup_or_scene)
-        setup = setup_or_scene if isinstance(setup_or_scene, Setup) else as_scene(setup_or_scene).build()
+    def __init__(
+        self,
+        source: Setup | Scene | str | Path | Run,
+        accuracy: Accuracy | str | None = None,
+        *,
+        t: float | None = None,
+    ) -> None:
+        """It starts at t = 0 with a setup or a scene; with a run where that has ended, or at a time ``t`` in s of it.
+
+        ``accuracy`` is a level's name or an Accuracy; by default that of the scene, and "balanced" for a setup. A run
+        keeps its own.
+        """
+        if isinstance(source, Run):
+            self._continue(source, accuracy, t)
+            return
+        if t is not None:
+            raise RequestError(f"t = {t!r}: only the world of a run starts later than at 0 s")
+        scene = None if isinstance(source, Setup) else as_scene(source)
+        setup = source if isinstance(source, Setup) else as_scene(source).build()
         if accuracy is None:
             accuracy = resolve() if scene is None else resolve(**scene.parameters.accuracy.model_dump())
         accuracy = resolve(level=accuracy) if isinstance(accuracy, str) else accuracy
@@ -69,39 +85,99 @@ class World:
             raise RequestError(
                 'a world needs accuracy.method = "exact": the plain method cannot be stopped and changed'
             )
-        self._scene = scene
-        self._built = setup  # from the parameters of the scene
-        self._t = 0.0  # s
-        self._events: list[Event] = []
-        self._unreported: list[Event] = []  # of contacts that last beyond the present
         with setup_errors_named():
-            self._simulation = LiveSimulation(setup, accuracy)
-            self._simulation.begin()
-        self._seen = 0  # events of the simulation
+            simulation = LiveSimulation(setup, accuracy)
+            simulation.begin()
+        self._stand(simulation, 0.0, scene, setup)
+        self._seen = 0
+
+    def _continue(self, run: Run, accuracy: Accuracy | str | None, t: float | None) -> None:
+        """Stand at a time of a run."""
+        if accuracy is not None:
+            raise RequestError("accuracy: the world of a run has that of the run")
+        if not isinstance(run.record, Record):
+            raise RequestError("this run cannot go on: it was read from a file, or computed by the plain method")
+        t = run.duration if t is None else t
+        if not (isinstance(t, int | float) and 0.0 <= t <= run.duration):
+            raise RequestError(f"t = {t!r}: the run is from 0 to {run.duration:.12g} s")
+        scene = run.scene if isinstance(run, SceneRun) else None
+        with setup_errors_named():
+            self._stand(run.record.at(t), float(t), scene, run.setup)
+
+    def _stand(self, simulation: LiveSimulation, t: float, scene: Scene | None, built: Setup) -> None:
+        """Be this simulation, at t in s."""
+        noted = simulation.noted_since(0)
+        self._stepping, self._failed = False, ""  # why it cannot go on before something is changed
+        self._simulation, self._t, self._scene = simulation, t, scene
+        self._built = built  # from the parameters of the scene
+        self._seen = len(noted)  # events of the simulation
+        self._events: list[Event] = []
+        self._unreported = [event for event in noted if event.t > t]  # of contacts that last beyond the present
+
+    @property
+    def _live(self) -> LiveSimulation:
+        """The simulation. Raises RunError for a force or law that reads the world that steps it."""
+        self._refuse_inside()
+        return self._simulation
+
+    def _refuse_inside(self) -> None:
+        """Raise RunError inside a step, where nothing but the step's forces and laws can come from."""
+        if self._stepping:
+            raise RunError(
+                "a force, law or condition of this world reads it while it is stepped, when its state is that of "
+                "before: it may depend on what it is called with, and on nothing else"
+            )
+
+    @contextmanager
+    def _going_on(self) -> Iterator[LiveSimulation]:
+        """Inside, the simulation goes on or is changed. Where that fails this world goes back to the last state that
+        was true, unless a change was refused, which has changed nothing."""
+        simulation = self._live
+        changes = len(simulation.record.changes)
+        self._stepping = True
+        try:
+            with setup_errors_named():
+                yield simulation
+        except BaseException as error:
+            if not isinstance(error, RequestError) or len(simulation.record.changes) > changes:
+                self._go_back(changes)
+            raise
+        finally:
+            self._stepping = False
+
+    def _go_back(self, changes: int) -> None:
+        """Stand where the change after the first ``changes`` was made; or, if there is none, just before the event at
+        which the simulation failed."""
+        failed = self._simulation
+        at = self._t if len(failed.record.changes) > changes else max(self._t, nextafter(failed.end, 0.0))
+        del failed.record.changes[changes:]
+        self._simulation = failed.record.at(at)
+        self._arrive(at)
 
     def __repr__(self) -> str:
         what = "a setup" if self._scene is None else self._scene.title
-        return f"<World of {what}: t = {self._t:.6g} s, {self.ended or 'going on'}>"
+        return f"<World of {what}: t = {self._t:.6g} s, {self._simulation.ended or 'going on'}>"
 
     @property
     def t(self) -> float:
         """The time in s."""
+        self._refuse_inside()
         return self._t
 
     @property
     def ended(self) -> str:
         """The way it has ended: "until" or "duration"; "rest" while nothing moves, "" while something does."""
-        return self._simulation.ended
+        return self._live.ended
 
     @property
     def state(self) -> Mapping[str, State]:
         """The states of all balls and bodies now, by name: x, y in m, vx, vy in m/s, spin in rad/s. Those that were
         caught or taken out are not among them."""
-        return MappingProxyType({name: State(*state[:5]) for name, state in self._simulation.states(self._t).items()})
+        return MappingProxyType({name: State(*state[:5]) for name, state in self._live.states(self._t).items()})
 
     def angle(self, body: str) -> float:
         """Return the angle in rad at which a body is now, counter-clockwise."""
-        found = self._simulation.states(self._t).get(body, ())
+        found = self._live.states(self._t).get(body, ())
         if len(found) != 6:
             raise RequestError(f"there is no body {body!r} now; a ball has no angle")
         return found[5]
@@ -109,20 +185,35 @@ class World:
     @property
     def events(self) -> list[Event]:
         """The events of the last step, in order of time, and those that ``apply`` has caused before it."""
+        self._refuse_inside()
         return list(self._events)
 
     def step(self, dt: float) -> None:
-        """Go on by dt in s. Raises RunError if the simulation cannot go on, such as where a ball leaves its bounds."""
+        """Go on by dt in s.
+
+        Raises RunError if the simulation cannot go on, such as where a ball leaves its bounds: then the world stands
+        just before that, and goes on only after something is changed.
+        """
         if not (isinstance(dt, int | float) and isfinite(dt) and dt >= 0.0):
             raise RequestError(f"step of {dt} s: must be a finite number, and not negative")
-        simulation, t = self._simulation, self._t + float(dt)
-        with setup_errors_named():
-            simulation.advance(t)
-        self._t = min(t, simulation.end) if simulation.ended in ("until", "duration") else t
-        new = simulation.noted_since(self._seen)
+        if self._failed:
+            raise RunError(f"{self._failed}; this world goes on when something is changed (apply)")
+        t = self._t + float(dt)
+        try:
+            with self._going_on() as simulation:
+                simulation.advance(t)
+        except Exception as error:
+            self._failed = str(error)
+            raise
+        self._arrive(min(t, simulation.end) if simulation.ended in ("until", "duration") else t)
+
+    def _arrive(self, t: float) -> None:
+        """Be at t in s, up to which the simulation has gone on."""
+        self._t = t
+        new = self._simulation.noted_since(self._seen)
         self._seen += len(new)
         waiting = sorted([*self._unreported, *new], key=lambda event: event.t)
-        self._events = [event for event in waiting if event.t <= self._t]
+        self._events = [event for event in waiting if event.t <= t]
         self._unreported = waiting[len(self._events) :]
 
     def apply(self, parameters: Mapping[str, Any] | None = None, /, **changes: Unpack[Changes]) -> None:
@@ -140,33 +231,44 @@ class World:
             built = scene.build()
             given = changes_between(self._built, built)
         given.update(changes)
-        with setup_errors_named():
-            self._simulation.change(self._t, given)
-        self._scene, self._built = scene, built
+        with self._going_on() as simulation:
+            simulation.change(self._t, given)
+        self._scene, self._built, self._failed = scene, built, ""
 
     def run(self) -> Run:
         """Return the run so far, which can be drawn and asked as any other; that of a scene has a result."""
-        run = self._simulation.so_far(self._t)
+        run = self._live.so_far(self._t)
         return run if self._scene is None else SceneRun.of(run, self._scene, self._scene.result(run))
 
-    def save(self) -> bytes:
-        """Return all that ``restore`` needs to go on exactly from here, in this process or in another.
+    def save(self, history: bool = True) -> bytes:
+        """Return all that ``restore`` needs to go on exactly from here, in this process or in another; without
+        ``history`` not the paths and events so far, so that saves do not grow with time.
 
         Its forces, laws and ``until`` must be objects of classes or functions that a module has, as is usual.
         """
-        record, unreported = self._simulation.record, [*self._unreported, *self._simulation.noted_since(self._seen)]
-        checkpoints = [each.alone() for each in record.checkpoints if each.t <= self._t][-1:]
-        saved = _Saved(_FORM, self._scene, record, checkpoints, self._t, self._events, unreported)
+        simulation = self._live
+        unreported = [*self._unreported, *simulation.noted_since(self._seen)]
+        record = simulation.record.saved_at(self._t, history)
+        saved = _Saved(_FORM, self._scene, record, record.checkpoints, self._t, self._events, unreported, self._failed)
         try:
             return pickle.dumps(tuple(saved))
         except (pickle.PicklingError, AttributeError, TypeError) as error:
             said = f"this world cannot be saved: {error}"
             raise RequestError(f"{said}; forces, laws and until must be of classes or functions of a module") from None
 
-    def restore(self, saved: bytes) -> None:
-        """Go back, or on, to where ``saved`` was made, whatever this world was.
+    @classmethod
+    def restore(cls, saved: bytes) -> World:
+        """Return the world that was saved, where it stood.
 
         A save is trusted like a program: reading it can run any code, so restore none that comes from somebody else.
+
+        >>> from sandbox import Ball, Gravity, Setup, World
+        >>> world = World(Setup([Ball("ball", 0.6, 0.12, (0, 2), forces=[Gravity(9.81)])]))
+        >>> world.step(0.5)
+        >>> saved = world.save()
+        >>> world.step(0.5)
+        >>> World.restore(saved).t  # s
+        0.5
         """
         try:
             found = _Saved(*pickle.loads(saved))
@@ -175,8 +277,10 @@ class World:
         except Exception as error:
             raise RequestError(f"this is no save of a world that can be restored here: {error}") from None
         found.record.checkpoints = found.checkpoints
+        world = cls.__new__(cls)
         with setup_errors_named():
-            self._simulation = found.record.at(found.t)
-        self._scene, self._t, self._events, self._unreported = found.scene, found.t, found.events, found.unreported
-        self._built = self._simulation.record.setup if found.scene is None else found.scene.build()
-        self._seen = len(self._simulation.noted_since(0))
+            simulation = found.record.at(found.t)
+        built = simulation.record.setup if found.scene is None else found.scene.build()
+        world._stand(simulation, found.t, found.scene, built)
+        world._events, world._unreported, world._failed = found.events, found.unreported, found.failed
+        return world

@@ -12,7 +12,21 @@ from pathlib import Path
 import pytest
 
 import sandbox
-from sandbox import Ball, InTurn, Moving, RequestError, Segment, Setup, Surface, Touches, Turning, World
+from sandbox import (
+    Ball,
+    Bounds,
+    InTurn,
+    Moving,
+    RequestError,
+    RunError,
+    Segment,
+    Setup,
+    Surface,
+    Touches,
+    Turning,
+    World,
+)
+from sandbox.engine.model.accuracy import resolve
 from sandbox.scene.finding import listings
 from tests.engine.test_fork import FLOOR, SCENES, ball, heap_of_three
 
@@ -81,11 +95,10 @@ def test_a_world_is_the_run_that_is_forked():
 
 RESTORED = """
 import json, pickle, sys
-from sandbox import Ball, Setup, World
+from sandbox import World
 found = []
 for saved, until in pickle.load(open(sys.argv[1], "rb")):
-    world = World(Setup([Ball("ball", 1.0, 1.0, (0.0, 0.0))], duration=1.0))
-    world.restore(saved)
+    world = World.restore(saved)
     events = []
     while world.t < until and world.ended not in ("until", "duration"):
         world.step(until - world.t)
@@ -107,7 +120,7 @@ def test_each_scene_goes_on_exactly_in_another_process(tmp_path):
             events = stepped(world, until, 60)
             saves.append((saved, until))
             expected.append([world.t, events, dict(world.state)])
-            world.restore(saved)
+            world = World.restore(saved)
     file = tmp_path / "saves"
     file.write_bytes(pickle.dumps(saves))
     done = subprocess.run([sys.executable, "-c", RESTORED, str(file)], cwd=ROOT, capture_output=True, text=True)
@@ -125,8 +138,7 @@ def test_a_changed_world_is_restored_with_its_changes():
     world.step(0.2)
     saved = world.save()
     events = stepped(world, 2.0, 60)
-    other = World("golf")
-    other.restore(saved)
+    other = World.restore(saved)
     assert (other.t, other.state.keys()) == (0.7, {"ball", "two"})
     assert stepped(other, 2.0, 144) == events
     assert other.state == world.state
@@ -191,14 +203,108 @@ def test_an_invalid_change_changes_nothing():
     assert (world.state, world.events) == (other.state, other.events)
 
 
+def runaway():
+    """A ball that leaves its bounds after 1 s."""
+    return Setup([Ball("ball", 1.0, 0.1, (0.0, 0.0), (10.0, 0.0))], bounds=Bounds(right=10.0), duration=60.0)
+
+
+def test_after_an_error_it_stands_and_refuses_to_go_on():
+    world = World(runaway())
+    with pytest.raises(RunError, match="outside the world") as first:
+        stepped(world, 60.0, 10)
+    stands, t = world.state["ball"], world.t
+    assert stands.x == pytest.approx(10.0 * t)
+    assert stands.x <= 10.0
+    with pytest.raises(RunError, match=re.escape(str(first.value)) + r"; this world goes on when something is changed"):
+        world.step(0.1)
+    assert (world.t, world.state["ball"], world.run().duration) == (t, stands, t)
+    restored = World.restore(world.save())
+    for each in (world, restored):
+        with pytest.raises(RunError, match="goes on when"):
+            each.step(0.1)
+        each.apply(velocity=(-10.0, 0.0))
+        each.step(0.5)
+        assert each.state["ball"].x == pytest.approx(stands.x - 5.0)
+
+
+def test_a_change_that_fails_changes_nothing():
+    """With a force that fails at once: the world is as before, and goes on."""
+    world = World(Setup([ball()], [FLOOR]))
+    world.step(0.3)
+    before = world.state["ball"]
+    with pytest.raises(RunError, match="must return"):
+        world.apply(forces=[lambda t, position, velocity, spin: ("much", 0.0)])
+    assert world.state["ball"] == before
+    world.step(0.1)
+    unchanged = sandbox.simulate(Setup([ball()], [FLOOR])).state("ball", 0.4)
+    assert world.state["ball"] == pytest.approx(unchanged, abs=1e-12)
+
+
+def test_a_force_must_not_read_the_world_that_steps_it():
+    worlds = []
+
+    def drawn(t, position, velocity, spin):
+        return (worlds[0].state["two"].x if worlds else 0.0), 0.0
+
+    worlds.append(World(Setup([ball(), ball("two", (5.0, 3.0))], [FLOOR])))
+    with pytest.raises(RunError, match="reads it while it is stepped"):
+        worlds[0].apply(forces={"ball": [drawn]})
+
+
+def test_a_world_goes_on_from_a_run():
+    run = sandbox.simulate("golf")
+    world = World(run, t=2.0)
+    world.apply({"air.wind": [-15.0, 0.0]})
+    world.step(1.0)
+    assert world.state["ball"] == run.fork(2.0, {"air.wind": [-15.0, 0.0]}).state("ball", 3.0)
+    ended = World(run)
+    assert (ended.t, ended.ended, ended.events) == (run.duration, run.ended, [])
+    ended.apply(velocity=(0.0, 10.0))
+    ended.step(0.5)
+    assert ended.state["ball"].y > 4.0 * ended.run().state("ball", run.duration).y
+    with pytest.raises(RequestError, match="the run is from 0 to"):
+        World(run, t=1e3)
+    plain = sandbox.simulate(Setup([ball()], duration=0.1), resolve(method="plain"))
+    with pytest.raises(RequestError, match="cannot go on"):
+        World(plain)
+
+
+def test_a_save_without_history_does_not_grow():
+    floor = Surface("floor", Segment((-99.0, 0.0), (99.0, 0.0)), 1.0, 0.1)
+    world, sizes = World(Setup([ball()], [floor], duration=600.0)), []
+    for _ in range(4):
+        for _ in range(50):
+            world.step(0.2)
+        sizes.append(len(world.save(history=False)))
+    assert max(sizes) < 1.1 * sizes[1]
+    assert len(world.save()) > 2 * len(world.save(history=False))
+    restored = World.restore(world.save(history=False))
+    for each in (world, restored):
+        each.step(3.0)
+    assert (restored.state, restored.events) == (world.state, world.events)
+    assert restored.run().state("ball", world.t) == pytest.approx(world.state["ball"], abs=1e-12)
+
+
+def test_a_save_without_history_keeps_what_until_counts():
+    ends = Setup([ball()], [Surface("floor", Segment((-9.0, 0.0), (9.0, 0.0)), 1.0, 0.0)], until=Touches("floor", 40))
+    world = World(ends)
+    while len(world.run().events) < 30:
+        world.step(0.5)
+    restored = World.restore(world.save(history=False))
+    for each in (world, restored):
+        each.step(60.0)
+    assert (restored.ended, restored.t) == (world.ended, world.t)
+    assert world.ended == "until"
+
+
 def test_what_cannot_be_saved_or_restored_is_said():
     world = World(Setup([ball()], [FLOOR], until=lambda event: False))
     with pytest.raises(RequestError, match=r"this world cannot be saved: .*lambda"):
         world.save()
     with pytest.raises(RequestError, match="this is no save of a world"):
-        world.restore(b"a game")
+        World.restore(b"a game")
     with pytest.raises(RequestError, match="this is no save of a world"):
-        world.restore(pickle.dumps(3))
+        World.restore(pickle.dumps(3))
     with pytest.raises(RequestError, match=r'a world needs accuracy\.method = "exact"'):
         World(sandbox.load("golf", {"accuracy.method": "plain"}))
 
@@ -223,7 +329,7 @@ def test_what_the_docs_show_works(tmp_path, monkeypatch, capsys):
     for block in BLOCKS:
         exec(compile(block, "docs/world.md", "exec"), {})
         said.append(capsys.readouterr().out)
-    _, dribble, rally, juggler = said
+    _, _, dribble, rally, juggler = said
     assert re.match(r"\d+ bounces, \d+ pushes", dribble)
     assert len(rally.splitlines()) == 6
     assert "[]" in juggler
@@ -238,8 +344,7 @@ def test_a_world_of_a_scene_takes_parameters():
     world.apply({"air.wind": [-15.0, 0.0]})
     world.step(1.0)
     assert world.state["ball"] == sandbox.simulate("golf").fork(1.0, {"air.wind": [-15.0, 0.0]}).state("ball", 2.0)
-    restored = World("golf")
-    restored.restore(world.save())
+    restored = World.restore(world.save())
     for each in (world, restored):
         each.step(0.5)
     assert restored.run().scene.parameters.air.wind == (-15.0, 0.0)  # type: ignore[attr-defined]
