@@ -1,7 +1,8 @@
 """Rockets from the side: up from a rail, or out of a tube at a target; how high, how far, how fast.
 
 Models: thrust by a measured curve; mass that falls as propellant burns; gravity; drag with one coefficient, in air that
-thins on the way up; wind, into which the nose turns; a rail without friction that holds the rocket at first.
+thins on the way up; wind, into which the nose turns; a pad on which the rocket stands until its thrust exceeds its
+weight, and a rail without friction that guides it at first.
 Leaves out: swinging about the direction of flight and what it costs; the speed of sound, so it holds below Mach 0.8;
 less drag while the motor burns; parachutes.
 """
@@ -90,6 +91,9 @@ class Parameters(SceneParameters):
     air: Air = group(..., "the air")
 
 
+#: Height in m above the pad up to which a rocket has not left it.
+LIFTED = 1e-6
+
 CONTROLS = Controls(
     ball="rocket",
     speed="motor.strength",
@@ -124,11 +128,16 @@ def build(parameters: Parameters) -> Setup:
     forces: list[Force] = [weight, *map(Thinning, forces_in_flight(rocket, parameters.air)), thrust]
     flying = Ball("rocket", rocket.mass, rocket.radius, start, launch.velocity, forces=forces, loss=motor)
     side = where(launch.angle <= 90.0, rocket.radius, -rocket.radius)
-    reach = -0.05, launch.rail  # m; it slides back until its thrust exceeds its weight
-    foot, tip = ((side * ey + along * ex, launch.height - side * ex + along * ey) for along in reach)
-    rail = Surface("rail", Segment(foot, tip), 0.0, 0.0)
+
+    def at(along: float, aside: float) -> tuple[float, float]:
+        """A place along the rail from the start, and towards it, in m."""
+        return aside * ey + along * ex, launch.height - aside * ex + along * ey
+
+    foot = at(-rocket.radius, side)
+    rail = Surface("rail", Segment(foot, at(launch.rail, side)), 0.0, 0.0)
+    pad = Surface("pad", Segment(foot, at(-rocket.radius, -2.0 * side)), 0.0, 1.0, rolling_resistance=1.0)  # assumed
     ground = Surface("ground", level(), 0.0, 0.5)
-    return Setup([flying], [ground, rail], parameters.duration, Touches("ground"), discontinuities=motor.times)
+    return Setup([flying], [ground, rail, pad], parameters.duration, Touches("ground"))
 
 
 def top_speed(run: Run, parameters: Parameters) -> float:
@@ -158,5 +167,8 @@ FACTS = (
 
 def verdict(run: SceneRun, parameters: Parameters) -> str:
     """Return the outcome in a sentence."""
+    if not parameters.launch.speed and run.result["apex"] <= parameters.launch.height + LIFTED:
+        motor, weight = motor_of(parameters), parameters.ball.mass * parameters.gravity
+        return f"its motor never lifts it: {max(motor.thrusts):.3g} N at most, and it weighs {weight:.3g} N"
     high, far = roughly(run.result["apex"]), roughly(abs(run.result["distance"]))
     return f"{high} high, {'down ' * (run.ended == 'until')}{far} away after {run.duration:.1f} s"
