@@ -51,7 +51,7 @@ def as_json(
         **_outcome(scene, run),
         **(more or {}),
         "accuracy": run.accuracy,
-        "warnings": _warnings(run),
+        "warnings": [*_beyond_target(check, scene), *_warnings(run)],
         "events": [dict(zip(EVENT, event, strict=True)) for event in run.events],
         "numerics": run.numerics,
     }
@@ -119,6 +119,7 @@ def card(
     else:
         numbers = table(("", ""), rows, "ll")
     return [
+        *(line for warning in _beyond_target(check, scene) for line in [*paragraph(f"warning: {warning}", ""), ""]),
         *paragraph(f"{scene.title}: {scene.about}" if scene.about else scene.title, ""),
         "",
         *([] if others else [*paragraph(scene.verdict(run)), ""]),
@@ -177,6 +178,14 @@ def _what_took_long(run: SceneRun) -> list[str]:
 
 def _count(number: int, noun: str) -> str:
     return f"{number} {noun}{'' if number == 1 else 's'}"
+
+
+def _beyond_target(check: Check | None, scene: Scene) -> list[str]:
+    """Return a warning of the errors that are larger than the accuracy aims at, if there are any."""
+    if check is None or not check.beyond_target:
+        return []
+    wrong = ", ".join(_error(check, scene, name) for name in check.beyond_target)
+    return [f"{wrong}: this accuracy aims at {margin(check.target, 'm')}"]
 
 
 def _check_lines(check: Check, scene: Scene) -> list[str]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
@@ -32,6 +33,10 @@ _ROUNDING = 1e-11
 #: Finer runs of a check, each with half the step of the one before: one alone may agree by chance. The plain method has
 #: one, which takes twice as long as the run.
 FINER, FINER_PLAIN = 3, 1
+
+#: Longest step in s of one more run, which sees forces that vary between the steps of the others; longer where these
+#: would be more than so many in a run.
+SHORT, MOST_SHORT = 0.002, 5_000
 
 #: The error of a number over its difference to a finer run. Errors of contacts, the slowest to vanish, halve with the
 #: step: the finer run still has half of them. Those of flight leave 1/32, and for them this is pessimistic.
@@ -136,6 +141,13 @@ class Check:
     #: Other results that such nudges change, with the values in the runs that differ.
     changed_by_nudge: dict[str, list[Any]] = field(default_factory=dict)
     nudges: int = 0  # runs from nudged starts
+    target: float = math.inf  # m, of the errors at the run's accuracy
+
+    @property
+    def beyond_target(self) -> dict[str, float]:
+        """The lengths whose error in m exceeds the target error of the run's accuracy, each with that error."""
+        target, units = self.target, self.finer.scene.units
+        return {name: error for name, error in self.errors.items() if units[name] == "m" and error > target}
 
     @property
     def chaotic(self) -> dict[str, float]:
@@ -170,20 +182,30 @@ def check(scene: Scene | str | Path, run: SceneRun | None = None, progress: Prog
         if name in spread or any(name in each.errors for each in outcomes)
     }
     changed_by_finer = {name: pair for each in reversed(outcomes) for name, pair in each.changed.items()}
-    return Check(outcomes[0].finer, errors, changed_by_finer, spread, changed_by_nudge, NUDGES)
+    target = run.accuracy.tolerance if run.accuracy.method == "exact" else math.inf
+    return Check(outcomes[0].finer, errors, changed_by_finer, spread, changed_by_nudge, NUDGES, target)
 
 
 def _finer(scene: Scene, run: SceneRun, progress: Progress | None) -> Iterator[SceneRun]:
-    """Runs with half, a quarter and an eighth of the step, from starts within rounding. Only the first must succeed."""
-    accuracy = run.accuracy
-    for turn in range(FINER if accuracy.method == "exact" else FINER_PLAIN):
+    """Runs with half, a quarter and an eighth of the step, from starts within rounding, and one with short steps
+    everywhere. Only the first must succeed."""
+    accuracy, exact = run.accuracy, run.accuracy.method == "exact"
+    for turn in range(FINER if exact else FINER_PLAIN):
         accuracy = accuracy.finer()
         try:
             yield simulate_at(scene, accuracy, nudged(scene.build(), _ROUNDING, turn), progress)
         except RunError:  # its steps are too many
             if turn == 0:
                 raise
-            return
+            break
+    if exact:
+        from sandbox.engine.model.setup import ForceRegion
+
+        setup = nudged(scene.build(), _ROUNDING, FINER)
+        everywhere = ForceRegion(-math.inf, -math.inf, math.inf, math.inf, max(SHORT, run.duration / MOST_SHORT))
+        short = replace(setup, force_regions=[*setup.force_regions, everywhere])
+        with suppress(RunError):
+            yield simulate_at(scene, run.accuracy.finer(), short, progress)
 
 
 def compare(run: SceneRun, finer: SceneRun) -> Check:
