@@ -131,6 +131,13 @@ class Plan:
     def _first_run(self) -> SceneRun | Exception:  # not kept: a plan is sent to workers, and not every run can be
         return next(runs(self.scene, self.keys, list(self.points(0, 1)), asked=self.asked))
 
+    def why_alone(self) -> str:
+        """Return why shots that could be computed together ran one by one; "" if they need to, or did not."""
+        from sandbox.engine.many.batch_forces import why_alone
+
+        run = self._first_run() if self.block > 1 else None
+        return "" if run is None or isinstance(run, Exception) else why_alone(run.setup)
+
     def points(self, start: int, stop: int) -> Iterator[tuple[Any, ...]]:
         """The swept values of the points from ``start`` up to ``stop``."""
         if self.samples:

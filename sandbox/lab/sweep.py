@@ -152,6 +152,7 @@ class SweepSummary:
     seconds: float  # for the new points
     damaged: int | None = None  # the first damaged row, from which rows were computed again
     before: Path | None = None  # backup of the file's previous content, if from another sweep
+    alone: str = ""  # why its shots ran one by one, if they need not
 
     def as_text(self) -> str:
         """A summary: number of points, speed, failures, and the file's previous content."""
@@ -161,6 +162,8 @@ class SweepSummary:
         if not new:
             return f"{points}, all already in the file: the sweep is complete"
         lines = [f"{points}{before}; {new:,} in {self.seconds:.1f} s, {new / self.seconds:,.0f}/s"]
+        if self.alone:
+            lines.append(self.alone)
         if self.failures:
             lines.append(f"{self.failures:,} failed, first with: {self.first_error}")
         if self.damaged is not None:
@@ -193,7 +196,8 @@ def sweep_to_file(plan: Plan, path: Path, pool: Workers, progress: Progress = no
             raise Stopped(f"stopped: {kept}; run the same command to resume") from None
         file.finish()
     before = file.before if file.before.is_file() else None
-    return SweepSummary(plan.size, resumed, failures, first_error, perf_counter() - began, file.damaged, before)
+    seconds = perf_counter() - began
+    return SweepSummary(plan.size, resumed, failures, first_error, seconds, file.damaged, before, plan.why_alone())
 
 
 # ---------------------------------------------------------------------------------------------------------------------

@@ -38,6 +38,9 @@ FINER, FINER_PLAIN = 3, 1
 #: would be more than so many in a run.
 SHORT, MOST_SHORT = 0.002, 5_000
 
+#: A distance in m beyond any path.
+_AWAY = 1e12
+
 #: The error of a number over its difference to a finer run. Errors of contacts, the slowest to vanish, halve with the
 #: step: the finer run still has half of them. Those of flight leave 1/32, and for them this is pessimistic.
 SAFETY = 2.0
@@ -202,7 +205,7 @@ def _finer(scene: Scene, run: SceneRun, progress: Progress | None) -> Iterator[S
         from sandbox.engine.model.setup import ForceRegion
 
         setup = nudged(scene.build(), _ROUNDING, FINER)
-        everywhere = ForceRegion(-math.inf, -math.inf, math.inf, math.inf, max(SHORT, run.duration / MOST_SHORT))
+        everywhere = ForceRegion(-_AWAY, -_AWAY, _AWAY, _AWAY, max(SHORT, run.duration / MOST_SHORT))
         short = replace(setup, force_regions=[*setup.force_regions, everywhere])
         with suppress(RunError):
             yield simulate_at(scene, run.accuracy.finer(), short, progress)
