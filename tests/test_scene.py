@@ -17,6 +17,7 @@ import pytest
 import sandbox
 from sandbox import resources
 from sandbox.errors import RequestError
+from sandbox.new import new_scene
 from sandbox.parameters import Group, walk
 from sandbox.scene import listings, reference
 from sandbox.scene.finding import folder_of, is_installed
@@ -295,6 +296,15 @@ def test_an_installed_package_may_offer_scenes(drop: Path, tmp_path: Path, monke
     assert {"drop", "drop/moon"} < {listing.name for listing in listings()}
     said = "scene gone: droppings offers it as nowhere.scene, but that module is not installed with it"
     assert refusal("gone") == said
+
+
+def test_a_scene_installed_without_its_numbers_says_so(tmp_path: Path):
+    folder = tmp_path / "site-packages" / "droppings" / "own"
+    folder.parent.mkdir(parents=True)
+    new_scene(tmp_path / "own")
+    shutil.copytree(tmp_path / "own", folder, ignore=shutil.ignore_patterns("*.toml", "presets", "golden"))
+    said = f"{folder}: it was installed without its file of numbers, own.toml: declare it as package data"
+    assert refusal(folder) == said
 
 
 def test_a_scene_file_may_begin_from_a_preset(tmp_path: Path):
