@@ -333,7 +333,7 @@ def _selection(config: pytest.Config) -> str | None:
     """The option by which only some of the tests are run; None if there is none."""
     options = {"keyword": "-k", "markexpr": "-m", "lf": "--last-failed", "deselect": "--deselect", "maxfail": "-x"}
     chosen = (shown for option, shown in options.items() if config.getoption(option, None))
-    return next(chosen, next((arg for arg in config.args if "::" in arg), None))
+    return next(chosen, next((arg for arg in config.args if "::" in arg or Path(arg).is_file()), None))
 
 
 @pytest.hookimpl(tryfirst=True)
@@ -380,11 +380,10 @@ def _used_twice(config: pytest.Config) -> list[str]:
 
 
 def _unused(config: pytest.Config) -> list[str]:
-    """The golden files of the tests that were asked for which none of those that ran has used."""
-    tests = [Path(arg.partition("::")[0]).absolute() for arg in config.args]
+    """The golden files in the folders whose tests were run which none of these has used."""
     folders = {
         folder
-        for top in (test if test.is_dir() else test.parent for test in tests)
+        for top in (Path(arg).absolute() for arg in config.args)
         for folder in top.rglob(FOLDER)
         if not any(part.startswith(".") for part in folder.relative_to(top).parts)
         and folder.parts[-len(REPORT.parts) :] != REPORT.parts  # pictures of failures

@@ -563,7 +563,7 @@ class TestThePlugin:
         run(project, "--golden-unused").stdout.no_fnmatch_line("*no test has used*")
 
     @pytest.mark.parametrize(
-        "chosen", [["-k", "it"], ["test_it.py::test_it"], ["--last-failed"], ["-x"], ["-m", "slow"]]
+        "chosen", [["-k", "it"], ["test_it.py::test_it"], ["test_it.py"], ["--last-failed"], ["-x"], ["-m", "slow"]]
     )
     def test_unused_files_are_not_listed_of_a_selection(self, project, chosen: list[str]):
         result = project.runpytest("-p", "sandbox.golden", "--golden-unused", *chosen)
