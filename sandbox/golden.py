@@ -220,7 +220,7 @@ def _cause(known: Record, actual: Record, run: SceneRun) -> Iterator[str]:
     if changed:
         shown, more = changed[:MOST_CHANGES], changed[MOST_CHANGES:]
         yield f"other parameters: {'; '.join([*shown, *([f'{len(more)} more'] if more else [])])}"
-    elif "parameters" in known:
+    elif len(known.get("parameters", ())) > 1:  # a bare setup has none but its accuracy
         yield "the parameters are the same"
     if known.get("versions", actual["versions"]) != actual["versions"]:
         yield f"recorded with {known['versions']}; this is {actual['versions']}"
