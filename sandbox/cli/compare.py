@@ -21,6 +21,7 @@ from sandbox.cli.arguments import (
 )
 from sandbox.errors import RequestError
 from sandbox.files import json_text
+from sandbox.text import printable
 
 
 def print_formats(context: click.Context, option: click.Parameter, value: bool) -> None:
@@ -196,7 +197,10 @@ def validate(
         if teeth:
             raise RequestError("--teeth: says what the published numbers test; it cannot be combined with --against")
         entries = [parse_entry(text) for text in mapping]
-        own, notes = cases_against(against, scene, entries, pairs("--where", where), pairs("--within", within), strict)
+        given = cases_against(against, scene, entries, pairs("--where", where), pairs("--within", within), strict)
+        own, notes = given.cases, tuple(filter(None, (given.left_out, *given.notes)))
+        if as_json and given.left_out:  # JSON is a list of the rows that are used
+            click.echo(printable(given.left_out), err=True)
     elif mapping or where or within or strict:
         raise RequestError("--map, --where, --within and --strict require --against F.csv")
     with bar("validate") as progress:

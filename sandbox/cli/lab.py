@@ -46,13 +46,14 @@ def aim(
 ) -> None:
     """Find all values in a range that give a result.
 
-    Each has its numerical error. For a target that is true or false, or a word, it finds intervals: the widest first,
-    with its middle, which is the most forgiving value; by two parameters it finds regions, each with its most forgiving
-    point. If there is no solution it reports the nearest result, and the exit code is 0.
+    Each has its numerical error. For a target that is true or false, a word, or a whole number such as a score, it
+    finds intervals: the widest first, with its middle, which is the most forgiving value; by two parameters it finds
+    regions, each with its most forgiving point. If there is no solution it reports the nearest result, and the exit
+    code is 0.
 
     A number that jumps, such as where a golf ball stops, takes a minute or two, since each place where it may reach the
-    target is searched. A target that is not a number takes 500 to 2,000 runs, and up to 12,000 more where it changes,
-    to see narrow gaps.
+    target is searched. Intervals take 500 to 2,000 runs, and up to 12,000 more where the result changes, to see narrow
+    gaps.
 
     \b
     Examples:

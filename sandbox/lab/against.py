@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import NamedTuple
 
 from sandbox import units
 from sandbox.errors import RequestError
@@ -21,6 +22,14 @@ OTHERS = {"scene": "", "case": "", "set": "", "unit": "", "source": "", "reason"
           "tolerance_from": ""}  # fmt: skip
 
 
+class Given(NamedTuple):
+    """The numbers of a table, a sentence on the rows that are left out of it, and others on how it was read."""
+
+    cases: list[Case]
+    left_out: str = ""
+    notes: tuple[str, ...] = ()
+
+
 def cases_against(
     path: Path,
     source: str | None,
@@ -28,7 +37,7 @@ def cases_against(
     where: Mapping[str, str],
     within: Mapping[str, str],
     strict: bool = False,
-) -> tuple[list[Case], tuple[str, ...]]:
+) -> Given:
     """The numbers of a user's table, and sentences on how it was read. Raises RequestError.
 
     Without ``entries`` it has the columns of the published tables; ``source`` is the scene of rows that name none, or
@@ -40,7 +49,7 @@ def cases_against(
     if not entries and all(name in table.names for name in NEEDED):
         if within:
             raise RequestError(f"--within: the table has its own tolerances: {path}")
-        return _published(table, path, source), ()
+        return Given(_published(table, path, source))
     if source is None:
         raise RequestError(f"--against {path}: name the scene that its launches are for")
     scene = load(source)
@@ -60,7 +69,7 @@ def cases_against(
     ]
     left_out = used(len(found.rows) + len(found.left_out), found.left_out)
     unused = f"columns that are not used: {', '.join(found.unused)}" if found.unused else ""
-    return cases, tuple(filter(None, (left_out, *found.notes, unused)))
+    return Given(cases, left_out, tuple(filter(None, (*found.notes, unused))))
 
 
 def _settings(given: Mapping[str, Quantity], place: int) -> str:
@@ -94,6 +103,9 @@ def _tolerance(at: str, text: str, value: float, unit: str) -> float:
 def _published(table: Table, path: Path, source: str | None) -> list[Case]:
     """The rows of a table as the published ones are written."""
     known = {*NEEDED, *OTHERS}
+    if table.broken:
+        place, why = next(iter(table.broken.items()))
+        raise RequestError(f"{table.where}: row {place + 1} {why}")
     unknown = next((name for name in table.names if name not in known), None)
     if unknown is not None:
         raise RequestError(f"{table.where}: column {unknown!r} is none of {', '.join(sorted(known))}")

@@ -232,6 +232,27 @@ def test_an_interval_of_baskets_holds_no_shot_that_misses():
     assert angles[~near & np.not_equal(made, told)].tolist() == []
 
 
+def test_a_whole_number_has_intervals(tmp_path, capsys):
+    """A score of 10 less the whole metres that a ball was dropped from: 7 from 3 m up to 4 m."""
+    drop = copy_of(DROP, tmp_path / "drop")
+    score = 'Fact("score", "score", "", lambda run, it: 10 - int(it.launch.height))'
+    change(drop / "scene.py", "FACTS = (", f"FACTS = ({score},")
+    (solution,) = aim(drop, {"launch.height": (0.1, 20.0)}, {"score": 7}).solutions
+    assert (solution.interval.low, solution.interval.high) == pytest.approx((3.0, 4.0), abs=1e-5)
+    assert solution.result["score"] == 7
+    command = ["aim", str(drop), "--vary", "launch.height=0.1:20", "--target"]
+    assert main([*command, "score=7"]) == 0
+    said = capsys.readouterr().out
+    assert "score = 7 by launch.height" in said
+    assert "with a margin of ±0.5 m" in said
+    assert "?" not in said
+    assert main([*command, "score=30"]) == 0
+    assert "nearest: score = 10 (-20)" in capsys.readouterr().out
+    assert aim(drop, {"launch.height": (0.1, 20.0)}, {"score": 7.5}).solutions == []
+    plane = aim(drop, {"launch.height": (0.1, 20.0), "gravity": (5.0, 15.0)}, {"score": 7})
+    assert plane.solutions[0].region.share == pytest.approx(1.0 / 19.9, abs=0.02)
+
+
 def test_what_holds_by_two_parameters_has_regions():
     """The ball bounces within its second if h - r < g / 2: with both ranges taken as 1 a trapezoid, of half the area,
     whose largest circle touches three sides."""

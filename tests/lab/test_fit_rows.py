@@ -144,7 +144,12 @@ def test_rows_are_left_out_of_a_validation(call: Call, tmp_path: Path, carries: 
     said = text_of(call(*args).out.splitlines())
     assert "5 of 5 measured numbers hold" in said
     assert "used 5 of 6 rows: row 1, Spin Rate = -21474836480 rpm is out of range" in said
+    as_json = call(*args, "--json")
+    assert len(json.loads(as_json.out)) == 5
+    assert as_json.err.startswith("used 5 of 6 rows: row 1, Spin Rate")
     assert_refused(call(*args, "--strict"), "row 1, Spin Rate = -21474836480 rpm is out of range")
+    own = written(tmp_path, "result,value,tolerance\ncarry,200,5\ncarry,200,1,5\ncarry,200,5\n", "own.csv")
+    assert_refused(call("validate", "golf", "--against", own), "row 2 has 4 values, but there are 3 columns")
     assert_refused(call("validate", "golf", "--strict"), "--strict require --against")
 
 

@@ -12,6 +12,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from sandbox.errors import RequestError
 from sandbox.lab.aim.intervals import intervals
 from sandbox.lab.aim.maximize import maximize
@@ -21,9 +23,12 @@ from sandbox.lab.aim.regions import regions
 from sandbox.lab.aim.scalar import roots_of
 from sandbox.lab.aim.shots import Shots
 from sandbox.lab.axes import Span, as_axis
-from sandbox.lab.runs import Progress, no_progress
+from sandbox.lab.runs import Progress, no_progress, runs
 from sandbox.scene import Scene, as_scene
 from sandbox.text import check_mapping
+
+#: Points along the range at which the kind of a number is looked at.
+_TRIED = 5
 
 __all__ = ["Aim", "Target", "aim", "as_target", "parse_target", "search"]
 
@@ -38,9 +43,10 @@ def aim(
 ) -> Aim:
     """All values within a range that meet a target: ``aim("golf", {"launch.angle": (5, 75)}, {"carry": 200.0})``.
 
-    Two parameters with two targets likewise. A target that is true, false or a word gives the intervals in which it is
-    met, the widest first, each with its middle, which tolerates the largest error; by two parameters, the regions, each
-    with its most forgiving point. ``maximize="carry"``, in place of a target, gives the place at which a number is
+    Two parameters with two targets likewise. A target that is true, false, a word or, of a result that counts, a whole
+    number gives the intervals in which it is met, the widest first, each with its middle, which tolerates the largest
+    error; by two parameters, the regions, each with its most forgiving point. ``maximize="carry"``, in place of a
+    target, gives the place at which a number is
     greatest. Raises RequestError for an invalid request, and RunError if no run in the range could be completed.
 
     >>> import sandbox
@@ -73,6 +79,8 @@ def search(scene: Scene, spans: Sequence[Span], targets: Sequence[Target], progr
             both = any(each.name == twice and each.value is MAXIMIZE for each in targets)
             why = "--maximize names the same number; give one of the two" if both else "given twice"
             raise RequestError(f"{option} {twice}: {why}")
+    if len(targets) == 1:
+        targets = [_as_whole(scene, spans, targets[0])]
     numbers = [target.is_number for target in targets]
     one, several = len(targets) == 1 and not numbers[0], len(targets) == 2 and all(numbers)
     if not (len(spans) == len(targets) == 1 or (len(spans) == 2 and (one or several))):
@@ -93,6 +101,22 @@ def search(scene: Scene, spans: Sequence[Span], targets: Sequence[Target], progr
     nearest = None if solutions else shots.nearest()
     found = solutions, nearest, jumps, shots.tries, shots.failures, shots.resolution
     return Aim(scene, tuple(spans), tuple(targets), *found)
+
+
+def _as_whole(scene: Scene, spans: Sequence[Span], target: Target) -> Target:
+    """A target that is a whole number of a result which counts, such as a score: it is met in intervals, as a word is.
+    Any other as it is."""
+    if not target.is_number or target.value != int(target.value) or target.name not in scene.facts:
+        return target
+    points = list(zip(*(np.linspace(span.low, span.high, _TRIED).tolist() for span in spans), strict=True))
+    found = [
+        run.result.get(target.name)
+        for run in runs(scene, [span.key for span in spans], points, asked=[target.name])
+        if not isinstance(run, Exception)
+    ]
+    known = [value for value in found if value is not None]
+    counts = bool(known) and all(isinstance(value, int | np.integer) and not isinstance(value, bool) for value in known)
+    return Target(target.name, int(target.value)) if counts else target
 
 
 def _count(things: Sequence[Any], name: str) -> str:

@@ -19,14 +19,21 @@ MAXIMIZE = object()
 
 @dataclass(frozen=True)
 class Target:
-    """A result and its wanted value: a number in the result's unit, or true, false or a word; or GREATEST."""
+    """A result and its wanted value: a number in the result's unit, an int if the result counts; true, false or a word;
+    or MAXIMIZE."""
 
     name: str
     value: Any
 
     @property
     def is_number(self) -> bool:
+        """True for a number that may have any value between others."""
         return isinstance(self.value, float)
+
+    @property
+    def is_ordered(self) -> bool:
+        """True for any number, which results can be near to."""
+        return isinstance(self.value, int | float) and not isinstance(self.value, bool)
 
     def __str__(self) -> str:
         return f"maximum {self.name}" if self.value is MAXIMIZE else f"{self.name} = {self.value}"
@@ -120,7 +127,7 @@ class Aim:
         return {
             target.name: value - target.value
             for target, value in zip(self.targets, self.nearest.found, strict=True)
-            if target.is_number and value is not None
+            if target.is_ordered and value is not None
         }
 
 

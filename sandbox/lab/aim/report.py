@@ -116,7 +116,7 @@ def _value(target: Target, aim: Aim) -> str:
     if isinstance(target.value, bool):
         return "true" if target.value else "false"
     unit = aim.scene.units.get(target.name, "")
-    return f"{target.value:g} {unit}".rstrip() if target.is_number else str(target.value)
+    return f"{target.value:g} {unit}".rstrip() if target.is_ordered else str(target.value)
 
 
 def _root_lines(aim: Aim) -> list[str]:
@@ -129,7 +129,13 @@ def _root_lines(aim: Aim) -> list[str]:
             row += [f"{solution.result[name]:.8g}", _error(solution.result_errors.get(name))]
         rows.append(row)
     headings += [part for name in names for part in (_heading(aim, name), "±")]
-    return [*table(headings, rows, "r" * len(headings)), *_more(len(aim.solutions))]
+    unsure = any(error is None for solution in aim.solutions[:_SHOWN] for error in solution.errors.values())
+    why = "without ±: a finer run has no such result, or the result does not change there"
+    return [
+        *table(headings, rows, "r" * len(headings)),
+        *_more(len(aim.solutions)),
+        *(paragraph(why) if unsure else []),
+    ]
 
 
 def _heading(aim: Aim, name: str) -> str:
@@ -196,7 +202,7 @@ def _more(count: int, kind: str = "") -> list[str]:
 
 def _error(error: float | None) -> str:
     if error is None:
-        return "?"
+        return ""
     return significant(error, 1) if error > 0.0 else "0"
 
 

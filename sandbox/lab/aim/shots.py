@@ -128,7 +128,7 @@ class Shots:
         if self._first_error is not None and self.failures == len(self.tries):
             first = one_line_error(self._first_error)
             raise RunError(f"no run in the range could be completed; the first error: {first}")
-        if not all(target.is_number for target in self.targets):
+        if not all(target.is_ordered for target in self.targets):
             return None
         complete = [each for each in self.tries if all(value is not None for value in each.found)]
         scales = [self.spread(index) for index in range(len(self.targets))]
