@@ -34,6 +34,9 @@ _TABLES, _SWEEP, _FIT = (b"t,ball,x,y,vx,vy,spin", b"t,ball,mass,vx_before"), b"
 #: The files read so far by the command that runs, by their real paths; None outside of commands.
 _inputs: ContextVar[set[str] | None] = ContextVar("inputs", default=None)
 
+#: Names that Windows keeps for devices, with any ending.
+_OF_WINDOWS = {"CON", "PRN", "AUX", "NUL", *(f"{port}{number}" for port in ("COM", "LPT") for number in range(10))}
+
 
 def reason(error: OSError) -> str:
     """The system's message: ``"permission denied"``."""
@@ -54,7 +57,7 @@ def check_file(option: str, path: Path, suffix: str) -> None:
         raise RequestError(f'{option}: "" and "." are not files; name one, such as out{suffix}')
     if is_stream(path):
         return
-    _check_name(option, path)
+    check_name(option, path)
     if path.is_dir():
         raise RequestError(f"{option} {path}: is a folder; name a file in it, such as {path / ('out' + suffix)}")
     if path.suffix.lower() != suffix:
@@ -67,7 +70,7 @@ def check_file(option: str, path: Path, suffix: str) -> None:
 
 def check_folder(option: str, path: Path) -> None:
     """Raise RequestError if the folder for ``option`` could not be made or written into."""
-    _check_name(option, path)
+    check_name(option, path)
     if path.exists() and not path.is_dir():
         raise RequestError(f"{option} {path}: is a file; a folder is needed")
     check_writable(option, next(folder for folder in (path, *path.absolute().parents) if folder.exists()))
@@ -100,8 +103,10 @@ def check_distinct(outputs: Mapping[str, Path | None]) -> None:
                 raise RequestError(f"{option} {path}: is also the file of {other}; name another")
 
 
-def _check_name(option: str, path: Path) -> None:
-    """Raise RequestError for a name that no file can have."""
+def check_name(option: str, path: Path) -> None:
+    """Raise RequestError for a name that no file can have, here or on Windows, where others may have to read it."""
+    if path.name and (wrong := forbidden(path.name)):
+        raise RequestError(f"{option} {shortened(str(path))}: {wrong}: Windows has no such names; choose another")
     try:
         path.stat()
     except (FileNotFoundError, NotADirectoryError):
@@ -109,6 +114,17 @@ def _check_name(option: str, path: Path) -> None:
     except (OSError, ValueError) as error:
         why = reason(error) if isinstance(error, OSError) else str(error)
         raise RequestError(f"{option} {shortened(str(path))}: {why}") from None
+
+
+def forbidden(name: str) -> str:
+    """Return what in the name of a file Windows forbids; "" if nothing."""
+    letter = next((letter for letter in name if letter in '<>:"|?*\\' or ord(letter) < 32), "")
+    if letter:
+        return f"{letter!r} in its name"
+    if name.endswith((".", " ")) and name.strip(". "):
+        return f"{name[-1]!r} at the end of its name"
+    stem = name.partition(".")[0].rstrip().upper()
+    return f"{stem} as its name" if stem in _OF_WINDOWS else ""
 
 
 def check_writable(option: str, folder: Path) -> None:
@@ -197,20 +213,6 @@ def read_given(path: Path, most: int) -> bytes:
         return path.read_bytes()
     except OSError as error:
         raise RequestError(f"{path}: cannot be read: {reason(error)}") from None
-
-
-def lock(file: TextIO) -> bool:
-    """Lock a file for this process, until it is closed or the process ends for any reason; returns whether no other has
-    it."""
-    try:
-        import fcntl
-    except ImportError:  # not a POSIX system: two programs that write are not detected
-        return True
-    try:
-        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        return False
-    return True
 
 
 def is_stream(path: Path) -> bool:

@@ -29,7 +29,7 @@ import pytest
 
 from sandbox import record, resources
 from sandbox.errors import RequestError, RunError
-from sandbox.files import check_size, is_given, write_together
+from sandbox.files import check_size, forbidden, is_given, write_together
 from sandbox.picture.difference import SIZE, as_png, coarser, compare, side_by_side, what_changed
 from sandbox.record import Record
 from sandbox.text import printable
@@ -183,7 +183,7 @@ def _recorded(name: str, run: SceneRun, until: float | None, tolerance: float) -
 
 def _check_request(name: str, until: float | None, size: tuple[int, int], tolerance: float) -> None:
     """Fail where a check is given what makes no sense."""
-    if not isinstance(name, str) or name in ("", ".", "..") or "/" in name or "\\" in name:
+    if not isinstance(name, str) or name in ("", ".", "..") or "/" in name or forbidden(name):
         _fail(f'{name!r}: the name of a golden picture is that of a file in the folder golden, such as "my_shot"')
     if until is not None and not (isfinite(until) and until > 0.0):
         _fail(f"{name}: until = {until}: must be a time greater than 0 s")

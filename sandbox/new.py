@@ -11,7 +11,7 @@ from pathlib import Path
 
 from sandbox import resources
 from sandbox.errors import RequestError, RunError
-from sandbox.files import check_writable, folder_of_parts, reason
+from sandbox.files import check_name, check_writable, folder_of_parts, reason
 from sandbox.scene import listings, load, parameters_of, simulate
 from sandbox.scene.finding import find
 from sandbox.schema import json_schema
@@ -35,7 +35,9 @@ def new_scene(folder: Path, template: str = FROM_SIDE, copied: str | None = None
             for file in _files(source, has_tests=copied is None):
                 _copy(file, scene / file.relative_to(source).parent, source.name, name)
             schema = json_schema(parameters_of(scene)[1], name)
-            (scene / f"{name}.schema.json").write_text(json.dumps(schema, indent=2) + "\n", encoding="utf-8")
+            (scene / f"{name}.schema.json").write_text(
+                json.dumps(schema, indent=2) + "\n", encoding="utf-8", newline="\n"
+            )
             _make_golden(scene, name)
             shutil.rmtree(scene / "__pycache__", ignore_errors=True)
             scene.rename(folder)
@@ -91,12 +93,14 @@ def _make_golden(scene: Path, name: str) -> None:
     test = scene / f"test_{name.replace('-', '_')}.py"
     if not test.exists():
         given = "" if until is None else f", until={until}"
-        test.write_text(TEST.format(name=name, until=given), encoding="utf-8")
+        _write(test, TEST.format(name=name, until=given))
     picture = loaded.picture(run, SIZE)
     image = coarser(to_image(picture.poster() if until is None else picture.frame(until)))
     (scene / "golden").mkdir()
     (scene / "golden" / f"{name}.png").write_bytes(as_png(image))
-    (scene / "golden" / f"{name}.json").write_text(record.as_text(record.record(run, until)), encoding="utf-8")
+    (scene / "golden" / f"{name}.json").write_text(
+        record.as_text(record.record(run, until)), encoding="utf-8", newline="\n"
+    )
 
 
 def next_steps(folder: Path) -> list[str]:
@@ -123,6 +127,7 @@ def _check(folder: Path, name: str) -> None:
         raise RequestError(f"new {folder}: a scene named {name} already exists; choose another name")
     if os.path.lexists(folder):
         raise RequestError(f"new {folder}: already exists; choose another name, or remove it first")
+    check_name("new", folder)
     check_writable(f"new {folder}", folder.parent)
 
 
@@ -142,4 +147,11 @@ def _copy(file: Path, folder: Path, source: str, name: str) -> None:
         named = rf'^(scene = "|#:schema (?:\./|\.\./)?){re.escape(source)}(?=["/.])'
         text = re.sub(named, rf"\g<1>{name}", text, flags=re.MULTILINE)
     named_after = is_template or file.name == f"{source}.toml"
-    (folder / (file.name.replace(source, own) if named_after else file.name)).write_text(text, encoding="utf-8")
+    (folder / (file.name.replace(source, own) if named_after else file.name)).write_text(
+        text, encoding="utf-8", newline="\n"
+    )
+
+
+def _write(file: Path, text: str) -> None:
+    """Write a file with the same ends of lines on every system."""
+    file.write_text(text, encoding="utf-8", newline="\n")

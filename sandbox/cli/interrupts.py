@@ -88,4 +88,7 @@ class Interrupts:
 
     def _again(self) -> None:
         time.sleep(_AGAIN)
-        os.kill(os.getpid(), self._number)
+        if os.name == "posix":
+            os.kill(os.getpid(), self._number)
+        else:  # where kill ends the process, whatever the signal
+            signal.raise_signal(self._number)

@@ -11,12 +11,12 @@ import os
 import re
 import shutil
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import ExitStack, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TextIO
+from typing import TYPE_CHECKING, Any
 
 from sandbox.errors import RequestError
-from sandbox.files import backup_of, check_replaced, is_stream, json_ready, keep, lock, open_stream, writing
+from sandbox.files import backup_of, check_replaced, is_stream, json_ready, keep, open_stream, writing
 from sandbox.text import csv_text
 
 if TYPE_CHECKING:
@@ -29,9 +29,9 @@ _as_json = json.JSONEncoder(ensure_ascii=False, default=str).encode
 class RowFile:
     """A CSV file written in whole lines; use it in a ``with`` block, and call ``finish`` after the last row.
 
-    Until then a small marker file, with ``.resume`` added to the name, identifies the sweep. It is locked while this
-    process lives, so that no other process writes to the same file. If the file is opened again for the same points,
-    rows are added to the existing ones (``done``, their number); unfinished rows of another sweep raise RequestError.
+    Until then a small marker file, with ``.resume`` added to the name, identifies the sweep. A hidden file next to it
+    is locked, so that no other process writes to the same file. If the file is opened again for the same points, rows
+    are added to the existing ones (``done``, their number); unfinished rows of another sweep raise RequestError.
     Existing rows are kept only if they are byte for byte what was written for these points: an incomplete last line is
     dropped, and rows from the first damaged one (``damaged``, its number) are computed again.
 
@@ -49,6 +49,7 @@ class RowFile:
         self._is_stream = is_stream(path)
         self._file_path = path if self._is_stream else path.resolve()  # the target of a link, not the link
         self._mark_path = self._file_path.with_name(f"{self._file_path.name}.resume")
+        self._lock_path = self._file_path.with_name(f".{self._file_path.name}.lock")
         self._seal_path = self._file_path.with_name(f".{self._file_path.name}.complete")
         self.before = backup_of(self._file_path)
         self._open = ExitStack()
@@ -58,7 +59,8 @@ class RowFile:
             if self._is_stream:
                 self._file = open_stream(self.path)
             else:
-                self._begin(self._open.enter_context(self._locked()))
+                self._open.enter_context(self._alone())
+                self._begin()
                 self._file = self._file_path.open("a", encoding="utf-8", newline="")
             self._open = self._open.pop_all()
         return self
@@ -72,7 +74,7 @@ class RowFile:
         """Mark the file as complete."""
         if not self._is_stream:
             with suppress(OSError):  # a full disk: the same sweep would be computed again
-                self._seal_path.write_text(self._seal(), encoding="utf-8")
+                self._seal_path.write_text(self._seal(), encoding="utf-8", newline="\n")
             self._mark_path.unlink(missing_ok=True)
             if self.before.is_file() and filecmp.cmp(self._file_path, self.before, shallow=False):
                 self.before.unlink()
@@ -93,22 +95,37 @@ class RowFile:
 
     # Before the first row
 
-    def _locked(self) -> TextIO:
-        """The marker file, locked by this process. Raises RequestError if another process holds it."""
-        while True:
-            with ExitStack() as opened:
-                mark = opened.enter_context(self._mark_path.open("a+", encoding="utf-8", errors="replace"))
-                if not lock(mark):
-                    raise RequestError(f"--out {self.path}: another sweep is writing to this file; choose another name")
-                # the other process may have finished and removed its marker just now: then begin again
-                if self._mark_path.exists() and os.path.samestat(os.fstat(mark.fileno()), self._mark_path.stat()):
-                    opened.pop_all()
-                    return mark
+    @contextmanager
+    def _alone(self) -> Iterator[None]:
+        """Hold the lock. Raises RequestError if another process has it."""
+        from filelock import FileLock, Timeout
 
-    def _begin(self, mark: TextIO) -> None:
+        lock = FileLock(self._lock_path, thread_local=False)
+        while not lock.is_locked:
+            self._lock_path.touch()
+            with suppress(FileNotFoundError):  # the other process has finished and removed it just now: begin again
+                before = self._lock_path.stat()
+                try:
+                    lock.acquire(timeout=0)
+                except Timeout:
+                    said = "another sweep is writing to this file; choose another name"
+                    raise RequestError(f"--out {self.path}: {said}") from None
+                if os.path.samestat(before, self._lock_path.stat()):
+                    break
+            lock.release()
+        try:
+            yield
+        finally:
+            with suppress(OSError):  # Windows removes it when it is released
+                self._lock_path.unlink()
+            lock.release()
+
+    def _begin(self) -> None:
         """Leave only the rows that are kept in the file."""
-        mark.seek(0)
-        known = mark.read(100).strip()
+        known = ""
+        if self._mark_path.is_file():
+            with self._mark_path.open(encoding="utf-8", errors="replace") as mark:
+                known = mark.read(100).strip()
         if known and not re.fullmatch("[0-9a-f]{64}", known):
             raise RequestError(f"--out {self.path}: {self._mark_path.name} is a file of yours; choose another name")
         there = self._file_path.is_file() and self._file_path.stat().st_size > 0
@@ -123,18 +140,12 @@ class RowFile:
         if there and self._is_complete():
             self.done = self._plan.size
         elif there:
-            try:
-                check_replaced("--out", self.path)
-            except RequestError:
-                self._mark_path.unlink()
-                raise
+            check_replaced("--out", self.path)
             keep(self._file_path)
-        mark.truncate(0)
         try:
-            mark.write(self._plan.fingerprint + "\n")
-            mark.flush()
+            self._mark_path.write_text(self._plan.fingerprint + "\n", encoding="utf-8", newline="\n")
         except OSError:  # a full disk: all is left as it was
-            self._mark_path.unlink()
+            self._mark_path.unlink(missing_ok=True)
             if there and not self.done:
                 self.before.replace(self._file_path)
             raise

@@ -15,7 +15,7 @@ from PIL import Image
 
 from sandbox.engine.paths.run import ROUNDING_OF_TIME
 from sandbox.errors import RequestError
-from sandbox.files import check_size
+from sandbox.files import check_name, check_size
 from sandbox.page.parts import html, picture, save, table
 from sandbox.page.replay import page_of, text_of
 from sandbox.parameters import walk
@@ -146,6 +146,7 @@ def _check(path: Path | str, *suffixes: str) -> None:
     """Raise RequestError for what is no name, or of no file with one of these endings, where there are any."""
     if not isinstance(path, str | os.PathLike):
         raise RequestError(f"path = {path!r:.60}: must be the name of a file or folder, as text or a Path")
+    check_name("path", Path(path))
     if suffixes and Path(path).suffix.lower() not in suffixes:
         raise RequestError(f"{path}: its name must end in {' or '.join(suffixes)}")
 

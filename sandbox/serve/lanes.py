@@ -147,7 +147,7 @@ class Lanes:
         """Have a process import what it needs; then it takes jobs."""
         work, args = self._warm
         with suppress(Exception):  # what is wrong is said where it is asked for
-            if process in self._slow and self.width > cores():
+            if process in self._slow and self.width > cores() and hasattr(os, "nice"):  # not on Windows
                 await asyncio.wrap_future(process.submit(os.nice, NICE))
             await asyncio.wrap_future(process.submit(work, *args))
         self._idle.append(process)

@@ -8,10 +8,11 @@ from contextlib import ExitStack, contextmanager, suppress
 from datetime import date
 from math import isfinite
 from pathlib import Path
-from time import monotonic, sleep
 from typing import Any, NamedTuple
 
-from sandbox.files import atomic_write, data_folder, lock, reason
+from filelock import FileLock
+
+from sandbox.files import atomic_write, data_folder, reason
 
 FORMAT, VERSION = "sandbox best list", 1
 #: So many scores are kept of each task.
@@ -83,10 +84,7 @@ class BestList:
         with ExitStack() as opened:
             with suppress(OSError):  # writing reports it
                 self.file.parent.mkdir(parents=True, exist_ok=True)
-                mark = opened.enter_context(self.file.with_suffix(".lock").open("a", encoding="utf-8"))
-                end = monotonic() + PATIENCE
-                while not lock(mark) and monotonic() < end:
-                    sleep(0.005)
+                opened.enter_context(FileLock(self.file.with_suffix(".lock"), timeout=PATIENCE, poll_interval=0.005))
             yield
 
     def _read(self) -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from sandbox.errors import RunError
-from sandbox.files import atomic_write, reason, writing
+from sandbox.files import atomic_write, forbidden, reason, writing
 from sandbox.picture.frames import save_gif
 from sandbox.scene import reference
 from sandbox.window.session import Session
@@ -27,7 +27,7 @@ def new_file(stem: str, suffix: str, write: Callable[[Path], object]) -> Path:
         FOLDER.mkdir(exist_ok=True)
     except OSError as error:
         raise RunError(f"{FOLDER}: cannot be made: {reason(error)}") from None
-    stem = stem.replace("/", "-").replace(".toml", "")
+    stem = "".join("-" if forbidden(letter) or letter == "/" else letter for letter in stem.replace(".toml", ""))
     number = 1
     while (path := FOLDER / f"{stem}-{number}{suffix}").exists():
         number += 1

@@ -187,6 +187,8 @@ def _serve(line: Connection) -> None:
     """Compute the calls received, until the connection is closed."""
     _end_with_parent()
     no_forks()
+    if not hasattr(signal, "pthread_sigmask"):  # Windows: Ctrl-C reaches this process, too
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
     sys.stdout = sys.stderr  # what a scene prints: the program's stdout may be JSON
     gc.set_threshold(100_000)  # as in the program itself
     while True:

@@ -1,0 +1,143 @@
+"""Windows, macOS and small systems: every command where what only POSIX or Linux has is hidden; names of files."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import subprocess
+from collections.abc import Callable, Sequence
+from itertools import chain
+from pathlib import Path
+
+import pytest
+
+import sandbox
+from sandbox.cli.program import COMMANDS
+from sandbox.errors import RequestError
+from sandbox.golden import Golden
+from sandbox.window import export
+from tests.own_scene import COMMAND, DROP, Outcome, assert_refused
+
+Call = Callable[..., Outcome]
+
+#: Imported by Python as it starts, in worker processes, too.
+HIDE = """
+import os, signal, sys
+sys.modules["fcntl"] = sys.modules["resource"] = None
+for name in ("fork", "forkpty", "nice", "sched_getaffinity"):
+    vars(os).pop(name, None)
+for name in ("SIGHUP", "pthread_sigmask"):
+    vars(signal).pop(name, None)
+"""
+
+#: Each command with arguments; {} is a folder.
+WAYS: dict[str, Sequence[str]] = {
+    "list": [],
+    "schema": ["throws"],
+    "run": ["throws", "--json", "--poster", "{}/a.png", "--frames", "{}/f", "--fps", "5", "--trajectory", "{}/a.csv"],
+    "aim": ["throws", "--vary", "launch.angle=20:30", "--target", "distance=19"],
+    "sweep": [str(DROP), "--over", "launch.height=1:2:40", "--out", "{}/s.csv", "--jobs", "2"],
+    "spread": ["throws", "--by", "launch.angle=1", "--samples", "64", "--no-causes"],
+    "trade": [str(DROP), "--json"],
+    "stress": [str(DROP)],
+    "validate": ["throws"],
+    "tasks": [],
+    "fit": ["throws", "{}/a.csv", "--vary", "launch.speed"],
+    "new": ["{}/mine"],
+    "play": ["throws"],
+    "serve": ["throws", "--json", "--port", "0"],
+}
+
+
+@pytest.fixture(scope="module")
+def elsewhere(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, str]]:
+    """A folder, and the environment of a program on another system."""
+    folder = tmp_path_factory.mktemp("elsewhere")
+    (folder / "site").mkdir()
+    (folder / "site" / "sitecustomize.py").write_text(HIDE, "utf-8")
+    path = os.pathsep.join(filter(None, [str(folder / "site"), os.environ.get("PYTHONPATH")]))
+    return folder, {**os.environ, "PYTHONPATH": path, "SDL_VIDEODRIVER": "nothing", "PYTHONWARNDEFAULTENCODING": "1"}
+
+
+def test_every_command_is_tried_elsewhere():
+    assert WAYS.keys() == {*chain.from_iterable(COMMANDS.values())}
+
+
+@pytest.mark.parametrize("command", [name for name in WAYS if name not in ("play", "serve", "fit")])
+def test_a_command_needs_only_what_every_system_has(elsewhere: tuple[Path, dict[str, str]], command: str):
+    folder, environment = elsewhere
+    arguments = [word.format(folder) for word in WAYS[command]]
+    done = subprocess.run([*COMMAND, command, *arguments], capture_output=True, text=True, env=environment)
+    assert (done.returncode, "Traceback" in done.stderr, "EncodingWarning" in done.stderr) == (0, False, False)
+    assert done.stdout
+
+
+def test_a_fit_needs_only_what_every_system_has(elsewhere: tuple[Path, dict[str, str]], tmp_path: Path):
+    _, environment = elsewhere
+    for command in (WAYS["run"], WAYS["fit"]):
+        name = "run" if command is WAYS["run"] else "fit"
+        arguments = [word.format(tmp_path) for word in command]
+        done = subprocess.run([*COMMAND, name, *arguments], capture_output=True, text=True, env=environment)
+        assert (done.returncode, done.stderr) == (0, "")
+    assert "launch.speed" in done.stdout
+
+
+def test_the_window_says_where_it_has_no_display(elsewhere: tuple[Path, dict[str, str]]):
+    done = subprocess.run([*COMMAND, "play", "throws"], capture_output=True, text=True, env=elsewhere[1])
+    assert (done.returncode, done.stderr.startswith("error: no display")) == (2, True)
+
+
+def test_scenes_are_served_elsewhere_too(elsewhere: tuple[Path, dict[str, str]]):
+    process = subprocess.Popen(
+        [*COMMAND, "serve", *WAYS["serve"]],
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=elsewhere[1],
+    )  # fmt: skip
+    assert process.stdout is not None
+    try:
+        assert json.loads(process.stdout.readline())["url"].startswith("http://127.0.0.1:")
+    finally:
+        process.terminate()
+    _, errors = process.communicate(timeout=60.0)
+    assert (process.returncode, "Traceback" in errors) == (130, False)
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("a:b.png", "':' in its name"),
+        ('a"b.png', "'\"' in its name"),
+        ("what?.png", r"'\?' in its name"),
+        ("a\\b.png", r"'\\\\' in its name"),
+        ("con.png", "CON as its name"),
+        ("Lpt1.tar.png", "LPT1 as its name"),
+    ],
+)
+def test_a_name_that_windows_forbids_is_no_output(call: Call, tmp_path: Path, name: str, said: str):
+    outcome = call("run", DROP, "--poster", tmp_path / name)
+    assert_refused(outcome, "--poster")
+    assert re.search(f"{said}: Windows has no such names; choose another", outcome.err)
+    assert not [*tmp_path.iterdir()]
+
+
+def test_no_other_output_has_such_a_name(call: Call, tmp_path: Path):
+    for command in (
+        ("run", DROP, "--frames", tmp_path / "a|b"),
+        ("run", DROP, "--frames", tmp_path / "frames."),
+        ("sweep", DROP, "--over", "launch.height=1:2:3", "--out", tmp_path / "aux.csv"),
+        ("new", tmp_path / "nul"),
+    ):
+        assert_refused(call(*command), "Windows has no such names")
+    with pytest.raises(RequestError, match=r"path .*a:b.png: ':' in its name"):
+        sandbox.simulate("throws").poster(tmp_path / "a:b.png")
+    assert not [*tmp_path.iterdir()]
+
+
+def test_a_file_of_the_window_has_a_name_for_every_system(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(export, "FOLDER", tmp_path)
+    assert export.new_file('a "b" / c: d?', ".png", lambda path: path.touch()).name == "a -b- - c- d--1.png"
+
+
+def test_a_golden_name_is_one_for_every_system(golden: Golden):
+    with pytest.raises(pytest.fail.Exception, match="the name of a golden picture is that of a file"):
+        golden.check("a:b", sandbox.simulate("throws"))
