@@ -7,7 +7,6 @@ import filecmp
 import hashlib
 import io
 import json
-import os
 import re
 import shutil
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -101,18 +100,15 @@ class RowFile:
         from filelock import FileLock, Timeout
 
         lock = FileLock(self._lock_path, thread_local=False)
-        while not lock.is_locked:
-            self._lock_path.touch()
-            with suppress(FileNotFoundError):  # the other process has finished and removed it just now: begin again
-                before = self._lock_path.stat()
-                try:
-                    lock.acquire(timeout=0)
-                except Timeout:
-                    said = "another sweep is writing to this file; choose another name"
-                    raise RequestError(f"--out {self.path}: {said}") from None
-                if os.path.samestat(before, self._lock_path.stat()):
-                    break
-            lock.release()
+        while True:
+            try:
+                lock.acquire(timeout=0)
+            except Timeout:
+                said = "another sweep is writing to this file; choose another name"
+                raise RequestError(f"--out {self.path}: {said}") from None
+            if self._lock_path.exists():
+                break
+            lock.release()  # its holder has finished and removed it just now: begin again
         try:
             yield
         finally:

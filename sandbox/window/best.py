@@ -10,8 +10,6 @@ from math import isfinite
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from filelock import FileLock
-
 from sandbox.files import atomic_write, data_folder, reason
 
 FORMAT, VERSION = "sandbox best list", 1
@@ -78,6 +76,8 @@ class BestList:
     @contextmanager
     def _alone(self) -> Iterator[None]:
         """Hold off other windows between reading and writing, as far as the system can."""
+        from filelock import FileLock  # here, not above: it is needed only when a score is kept
+
         if self.file is None:
             yield
             return

@@ -371,3 +371,14 @@ def test_a_reset_that_is_refused_is_none():
         envs.reset(options={"start": {"release.height": 9.0}})
     with pytest.raises(ResetNeeded):
         envs.step(envs.action_space.sample())
+
+
+def test_a_last_shot_that_is_missed_costs_one_more():
+    """Where the fewest shots count: three at most, of which each costs one."""
+    env, envs = TaskEnv("par-two", noise=False), sandbox.gym.TaskVectorEnv(1, "par-two", noise=False)
+    env.reset(seed=1)
+    envs.reset(seed=1)
+    away = env.course.action_of({"launch.speed": 0.3, "launch.angle": -90.0})
+    steps = [env.step(away) for _ in range(3)]
+    assert [(reward, terminated) for _, reward, terminated, *_ in steps] == [(-1.0, False), (-1.0, False), (-2.0, True)]
+    assert [envs.step(away[np.newaxis])[1][0] for _ in range(3)] == [-1.0, -1.0, -2.0]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import pi
+
 import numpy as np
 import pytest
 
@@ -41,3 +43,12 @@ def test_a_bullet_in_wind_is_one_that_flies_that_much_slower():
     still = BulletDrag(0.01, "G7", 0.3, 1.2, 340.0)
     blown = BulletDrag(0.01, "G7", 0.3, 1.2, 340.0, lambda t, position: (-5.0, 2.0))
     assert blown(0.0, (0.0, 0.0), (800.0, 3.0), 0.0) == still(0.0, (0.0, 0.0), (805.0, 1.0), 0.0)
+
+
+@pytest.mark.parametrize("mass", [0.01, 0.045])
+def test_the_drag_of_a_bullet_is_that_of_its_coefficient(mass: float):
+    """F = m (pi / 8) rho Cd v^2 / BC, with BC in lb/in^2 of 0.45359237 kg over (0.0254 m)^2."""
+    speed, sound, density, coefficient = 680.0, 340.0, 1.2, 0.3
+    force = BulletDrag(mass, "G7", coefficient, density, sound)(0.0, (0.0, 0.0), (speed, 0.0), 0.0)
+    expected = mass * pi / 8.0 * density * drag_by_mach("G7", 2.0) * speed**2 / (coefficient * 0.45359237 / 0.0254**2)
+    assert force == (pytest.approx(-expected, rel=1e-6), 0.0)

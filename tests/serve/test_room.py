@@ -21,7 +21,7 @@ from sandbox import tasks
 from sandbox.cli import serve as cli
 from sandbox.page.replay import LAYOUTS
 from sandbox.serve import calls, server, sessions, tokens, work
-from sandbox.serve.limits import AWAY
+from sandbox.serve.limits import AWAY, PLAYERS
 from sandbox.serve.room import Listed, Player, Room
 from tests.own_scene import DROP, copy_of
 from tests.serve.conftest import Client, serving
@@ -87,6 +87,16 @@ def test_who_left_is_soon_gone_from_the_teachers_list():
     room._forget()
     assert [(each["name"], each["here"]) for each in sent[-1]["players"]] == [("player 2", False)]
     assert list(room.players) == ["session 1", "session 2"]
+
+
+def test_players_who_left_make_room_for_new_ones():
+    """Before one more comes there are fewer than four times as many as may play: the first who left are forgotten."""
+    room = Room({"golf": Listed("golf", "")}, None, "si")
+    for number in range(4 * PLAYERS):
+        seen = time.monotonic() - 60.0 + 0.01 * number
+        room.players[str(number)] = Player(number, str(number), f"player {number}", "golf", {}, seen=seen)
+    room._forget()
+    assert list(room.players) == [str(number) for number in range(1, 4 * PLAYERS)]
 
 
 def test_a_teacher_may_look_at_another_scene(player):

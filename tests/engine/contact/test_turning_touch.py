@@ -51,3 +51,21 @@ def test_the_spin_of_a_disc_costs_no_distance_queries(monkeypatch):
     arcs = [hermite_arc(0.0, 0.1, *pair, (0.0,) * 3) for pair in zip(start, [(0.0,) * 3] * 2, ends, strict=True)]
     assert first_touch(OutlineOnArc(box(0.2, 0.2), arcs[0]), OutlineOnArc(disc(0.1), arcs[1]), 0.0, 0.1) is None
     assert len(asked) < 10
+
+
+@pytest.mark.parametrize(("x", "y"), [(0.0, 1e5), (0.0, -1e5)])
+def test_rounding_far_away_is_no_touch(x: float, y: float):
+    """Boxes 100 km from the origin that lie on each other, as nearly as their places can be written: closing at 1 nm/s
+    is none, and from rest with an acceleration it is one once they would overlap by 1 nm, after sqrt(2 nm / a)."""
+
+    def found(speed: float, acceleration: float) -> float | None:
+        outlines, h = [], 0.1
+        for side in (-0.5, 0.5):
+            v, a = -side * speed, -side * acceleration
+            start = (x, y + 0.2 * side, 0.0, v, 0.0, 0.0)
+            end = (x, start[1] + h * v + h * h * a / 2.0, 0.0, v + h * a, 0.0, 0.0)
+            outlines.append(OutlineOnArc(box(0.2, 0.2), hermite_arc(0.0, h, start, (0.0, a, 0.0), end, (0.0, a, 0.0))))
+        return first_touch(*outlines, 0.0, h)
+
+    assert found(speed=1e-9, acceleration=0.0) is None
+    assert found(speed=0.0, acceleration=1.0) == pytest.approx(2e-9**0.5, rel=1e-3)
