@@ -32,7 +32,10 @@ MOST_ROWS = 10_000_000
 
 #: The columns of the table of impacts, with their units in the names of those that people see.
 IMPACTS = ("t", "ball", "mass", "vx_before", "vy_before", "vx_after", "vy_after", "px_before", "py_before", "px_after",
-           "py_after", "energy_before", "energy_after")  # fmt: skip
+           "py_after", "energy_before", "energy_after", "angular_before", "angular_after", "spin_before",
+           "spin_after")  # fmt: skip
+#: Those that are of one ball alone, and have no sum.
+_OWN = ("vx_before", "vy_before", "vx_after", "vy_after", "spin_before", "spin_after")
 
 #: A row of all balls of an impact together.
 TOTAL = "total"
@@ -109,8 +112,9 @@ def _gravity(ball: Ball) -> float:
 
 
 def impacts(run: SceneRun) -> Iterator[dict[str, Any]]:
-    """A row for each ball of each impact, and one of all of them together: mass in kg, velocities in m/s and momenta in
-    kg m/s before and after, kinetic energies in J, including rotation."""
+    """A row for each ball of each impact, and one of all of them together: mass in kg, velocities in m/s, momenta in
+    kg m/s, kinetic energies in J, including rotation, angular momenta about the scene's origin in kg m^2/s, ``m (x vy -
+    y vx) + I w``, and spins w in rad/s, before and after."""
     balls = {ball.name: ball for ball in run.setup.balls}
     hits = [event for event in run.events if event.kind == "impact"]
     for t, events in groupby(hits, key=lambda event: event.t):
@@ -118,8 +122,8 @@ def impacts(run: SceneRun) -> Iterator[dict[str, Any]]:
         rows = [_impact(run, balls[name], t) for name in names]
         yield from rows
         if len(rows) > 1:
-            sums = {key: sum(row[key] for row in rows) for key in ("mass", *IMPACTS[7:])}
-            yield {"t": t, "ball": TOTAL, **dict.fromkeys(IMPACTS[3:7], ""), **sums}
+            sums = {key: "" if key in _OWN else sum(row[key] for row in rows) for key in IMPACTS[2:]}
+            yield {"t": t, "ball": TOTAL, **sums}
 
 
 def _impact(run: SceneRun, ball: Ball, t: float) -> dict[str, Any]:
@@ -129,6 +133,11 @@ def _impact(run: SceneRun, ball: Ball, t: float) -> dict[str, Any]:
         row |= {f"v{axis}_{when}": state[2 + place] for place, axis in enumerate("xy")}
         row |= {f"p{axis}_{when}": mass * state[2 + place] for place, axis in enumerate("xy")}
         row[f"energy_{when}"] = kinetic(ball, state, t)
+        x, y, vx, vy, spin = state[:5]
+        row |= {
+            f"spin_{when}": spin,
+            f"angular_{when}": mass * (x * vy - y * vx) + ball.inertia * mass / ball.mass * spin,
+        }
     return {key: row[key] for key in IMPACTS}
 
 
@@ -151,7 +160,11 @@ def impact_lines(run: SceneRun, most: int = 12) -> list[str]:
     if not rows:
         return ["  no impacts"]
     heads = ("", "mass", "v before", "v after", "p before", "p after", "E before", "E after")
-    lines = ["  mass in kg, velocity v in m/s, momentum p in kg m/s (x, y), kinetic energy E in J"]
+    spins = ("", "L before", "L after", "spin before", "spin after")
+    lines = [
+        "  mass in kg, velocity v in m/s, momentum p in kg m/s (x, y), kinetic energy E in J,",
+        "  angular momentum L about the origin in kg m^2/s, spin in rad/s, counter-clockwise",
+    ]
     for t, group in groupby(rows[:most], key=lambda row: row["t"]):
         texts = [
             (row["ball"], significant(row["mass"], 3),
@@ -159,10 +172,23 @@ def impact_lines(run: SceneRun, most: int = 12) -> list[str]:
              f"{row['energy_before']:.3g}", f"{row['energy_after']:.3g}")
             for row in group
         ]  # fmt: skip
-        lines += [f"  at {t:.3f} s", *table(heads, texts, "lrrrrrrr")]
+        turning = [
+            (
+                row["ball"],
+                *(_number(row[f"{kind}_{when}"]) for kind in ("angular", "spin") for when in ("before", "after")),
+            )
+            for row in rows[:most]
+            if row["t"] == t
+        ]
+        lines += [f"  at {t:.3f} s", *table(heads, texts, "lrrrrrrr"), *table(spins, turning, "lrrrr")]
     return [*lines, *([f"  ... {len(rows) - most} more rows"] if len(rows) > most else [])]
 
 
 def _vector(row: Mapping[str, Any], key: str) -> str:
     both = [row[key.format(axis)] for axis in "xy"]
-    return "" if "" in both else ", ".join(signed(f"{0.0 if abs(value) < 1e-12 else value:.3g}") for value in both)
+    return "" if "" in both else ", ".join(map(_number, both))
+
+
+def _number(value: Any) -> str:
+    """Three digits; nothing where there is none."""
+    return "" if value == "" else signed(f"{0.0 if abs(value) < 1e-12 else value:.3g}")

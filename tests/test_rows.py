@@ -41,6 +41,16 @@ def test_an_elastic_impact_keeps_momentum_and_energy():
     assert first["px_after"] == first["mass"] * first["vx_after"] != first["px_before"]
 
 
+@pytest.mark.parametrize("preset", ["collisions", "collisions/heavy-on-light", "collisions/corner-on-face"])
+def test_an_impact_keeps_angular_momentum_by_orbit_and_spin(preset: str):
+    """m (x vy - y vx) + I w, smooth or rough, of balls and of boxes."""
+    *each, total = list(rows.impacts(sandbox.simulate(preset)))[:3]
+    assert total["angular_before"] == pytest.approx(total["angular_after"], abs=1e-9)
+    assert total["angular_after"] == pytest.approx(sum(row["angular_after"] for row in each))
+    assert total["spin_after"] == ""
+    assert any(row["spin_after"] != row["spin_before"] for row in each) == (preset != "collisions")
+
+
 @pytest.mark.parametrize(
     ("arguments", "expected"),
     [

@@ -240,10 +240,12 @@ def blow(run: Run, parameters: Parameters) -> Blow | None:
 
 
 #: What stays, if nothing from outside acts and nothing is lost: its unit, and how much of it a ball has.
+#: Angular momentum is about the scene's origin.
 AMOUNTS: dict[str, tuple[str, Callable[[Ball, State], float]]] = {
     "momentum x": ("kg m/s", lambda ball, state: ball.mass * state[2]),
     "momentum y": ("kg m/s", lambda ball, state: ball.mass * state[3]),
     "energy": ("J", kinetic),
+    "ang. momentum": ("kg m²/s", lambda it, s: it.mass * (s[0] * s[3] - s[1] * s[2]) + it.inertia * s[4]),
 }
 
 
