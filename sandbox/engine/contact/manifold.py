@@ -201,7 +201,7 @@ def meeting_at(
     return ContactManifold(gap, normal, points, [speeds_at(states, point, normal) for point in points])
 
 
-@lru_cache(maxsize=64)
+@lru_cache(maxsize=1024)
 def _touching(
     one: Shape, here: Pose, other: Shape, there: Pose, within: float, direction: float | None = None
 ) -> tuple[float, Vector, list[Vector]]:

@@ -343,3 +343,30 @@ def test_an_ellipse_slides_for_a_moment_and_rolls_on():
     surfaces = [surface(str(number), *ends, 0.6, 0.2, 0.0) for number, ends in enumerate(sides)]
     run = run_of(bodies, surfaces, 0.6, 0.0, duration=1.5)
     assert run.duration == 1.5
+
+
+def boxes(rows, speed=0.0):
+    """A pyramid of boxes that slides at this speed in m/s."""
+    places = [(0.21 * k + 0.105 * row, 0.05 + 0.1 * row) for row in range(rows) for k in range(rows - row)]
+    common = {"shape": box(0.2, 0.1), "mass": 0.5, "velocity": (speed, 0.0), "forces": [Gravity(G, 0.5)]}
+    return [Outlined(str(number), position=place, **common) for number, place in enumerate(places)]
+
+
+def test_a_blow_on_many_boxes_takes_few_linear_systems(monkeypatch):
+    """Choosing which contacts hold took more than 5,000 of them: it went round in circles."""
+    systems, solve = [], np.linalg.solve
+    monkeypatch.setattr(np.linalg, "solve", lambda *given: systems.append(given) or solve(*given))
+    late = Ball("ball", 1.0, 0.06, (-0.35, 0.2), (5.0, 0.5), forces=[Gravity(G)])
+    run = run_of([*boxes(5), late], FLOOR, 0.5, 0.2, duration=0.15)
+    assert any({event.ball, event.partner} & {"ball"} for event in run.events)
+    assert len(systems) < 1_000
+
+
+def test_bodies_in_a_heap_take_steps_that_suit_the_accuracy():
+    """Those of "fast" are three times as long as those of "balanced"."""
+    taken = {
+        level: run_of(boxes(2, 1.0), FLOOR, 0.5, 0.2, duration=0.1, level=level).numerics.pymunk_steps
+        for level in ("fast", "balanced", "precise")
+    }
+    assert 2.0 < taken["balanced"] / taken["fast"] < 5.0
+    assert 2.0 < taken["precise"] / taken["balanced"] < 5.0
