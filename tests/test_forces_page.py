@@ -39,6 +39,7 @@ def test_the_blocks_do_what_the_page_says(names: dict[str, Any]):
     assert names["flight"].angle("disc", 0.5) == pytest.approx(0.12 + 0.2, abs=0.1)
     scene = names["scene"]
     assert abs(scene.result(names["own"])["carry"] - sandbox.simulate(scene).result["carry"]) > 1.0
+    assert names["gusty"].state("ball", 1.0).x == pytest.approx(5.275, abs=1e-6)
     assert names["slid"].state("puck", 2.0).y > 0.1
     bounce = names["first"].events[0].t
     assert names["after"].state("ball", bounce) == names["first"].state("ball", bounce)
