@@ -60,9 +60,9 @@ def test_reward_and_info_are_those_of_the_shot():
     env = TaskEnv("free-throw", noise=False)
     observation, _ = env.reset(options={"start": {"release.height": 2.1336}})
     assert observation == pytest.approx([2.1336])
-    _, reward, terminated, truncated, info = env.step(env.course.action_of({"launch.speed": 7.391, "launch.angle": 52}))
+    _, reward, terminated, truncated, info = env.step(env.course.action_of({"launch.speed": 7.44, "launch.angle": 52}))
     assert (reward, terminated, truncated, info["is_success"], info["verdict"]) == (1.0, True, False, True, "swish")
-    assert info["controls"] == pytest.approx({"launch.speed": 7.391, "launch.angle": 52.0}, abs=1e-5)
+    assert info["controls"] == pytest.approx({"launch.speed": 7.44, "launch.angle": 52.0}, abs=1e-5)
     with pytest.raises(ResetNeeded, match="over"):
         env.step(env.action_space.low)
     env.reset()

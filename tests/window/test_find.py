@@ -53,7 +53,7 @@ def test_it_is_said_in_which_ranges_shots_are_looked_for(player):
     player.key(pygame.K_SLASH)
     player.frames()
     ((text, bad),) = [notice for notice in player.game.notices if "looking" in notice[0]]
-    assert "speed 0.37 to 14.8 m/s, angle 2 to 85 deg" in text
+    assert "speed 0.372 to 14.9 m/s, angle 2 to 85 deg" in text
     assert not bad
 
 
