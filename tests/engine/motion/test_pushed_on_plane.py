@@ -160,6 +160,17 @@ def test_both_methods_move_it_alike(plane):
     assert plain.state("ball", 1.0)[:4] == pytest.approx(exact.state("ball", 1.0)[:4], abs=2e-3)
 
 
+def test_what_rests_on_a_plane_feels_a_push_that_begins_later():
+    """10 N from 1 s on: a = F / m - mu g of a puck; a ramp of 2 t N moves a ball where it passes m (1 + k) mu_r g."""
+    late = lambda t, position, velocity, spin: (10.0 if t >= 1.0 else 0.0, 0.0)  # noqa: E731
+    a = 10.0 / M - 0.1 * G
+    assert moved(disc((0.0, 0.0), late), Glide(0.1), 3.0).state("ball", 3.0)[0] == pytest.approx(2.0 * a, abs=1e-9)
+    ramp = lambda t, position, velocity, spin: (2.0 * t, 0.0)  # noqa: E731
+    wakes = M * 1.4 * 0.01 * G / 2.0  # s
+    x = 2.0 / (1.4 * M) * (3.0 - wakes) ** 3 / 6.0
+    assert moved(rolling((0.0, 0.0), ramp), CLOTH, 3.0).state("ball", 3.0)[0] == pytest.approx(x, abs=1e-8)
+
+
 BOARD, SOFT = (Surface("board", Segment((1.0, -9.0), (1.0, 2.0)), e, 0.0) for e in (0.6, 0.0))
 
 
