@@ -408,7 +408,7 @@ def stress(scene: str | None, changes: dict[str, Any], as_json: bool) -> None:
 )
 @json_option
 def coefficients(scene: str, changes: dict[str, Any], plot: Path | None, as_json: bool) -> None:
-    """Drag and lift coefficients of the ball by every model that it may have.
+    """Table the drag and lift coefficients of a ball by model.
 
     \b
     Examples:

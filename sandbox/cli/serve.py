@@ -27,7 +27,7 @@ PACKAGES = ("starlette", "uvicorn", "websockets", "segno")
 )
 @units_option
 def serve(scenes: tuple[str, ...], port: int | None, share: bool, jobs: int | None, fresh: bool, as_json: bool) -> None:
-    """Play in any browser; with --share on every phone in the room.
+    """Play in any browser; --share: on every phone in the room.
 
     All computing is done here. The first address is for players; the second is the teacher's: who is there, one scene
     for all, everybody's shots. SCENE is a scene with its presets, one preset, a task or a scene file; by default all
