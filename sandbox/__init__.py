@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from sandbox.engine.model.shapes import Ellipse, Polygon, box, capsule, disc, regular
     from sandbox.engine.model.surface import Bounce, Circle, ConstantBounce, Moving, Segment, Surface, Trap
     from sandbox.engine.paths.run import Numerics, Run, State
+    from sandbox.engine.pymunk_space import pymunk_space
     from sandbox.errors import RequestError, RunError, SandboxError
     from sandbox.lab.aim import Aim, aim
     from sandbox.lab.fit import Fit, fit
@@ -61,6 +62,7 @@ _MODULES = {
         ("Bounce", "Circle", "ConstantBounce", "Moving", "Segment", "Surface", "Trap"), "sandbox.engine.model.surface"
     ),
     **dict.fromkeys(("Numerics", "Run", "State"), "sandbox.engine.paths.run"),
+    **dict.fromkeys(("pymunk_space",), "sandbox.engine.pymunk_space"),
     **dict.fromkeys(("RequestError", "RunError", "SandboxError"), "sandbox.errors"),
     **dict.fromkeys(("Aim", "aim"), "sandbox.lab.aim"),
     **dict.fromkeys(("Fit", "fit"), "sandbox.lab.fit"),
@@ -141,6 +143,7 @@ __all__ = [
     "disc",
     "fit",
     "load",
+    "pymunk_space",
     "regular",
     "simulate",
     "simulate_many",

@@ -22,10 +22,19 @@ _ONLY_SURFACES = pymunk.ShapeFilter(mask=_SURFACE)
 
 
 class PymunkWorld:
-    """The Space. All shapes are wider by ``margin`` (m), and overlaps up to ``slop`` (m) are left."""
+    """The Space. All shapes are wider by ``margin`` (m), and overlaps up to ``slop`` (m) are left. Surfaces that do not
+    move have the ``outline`` of each; by default its own."""
 
-    def __init__(self, surfaces: Sequence[Surface], iterations: int, slop: float, margin: float = 0.0) -> None:
-        self.space = pymunk.Space()
+    def __init__(
+        self,
+        surfaces: Sequence[Surface],
+        iterations: int,
+        slop: float,
+        margin: float = 0.0,
+        space: pymunk.Space | None = None,
+        outline: Callable[[Surface], Polygon] = lambda surface: fixed_outline(surface.shape).shape.as_polygon(),
+    ) -> None:
+        self.space = pymunk.Space() if space is None else space
         self.space.iterations = iterations
         self.space.collision_slop = slop
         self.surface_of: dict[pymunk.Shape, int] = {}  # index into the surfaces
@@ -34,10 +43,14 @@ class PymunkWorld:
         for place, surface in enumerate(surfaces):
             if surface.motion is not None:
                 continue  # what moves is met in impacts only
-            shape = self._shape(self.space.static_body, fixed_outline(surface.shape).shape.as_polygon(), _SURFACE)
-            shape.elasticity, shape.friction = surface.restitution, surface.friction
-            self.surface_of[shape] = place
-            self.space.add(shape)
+            self.add_surface(place, surface, self.space.static_body, outline(surface))
+
+    def add_surface(self, place: int, surface: Surface, body: pymunk.Body, outline: Polygon) -> None:
+        """Add one of the surfaces as a shape of a body."""
+        shape = self._shape(body, outline, _SURFACE)
+        shape.elasticity, shape.friction = surface.restitution, surface.friction
+        self.surface_of[shape] = place
+        self.space.add(shape)
 
     def add(self, ball: Ball) -> tuple[pymunk.Body, pymunk.Shape]:
         """Add a ball or body; pymunk multiplies its elasticity and friction, 1, by the surface's."""
@@ -93,6 +106,10 @@ class PymunkWorld:
     def step(self, h: float) -> None:
         """Step by h s. Raises what a callback has raised."""
         self.space.step(h)
+        self.raise_stored()
+
+    def raise_stored(self) -> None:
+        """Raise what a callback has raised."""
         if self._raised is not None:
             raise self._raised
 

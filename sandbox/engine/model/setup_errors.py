@@ -17,6 +17,15 @@ class UserFunctionError(RunError):
     not."""
 
 
+class MethodFailed(RunError):
+    """The plain method failed: the message begins with how."""
+
+    @property
+    def name(self) -> str:
+        """ "tunnelled" or "exploded"."""
+        return str(self).partition(":")[0]
+
+
 def call_user_function(function: Callable[..., Any], form: str, *arguments: Any) -> Any:
     """Return what a function of the scene returns. Raises UserFunctionError with the ``form`` in which it is called if
     it does not take these arguments."""

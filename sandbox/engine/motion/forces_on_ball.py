@@ -83,7 +83,7 @@ def force_error(
 ) -> RunError:
     """Return an error that names the force or torque that does not return finite numbers in this state; or, if all do,
     says what is wrong ``otherwise``."""
-    return failed(t, ball.name, _wrong_term(ball, t, state) or otherwise)
+    return failed(t, ball.name, wrong_term(ball, t, state) or otherwise)
 
 
 def refuse_unrepeatable(ball: Ball, t: float, state: State) -> None:
@@ -120,7 +120,7 @@ def cause(term: object) -> str:
     return CALLED.get(words, words)
 
 
-def _wrong_term(ball: Ball, t: float, state: State) -> str | None:
+def wrong_term(ball: Ball, t: float, state: State) -> str | None:
     """Describe the force or torque on a ball that does not return finite numbers, the same ones; None if all do."""
     arguments = _position(state), state[2:4], state[4]
     for term, parts in (*((force, 2) for force in ball.forces), *((torque, 0) for torque in ball.torques)):
