@@ -29,6 +29,7 @@ from sandbox.lab.teeth import summary as summary_of_teeth
 from sandbox.lab.teeth import teeth
 from sandbox.lab.trade import TARGETS, Trade, trade
 from sandbox.lab.validate import COUNTED, KINDS, Compared, cells, counted, validate
+from sandbox.lab.verdicts import Verdicts
 from sandbox.parameters import walk
 from sandbox.scene import check, compare, listings, load
 from sandbox.scene import simulate as simulate_scene
@@ -216,24 +217,30 @@ def levels(found: dict[str, Trade]) -> list[str]:
 def cheapest(found: dict[str, Trade]) -> list[str]:
     rows = []
     for name, one in found.items():
-        best = [one.best(target) for target in TARGETS]
-        cells = ["" if b is None else f"{f'{b.method} {b.setting}'.strip()}, {time(b.wall_s)}" for b in best]
+        cells = []
+        for target in TARGETS:
+            best, plain = one.best(target), one.best(target, "plain")
+            cells += ["" if best is None else f"{best.name}, {time(best.wall_s)}"]
+            reached = best is not None and plain is not None
+            cells += [f"{plain.setting}, {plain.wall_s / best.wall_s:.0f} x" if reached else "none"]
         rows.append([f"`{name}`", *cells])
-    return markdown(["scene", *map(length, TARGETS)], rows, left=1 + len(TARGETS))
+    heads = [cell for target in TARGETS for cell in (length(target), "pymunk alone")]
+    return markdown(["scene", *heads], rows, left=1 + len(heads))
 
 
 def verdicts(found: dict[str, Trade]) -> list[str]:
     maps = {name: one.verdicts for name, one in found.items() if one.verdicts is not None}
-    methods = max((list(one.changed) for one in maps.values()), key=len)  # slow methods are left out
+    methods = max((list(one.methods) for one in maps.values()), key=len)  # slow methods are left out
     rows = [
-        [f"`{name}`", str(one.shots), *(_share(one.changed.get(method)) for method in methods)]
+        [f"`{name}`", str(one.shots), *(_counts(one.methods.get(method)) for method in methods)]
         for name, one in maps.items()
     ]
     return markdown(["scene", "shots", *methods], rows)
 
 
-def _share(share: float | None) -> str:
-    return "too slow" if share is None else f"{100.0 * share:.1f} %"
+def _counts(found: Verdicts | None) -> str:
+    """Same, other and failed."""
+    return "too slow" if found is None else f"{found.same} / {found.other} / {found.failed}"
 
 
 def parts(found: dict[str, Trade]) -> list[str]:

@@ -56,6 +56,17 @@ class Point:
     stable: bool
     problem: str = ""
 
+    @property
+    def name(self) -> str:
+        """The method and its setting."""
+        return f"{self.method} {self.setting}".strip()
+
+    @property
+    def error(self) -> str:
+        """Its error, or the name of its failure."""
+        name = self.problem.partition(":")[0]
+        return length(self.error_m) or (name if name.isalpha() else "failed")
+
     def as_dict(self) -> dict[str, Any]:
         """For JSON."""
         method = self.accuracy.method if self.method == "level" else self.method
@@ -72,12 +83,13 @@ class Trade:
     ablation: list[Ablated] = field(default_factory=list)
     verdicts: VerdictChanges | None = None
 
-    def best(self, target: float) -> Point | None:
-        """The cheapest setting with an error of at most ``target`` m.
+    def best(self, target: float, method: str | None = None) -> Point | None:
+        """The cheapest setting with an error of at most ``target`` m, of all or of one method.
 
         Times that differ by less than the noise count as equal; then the fewest force evaluations win.
         """
-        good = [point for point in self.points if point.error_m is not None and point.error_m <= target]
+        among = [point for point in self.points if method in (None, point.method)]
+        good = [point for point in among if point.error_m is not None and point.error_m <= target]
         least = min((point.wall_s for point in good), default=0.0)
         alike = [point for point in good if point.wall_s <= (1.0 + _NOISE) * least]
         return min(alike, key=lambda point: point.force_evaluations, default=None)
@@ -192,23 +204,68 @@ def as_dict(found: Trade) -> dict[str, Any]:
     }
 
 
-def as_text(found: Trade) -> list[str]:
-    """For people."""
+def as_text(found: Trade, everything: bool = False) -> list[str]:
+    """For people: the cheapest way to each accuracy, and its time compared with that of pymunk alone; or everything."""
+    reference = found.reference
+    lines = [
+        f"{reference.scene.title}: position of {_whose(reference)} after {reference.time:.4g} s",
+        *table(
+            ("for", "cheapest", "error", "time", "pymunk alone", "error", "time", "times"),
+            [_choice(found, target) for target in TARGETS],
+            "llrrlrrr",
+        ),
+        *paragraph(f"levels: {', '.join(_in_short(found, name) for name in found.levels)}"),
+        *(paragraph(f"verdicts: {_verdicts(found.verdicts)}") if found.verdicts is not None else []),
+    ]
+    if not everything:
+        return [*lines, "  --all shows every setting, the verdicts, and what each part of the model changes"]
+    return [*lines, "", *_everything(found)]
+
+
+def _whose(reference: Reference) -> str:
+    return "every ball" if len(reference.points) > 1 else "the ball"
+
+
+def _choice(found: Trade, target: float) -> list[str]:
+    """The cheapest setting of all for an error in m, the cheapest of pymunk alone, and the ratio of their times."""
+    best, plain = found.best(target), found.best(target, "plain")
+    cells = [
+        [name, length_or_below(point.error_m, found.reference.error), time(point.wall_s)]
+        if point is not None
+        else ["none", "", ""]
+        for point, name in ((best, best and best.name), (plain, plain and plain.setting))
+    ]
+    ratio = significant(plain.wall_s / best.wall_s) if best is not None and plain is not None else ""
+    return [length(target), *(cell or "" for cell in (*cells[0], *cells[1])), ratio]
+
+
+def _in_short(found: Trade, name: str) -> str:
+    point = found.levels[name]
+    return f"{name} {length_or_below(point.error_m, found.reference.error) or point.error} in {time(point.wall_s)}"
+
+
+def _verdicts(changes: VerdictChanges) -> str:
+    """How many shots come out differently or fail, by method."""
+    counts = (
+        f"{name} {of.other} other" + (f", {of.failed} failed" if of.failed else "")
+        for name, of in changes.methods.items()
+    )
+    return f"of {changes.shots} shots around it, by {'; '.join(counts)}"
+
+
+def _everything(found: Trade) -> list[str]:
+    """Every setting, the levels, the verdicts, and the parts of the model."""
     least = found.reference.error
 
     def cells(point: Point) -> list[str]:
-        return [length_or_below(point.error_m, least), time(point.wall_s), significant(point.times_real_time)]
+        error = length_or_below(point.error_m, least) or point.error
+        return [error, time(point.wall_s), significant(point.times_real_time)]
 
     settings = [[p.method, p.setting, *cells(p), str(p.force_evaluations)] for p in found.points]
     levels = [
         [name, length(point.accuracy.tolerance), *cells(point), "" if behind is None else significant(behind)]
         for name, point in found.levels.items()
         for behind in [found.slowdown_from_pareto(name)]
-    ]
-    choices = [
-        [length(target), f"{best.method} {best.setting}", *cells(best)[:2]]
-        for target in TARGETS
-        if (best := found.best(target)) is not None
     ]
     return [
         *_about(found.reference),
@@ -220,9 +277,6 @@ def as_text(found: Trade) -> list[str]:
         *table(
             ("level", "target", "error", "time", "x real time", "x cheapest equally accurate setting"), levels, "lrrrrr"
         ),
-        "",
-        "cheapest choice",
-        *table(("for", "method", "error", "time"), choices, "llrr"),
         *(["", *ablation_text(found.ablation, found.reference.time)] if found.ablation else []),
         *(["", *found.verdicts.as_text()] if found.verdicts is not None else []),
     ]
@@ -231,14 +285,13 @@ def as_text(found: Trade) -> list[str]:
 def _about(reference: Reference) -> list[str]:
     scene, chaotic = reference.scene, reference.diverges_at
     closed = reference.closed_form
-    many = "every ball" if len(reference.points) > 1 else "the ball"
     how = "contacts are computed, the rest is in closed form" if closed else "checked with another integrator"
     growth = f"a nudge at the start grows {significant(reference.growth)} times until then"
     if chaotic is not None:
         growth = f"chaotic: a nudge of 1e-9 m has grown to 1 mm after {chaotic:.4g} s"
     return [
         scene.title,
-        f"  measure    position of {many} after {reference.time:.4g} s",
+        f"  measure    position of {_whose(reference)} after {reference.time:.4g} s",
         f"  reference  error {length(reference.error)}, {how}",
         f"  growth     {growth}",
     ]

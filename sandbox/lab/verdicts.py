@@ -1,15 +1,17 @@
-"""The share of verdicts that depend on the accuracy: shots around the scene's own, run at every level."""
+"""Verdicts by method and level: shots around the scene's own, and how many come out the same, differently, or fail."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from itertools import product
 from time import perf_counter
 from typing import Any
 
 from sandbox import parameters as declared
 from sandbox.engine.model.accuracy import LEVELS
+from sandbox.engine.model.setup_errors import MethodFailed
 from sandbox.lab.runs import runs
 from sandbox.lab.tables import paragraph, table
 from sandbox.scene import Scene
@@ -34,20 +36,37 @@ _WAYS: dict[str, dict[str, Any]] = {
 
 
 @dataclass(frozen=True)
+class Verdicts:
+    """The shots of one method, counted by how their verdict compares with that of the finest run."""
+
+    same: int = 0
+    other: int = 0
+    failed: int = 0
+
+
+@dataclass(frozen=True)
 class VerdictChanges:
-    """Fraction of the shots whose verdict differs from the finest run's, by level."""
+    """The verdicts of shots by method and level, compared with those of the finest runs."""
 
     over: tuple[str, str]  # the keys of speed and angle
     shots: int
-    changed: dict[str, float]
+    methods: dict[str, Verdicts]
+    failures: dict[str, dict[str, int]] = field(default_factory=dict)  # of each method, how many by their name
 
     def as_text(self) -> list[str]:
         about = f"{self.shots} shots, {self.over[0]} within {100 * _SPEED:.0f} %, {self.over[1]} within {_ANGLE:g} deg"
-        rows = [(name, f"{100.0 * share:.1f} %") for name, share in self.changed.items()]
-        return [
-            *paragraph(f"verdicts that change with the accuracy ({about})", ""),
-            *table(("by", "changed"), rows, "lr"),
+        rows = [
+            [name, *(str(count) if count else "-" for count in (of.same, of.other, of.failed)), self.named(name)]
+            for name, of in self.methods.items()
         ]
+        return [
+            *paragraph(f"verdicts, compared with the finest run's ({about})", ""),
+            *table(("by", "same", "other", "failed", ""), rows, "lrrrl"),
+        ]
+
+    def named(self, method: str) -> str:
+        """How its shots failed, with counts."""
+        return ", ".join(f"{name} {count}" for name, count in self.failures.get(method, {}).items())
 
 
 def verdict(scene: Scene, result: Mapping[str, Any]) -> str:
@@ -81,12 +100,9 @@ def shot_map(scene: Scene) -> VerdictChanges | None:
             for p, q in product(places, places)
         ]
 
-    def verdicts(points: list[tuple[float, float]], how: Mapping[str, Any], finer: bool = False) -> list[str]:
+    def verdicts(points: list[tuple[float, float]], how: Mapping[str, Any], finer: bool = False) -> list[Any]:
         found = runs(scene.changed({**controls.set_on_pull, **how}), keys, points, finer)
-        return [
-            f"failed: {type(run).__name__}" if isinstance(run, Exception) else verdict(scene, run.result)
-            for run in found
-        ]
+        return [run if isinstance(run, Exception) else verdict(scene, run.result) for run in found]
 
     started = perf_counter()
     own = [(speed.value, angle.value)]
@@ -95,10 +111,31 @@ def shot_map(scene: Scene) -> VerdictChanges | None:
     side = int((PATIENCE / (perf_counter() - started)) ** 0.5)
     points = shots(max(FEWEST, min(MOST, side)))
     truth = verdicts(points, _WAYS["precise"], finer=True)
-    changed = {}
+    methods, failures = {}, {}
     for name, how in _WAYS.items():
         started = perf_counter()
         verdicts(own, how)
         if len(points) * (perf_counter() - started) <= TOO_LONG:
-            changed[name] = sum(a != b for a, b in zip(truth, verdicts(points, how), strict=True)) / len(points)
-    return VerdictChanges(keys, len(points), changed)
+            found = verdicts(points, how)
+            methods[name] = compared(truth, found)
+            pairs = zip(truth, found, strict=True)
+            failures[name] = dict(Counter(failure(b) for a, b in pairs if has_failed(a, b)))
+    return VerdictChanges(keys, len(points), methods, {name: each for name, each in failures.items() if each})
+
+
+def compared(truth: Sequence[Any], found: Sequence[Any]) -> Verdicts:
+    """The verdicts found, or exceptions, compared with the true ones."""
+    pairs = list(zip(truth, found, strict=True))
+    failed = sum(has_failed(a, b) for a, b in pairs)
+    other = sum(a != b and not isinstance(b, Exception) for a, b in pairs)
+    return Verdicts(len(pairs) - failed - other, other, failed)
+
+
+def has_failed(truth: Any, found: Any) -> bool:
+    """True if the run failed and the true one did not."""
+    return isinstance(found, Exception) and not isinstance(truth, Exception)
+
+
+def failure(error: Exception) -> str:
+    """The name of a failure: that of the method's, or of another error."""
+    return error.name if isinstance(error, MethodFailed) else type(error).__name__
