@@ -1,7 +1,8 @@
 """A shot with pymunk alone, as a user would write it: a Space, drag in ``velocity_func``, ``space.step`` in a loop.
 
 Nothing is recorded. Unlike in many programs, ``collision_slop`` is lowered from its default, which is meant for pixels
-and would let the ball sink 10 cm into the floor.
+and would let the ball sink 10 cm into the floor, and the floor is thick, or the ball would fall through. The best that
+pymunk can do alone is the plain method.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ import pymunk
 from shots import Shot
 
 from sandbox.engine.model.surface import Circle
+from sandbox.engine.pymunk_parts import thick_outline
 
 SLOP = 1e-5  # m
 
@@ -30,10 +32,12 @@ def shoot(shot: Shot, rate: float) -> Stepped:
     space = pymunk.Space()
     space.collision_slop = SLOP
     for surface in setup.surfaces:
-        shape = surface.shape
+        shape, outline = surface.shape, thick_outline(setup, surface)
         fixed: pymunk.Shape
         if isinstance(shape, Circle):
             fixed = pymunk.Circle(space.static_body, shape.radius, shape.center)
+        elif len(outline.corners) > 2:
+            fixed = pymunk.Poly(space.static_body, outline.corners, radius=outline.radius)
         else:
             fixed = pymunk.Segment(space.static_body, shape.a, shape.b, shape.radius)
         fixed.elasticity, fixed.friction, fixed.collision_type = surface.restitution, surface.friction, 2

@@ -20,9 +20,9 @@ from sandbox.lab import chart as charts
 from sandbox.lab.aim import Aim, aim, report
 from sandbox.lab.axes import parse_axis
 from sandbox.lab.plan import Plan
-from sandbox.lab.stress import FAILED, HELD, REFUSED, Outcome
+from sandbox.lab.stress import FAILED, HELD, REFUSED, SENSELESS, Outcome
 from sandbox.lab.sweep import sweep_to_file, workers
-from sandbox.lab.verdicts import VerdictChanges
+from sandbox.lab.verdicts import VerdictChanges, Verdicts
 from sandbox.scene import listings, load
 from tests.own_scene import DROP
 from tests.scenes.play import run_of
@@ -121,7 +121,9 @@ def test_the_tables_of_stress(printed):
         for place, method in enumerate(("dormand-prince", "heun", "plain"))
         for word, energy, overlap in [numbers[(place + shift) % 4]]
     ]
+    outcomes.append(Outcome("golf", "board upside down", "heun", SENSELESS, "board.top is below board.bottom"))
     printed("stress", "\n".join(stress.as_text(outcomes)))
+    printed("stress-all", "\n".join(stress.as_text(outcomes, everything=True)))
 
 
 def test_the_tables_of_what_parts_of_a_model_do(printed):
@@ -140,30 +142,34 @@ def test_the_tables_of_what_parts_of_a_model_do(printed):
 def measured() -> trade.Trade:
     """A trade with settings of known errors and times."""
 
-    def point(method: str, setting: str, error: float | None, wall: float, stable: bool = True) -> trade.Point:
-        said = "" if error is not None else "diverged"
+    def point(
+        method: str, setting: str, error: float | None, wall: float, stable: bool = True, said: str = ""
+    ) -> trade.Point:
         return trade.Point(method, setting, LEVELS["fast"], error, wall, 3, int(1e5 * wall), 2.0 / wall, stable, said)
 
     points = [
         point("plain", "1/2 s", 3.21, 1e-4, stable=False),
+        point("plain", "1/20 s", None, 1e-3, False, "tunnelled: t = 1 s, ball 'ball': went through 'fairway'"),
         point("plain", "1/60 s", 0.12, 2e-3),
         point("plain", "1/1000 s", 9e-3, 0.03),
         point("heun", "1/10 s", 0.04, 6e-4),
         point("heun", "1/240 s", 3e-5, 5e-3),
-        point("heun", "1/4000 s", None, 0.1),
+        point("heun", "1/4000 s", None, 0.1, said="t = 1 s, ball 'ball': diverged"),
         point("dormand-prince", "1e-06 m", 2e-10, 9e-4),
     ]
     errors = (1e-4, 2e-3), (5e-7, 7e-4), (1e-10, 1.2e-3)
     levels = {name: point("level", name, *each) for name, each in zip(LEVELS, errors, strict=True)}
     reference: Any = SimpleNamespace(scene=load("golf"), time=2.0, error=1e-11, points={"ball": (1.0, 2.0)})
     reference.closed_form, reference.growth, reference.diverges_at = False, 34.5, None
-    changed = {"fast": 0.125, "balanced": 0.0044, "precise": 0.0}
-    verdicts = VerdictChanges(("launch.speed", "launch.angle"), 225, changed)
+    methods = {"fast": Verdicts(224, 1, 0), "precise": Verdicts(225, 0, 0), "plain 1/60 s": Verdicts(219, 2, 4)}
+    failures = {"plain 1/60 s": {"tunnelled": 3, "RunError": 1}}
+    verdicts = VerdictChanges(("launch.speed", "launch.angle"), 225, methods, failures)
     return trade.Trade(reference, points, levels, [], verdicts)
 
 
 def test_the_tables_of_trade(printed):
     printed("trade", "\n".join(trade.as_text(measured())))
+    printed("trade-all", "\n".join(trade.as_text(measured(), everything=True)))
 
 
 #: Searches of a falling ball, by their names.

@@ -1,8 +1,9 @@
 """The extremes, and what happened at each: held, refused with a clear error, or failed.
 
 The exact method must give no NaN or infinite number, no tunnelling, no energy gain beyond the bound below, and no
-endless loop, or else an error that names time, ball and quantity. The plain method must only end without NaN; its other
-columns are for information.
+endless loop, or else an error that names time, ball and quantity. The plain method must end without NaN and without a
+failure that has a name (tunnelled, exploded); its other columns are for information. What makes no sense, such as a
+board upside down or a force that is not a number, must be refused, and counts as no extreme.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ from sandbox.engine.model.accuracy import LEVELS, Accuracy
 from sandbox.engine.model.ball import Ball, kinetic, outline_of
 from sandbox.engine.model.motion import Motion
 from sandbox.engine.model.nearest import Pose, nearest
+from sandbox.engine.model.setup_errors import MethodFailed
 from sandbox.engine.model.shapes import Shape
 from sandbox.engine.paths.phase import Phase
 from sandbox.engine.paths.run import Run
@@ -63,7 +65,7 @@ _NAMED = 3
 #: Most balls for which pairs are checked along the whole path.
 _MOST_PAIRED = 40
 
-HELD, REFUSED, FAILED = "held", "refused", "failed"
+HELD, REFUSED, FAILED, SENSELESS = "held", "refused", "failed", "senseless"
 
 
 @dataclass(frozen=True)
@@ -73,7 +75,7 @@ class Outcome:
     scene: str  # "" for a bare setup
     extreme: str
     method: str
-    outcome: str  # "held", "refused" or "failed"
+    outcome: str  # "held", "refused" or "failed"; or "senseless", if the input makes no sense and is refused
     message: str = ""
     wall_s: float = 0.0
     energy_gained: float | None = None  # not from any force, relative to the largest energy of the run
@@ -136,9 +138,13 @@ def _tried(scene: str, extreme: Extreme, method: str, accuracy: Accuracy) -> Out
 
     try:
         run = simulate(extreme.build(), accuracy)
+    except MethodFailed as error:
+        return outcome(FAILED, str(error))
     except SandboxError as error:
-        kind = "" if isinstance(error, RequestError) else f"{type(error).__name__}: "
-        return outcome(REFUSED if process_time() - used < ENDLESS else FAILED, f"{kind}{error}")
+        request = isinstance(error, RequestError)
+        refused = SENSELESS if request or not extreme.makes_sense else REFUSED
+        kind = "" if request else f"{type(error).__name__}: "
+        return outcome(refused if process_time() - used < ENDLESS else FAILED, f"{kind}{error}")
     except Exception as error:  # any other exception is a failure, which this test looks for
         return outcome(FAILED, f"{type(error).__name__}: {error}")
     took = process_time() - used
@@ -259,24 +265,52 @@ def _overlaps_of_balls(run: Run) -> Iterator[tuple[float, float]]:
 _SUMS = ("held", "refused", "failed", "energy", "overlap")
 
 
-def as_text(outcomes: Sequence[Outcome]) -> list[str]:
-    """A table for each scene, with refusals and failures below it; then the totals."""
+def as_text(outcomes: Sequence[Outcome], everything: bool = False) -> list[str]:
+    """What held and what failed, by method, and each failure; with ``everything`` a table for each scene before it,
+    with its refusals."""
     lines: list[str] = []
-    for scene, own in _grouped(outcomes, "scene"):
+    sensible = _sensible(outcomes)
+    for scene, own in _grouped(outcomes, "scene") if everything else ():
         rows = []
         for extreme, tries in _grouped(own, "extreme"):
             sums = _sums([each for each in tries if each.method != "plain"], tries)
             rows.append([extreme, *("" if cell == "0" else cell for cell in sums)])
-        lines += [scene or "setups without a scene", *table(("extreme", *_SUMS), rows, "lrrrrr"), *_remarks(own), ""]
+        lines += [scene or _BARE, *table(("extreme", *_SUMS), rows, "lrrrrr"), *_remarks(own), ""]
     headings, rows = summary(outcomes)
-    return [*lines, "total", *table(headings, rows, "l" + "r" * (len(headings) - 1))]
+    scenes = [scene or _BARE for scene, _ in _grouped(outcomes, "scene")]
+    lines += [
+        *paragraph(f"{_extremes(sensible)} extremes of {', '.join(scenes)}", ""),
+        *table(headings, rows, "l" + "r" * (len(headings) - 1)),
+    ]
+    if not everything:
+        for scene, own in _grouped(sensible, "scene"):
+            failures = list(_remarks(own, FAILED))
+            lines += [scene or _BARE, *failures] if failures else []
+        lines.append("--all shows each extreme, and what was refused and why")
+    if senseless := _extremes(outcomes) - _extremes(sensible):
+        lines.append(f"not counted, as they make no sense and are refused: {senseless}")
+    return lines
+
+
+def _sensible(outcomes: Sequence[Outcome]) -> list[Outcome]:
+    """The outcomes of all extremes but those that make no sense."""
+    senseless = {(each.scene, each.extreme) for each in outcomes if each.outcome == SENSELESS}
+    return [each for each in outcomes if (each.scene, each.extreme) not in senseless]
+
+
+def _extremes(outcomes: Sequence[Outcome]) -> int:
+    return len({(each.scene, each.extreme) for each in outcomes})
+
+
+#: What stands for the scene of a setup without one.
+_BARE = "setups without a scene"
 
 
 def summary(outcomes: Sequence[Outcome]) -> tuple[list[str], list[list[str]]]:
     """Headings and rows: how often each method held, its largest energy gain and its largest overlap, and the longest
     step at which it held in every scene."""
     rows = []
-    for method, own in _grouped(outcomes, "method"):
+    for method, own in _grouped(_sensible(outcomes), "method"):
         steps = _grouped([each for each in own if each.extreme.startswith("step ")], "extreme")
         held = takewhile(lambda step: all(each.outcome == HELD for each in step[1]), steps)
         longest = "".join([step for step, _ in held][-1:])
@@ -300,11 +334,11 @@ def _sums(measured: Sequence[Outcome], outcomes: Sequence[Outcome]) -> list[str]
     return [*map(str, counts), *worst]
 
 
-def _remarks(outcomes: Sequence[Outcome]) -> Iterator[str]:
-    """Each message once, with the extremes and methods that gave it."""
+def _remarks(outcomes: Sequence[Outcome], *words: str) -> Iterator[str]:
+    """Each message once, with the extremes and methods that gave it; of these outcomes only, if any are given."""
     by_message: dict[tuple[str, str, str], list[str]] = defaultdict(list)
     for o in outcomes:
-        if o.outcome != HELD:
+        if o.outcome in (words or (REFUSED, FAILED, SENSELESS)):
             by_message[o.outcome, o.extreme, o.message.partition("\n")[0]].append(o.method)
     everybody = len({outcome.method for outcome in outcomes})
     by_extreme: dict[tuple[str, str, tuple[str, ...]], list[str]] = defaultdict(list)

@@ -25,7 +25,7 @@ from sandbox.engine.model.shapes import box
 from sandbox.engine.model.surface import Circle, Moving, Segment, Surface
 from sandbox.engine.paths.phase import Phase
 from sandbox.engine.paths.run import Run
-from sandbox.errors import RequestError, RunError
+from sandbox.errors import RunError
 from sandbox.physics.cloth import Cloth
 from sandbox.physics.forces import Gravity
 
@@ -413,13 +413,6 @@ def test_a_body_bounces_off_what_moves_and_is_not_carried():
     assert run.state("crate", first.t).vy == pytest.approx(1.0 + 0.5 * first.speed, abs=1e-6)
     with pytest.raises(RunError, match="'crate': it stays on 'lift', which moves"):
         simulate(Setup([crate], [plate], duration=5.0), resolve(level="balanced"))
-
-
-def test_the_plain_method_refuses_what_moves():
-    ball = Ball("ball", MASS, RADIUS, (0.0, 1.0))
-    setup = Setup([ball], [Moving(Surface("lift", PLATE, 0.5, 0.3), Turning((0.0, 0.0), 1.0))])
-    with pytest.raises(RequestError, match="the plain method has no surfaces that move, as 'lift' does"):
-        simulate(setup, resolve(method="plain"))
 
 
 def test_a_setup_with_motions_is_data():

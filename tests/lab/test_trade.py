@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -16,19 +17,22 @@ from sandbox.engine import simulate
 from sandbox.engine.model.accuracy import LEVELS
 from sandbox.engine.model.ball import Ball
 from sandbox.engine.model.setup import Setup
+from sandbox.engine.model.setup_errors import MethodFailed
 from sandbox.engine.model.surface import Segment, Surface
+from sandbox.errors import RunError
 from sandbox.lab import timing, verdicts
 from sandbox.lab import trade as lab
 from sandbox.lab.ablation import Ablated, ablation, variants
 from sandbox.lab.chart import draw_trade
 from sandbox.lab.reference import DIVERGED, REFERENCE, Reference, converge
 from sandbox.lab.tables import length_or_below
-from sandbox.lab.verdicts import shot_map, verdict
+from sandbox.lab.verdicts import VerdictChanges, Verdicts, shot_map, verdict
 from sandbox.new import new_scene
 from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity
 from sandbox.scene import load
 from sandbox.scene.setup_scene import scene_of
+from sandbox.sport.amounts import significant
 from tests.own_scene import DROP
 
 #: A free throw that rattles in the ring: every impact on the round tube multiplies errors.
@@ -55,7 +59,7 @@ def rattle() -> Reference:
 
 @pytest.fixture(scope="module")
 def basketball(fewer_settings: None) -> lab.Trade:
-    return lab.trade(load("basketball", {"net.slows": False}))  # at long steps "plain" falls through the ring with it
+    return lab.trade(load("basketball"))
 
 
 # Timing --------------------------------------------------------------------------------------------------------------
@@ -141,7 +145,7 @@ def test_every_method_has_its_points_and_finer_ones_are_better(basketball: lab.T
         points = [point for point in basketball.points if point.method == method]
         errors = [point.error_m for point in points if point.error_m is not None]
         assert errors[-1] < 0.1 * errors[0]
-        assert len(errors) == len(points) or method == "plain"  # at long steps it goes through the rim, and says so
+        assert len(errors) == len(points)
     fast, balanced, precise = (basketball.levels[name].error_m for name in ("fast", "balanced", "precise"))
     assert fast > balanced > precise
     assert set(basketball.levels) == set(LEVELS)
@@ -166,10 +170,25 @@ def test_the_best_is_the_cheapest_that_is_good_enough(basketball: lab.Trade):
     assert basketball.best(0.0) is None
 
 
-def test_plain_calls_a_step_of_half_a_second_unstable(basketball: lab.Trade):
-    coarse = next(point for point in basketball.points if (point.method, point.setting) == ("plain", "1/2 s"))
-    assert not coarse.stable
-    assert coarse.problem
+def test_a_failed_run_has_a_word_in_the_table(basketball: lab.Trade):
+    tunnelled, diverged = (
+        replace(basketball.points[0], error_m=None, problem=said)
+        for said in ("tunnelled: t = 1 s, ball 'ball': went through 'floor'", "t = 1 s, ball 'ball': diverged")
+    )
+    assert (tunnelled.error, diverged.error) == ("tunnelled", "failed")
+    text = "\n".join(lab.as_text(replace(basketball, points=[tunnelled, *basketball.points[1:]]), everything=True))
+    assert re.search(r"plain +1/2 s +tunnelled", text)
+
+
+def test_the_answer_is_ten_lines(basketball: lab.Trade):
+    """The cheapest setting for each error, that of pymunk alone, and the ratio of their times."""
+    brief = lab.as_text(basketball)
+    assert len(brief) <= 12
+    assert max(map(len, brief)) <= 80
+    best, plain = basketball.best(0.01), basketball.best(0.01, "plain")
+    row = next(line for line in brief if line.startswith("  1 cm"))
+    assert plain.setting in row
+    assert row.split()[-1] == significant(plain.wall_s / best.wall_s)
 
 
 def test_on_ice_integrators_take_part_and_on_cloth_none():
@@ -353,8 +372,19 @@ def test_levels_agree_on_nearly_every_verdict(basketball: lab.Trade):
     assert found is not None
     assert shot_map(load(DROP)) is None  # without speed there is nothing to vary
     assert found.over == ("launch.speed", "launch.angle")
-    assert found.changed["precise"] == 0.0
-    assert found.changed["balanced"] <= found.changed["plain 1/60 s"]
+    assert found.methods["precise"] == Verdicts(found.shots, 0, 0)
+    assert found.methods["balanced"].same >= found.methods["plain 1/60 s"].same
+
+
+def test_same_other_and_failed_verdicts_are_counted_apart(monkeypatch: pytest.MonkeyPatch):
+    """Shots that fail by the finest run too are the same."""
+    lost = RunError("t = 1 s: outside the world")
+    fell = MethodFailed("tunnelled: t = 1 s, ball 'ball': went through 'floor'")
+    truth, found = ["goal", "goal", "wide", lost, "wide"], ["goal", "wide", fell, lost, lost]
+    assert verdicts.compared(truth, found) == Verdicts(same=2, other=1, failed=2)
+    assert [verdicts.failure(each) for each in (fell, lost)] == ["tunnelled", "RunError"]
+    table = VerdictChanges(("a", "b"), 5, {"plain": Verdicts(2, 1, 2)}, {"plain": {"tunnelled": 1, "RunError": 1}})
+    assert re.search(r"plain +2 +1 +2 +tunnelled 1, RunError 1", "\n".join(table.as_text()))
 
 
 @pytest.mark.parametrize(
@@ -414,11 +444,17 @@ def test_the_command_prints_tables(
     basketball: lab.Trade, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ):
     monkeypatch.setattr(lab, "trade", lambda scene, progress: basketball)
-    assert main(["trade", "basketball"]) == 0
+    assert main(["trade", "basketball", "--all"]) == 0
     out = capsys.readouterr().out
-    for heading in ("levels", "cheapest choice", "effect of each part of the model", "dormand-prince", "verdicts that"):
+    for heading in (
+        "levels",
+        "pymunk alone",
+        "effect of each part of the model",
+        "dormand-prince",
+        "verdicts, compared",
+    ):
         assert heading in out
-    assert "verdicts that" not in "".join(lab.as_text(replace(basketball, verdicts=None)))
+    assert "verdicts" not in "".join(lab.as_text(replace(basketball, verdicts=None))).replace("the verdicts", "")
 
 
 def test_a_picture_of_another_kind_is_refused_before_any_work(capsys: pytest.CaptureFixture[str]):
