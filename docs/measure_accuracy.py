@@ -34,6 +34,7 @@ from sandbox.parameters import walk
 from sandbox.scene import check, compare, listings, load
 from sandbox.scene import simulate as simulate_scene
 from sandbox.scene.running import SAFETY, simulate_at
+from sandbox.sport.amounts import significant
 
 DOCS = Path(__file__).resolve().parent
 PAGE, README = DOCS / "accuracy.md", DOCS.parent / "README.md"
@@ -83,6 +84,7 @@ def traded() -> dict[str, list[str]]:
     return {
         "levels": [*levels(found), "", machine()],
         "cheapest": cheapest(found),
+        "against pymunk": against_pymunk(found),
         "verdicts": verdicts(found),
         "parts": parts(found),
     }
@@ -217,15 +219,24 @@ def levels(found: dict[str, Trade]) -> list[str]:
 def cheapest(found: dict[str, Trade]) -> list[str]:
     rows = []
     for name, one in found.items():
+        best = [one.best(target) for target in TARGETS]
+        cells = ["" if b is None else f"{b.name}, {time(b.wall_s)}" for b in best]
+        rows.append([f"`{name}`", *cells])
+    return markdown(["scene", *map(length, TARGETS)], rows, left=1 + len(TARGETS))
+
+
+def against_pymunk(found: dict[str, Trade]) -> list[str]:
+    """The cheapest setting of the plain method for each error, and its time over that of the cheapest of all."""
+    rows = []
+    for name, one in found.items():
         cells = []
         for target in TARGETS:
             best, plain = one.best(target), one.best(target, "plain")
-            cells += ["" if best is None else f"{best.name}, {time(best.wall_s)}"]
             reached = best is not None and plain is not None
-            cells += [f"{plain.setting}, {plain.wall_s / best.wall_s:.0f} x" if reached else "none"]
+            ratio = significant(plain.wall_s / best.wall_s) if reached else ""
+            cells.append(f"{ratio} ({plain.setting})" if reached else "not reached")
         rows.append([f"`{name}`", *cells])
-    heads = [cell for target in TARGETS for cell in (length(target), "pymunk alone")]
-    return markdown(["scene", *heads], rows, left=1 + len(heads))
+    return markdown(["scene", *map(length, TARGETS)], rows)
 
 
 def verdicts(found: dict[str, Trade]) -> list[str]:
