@@ -66,7 +66,7 @@ class Mover:
         """The state after tau s of forces, or of the plane's friction; ``a`` is their acceleration now. It is not
         moved."""
         if self.plane is not None:
-            return _slowed(self.plane, state, self.ball.radius, tau)
+            return self._along(self.plane, t, state, tau)
         gain = tau * self._size(a)
         if gain > _EASY * (abs(state[2]) + abs(state[3])):
             there = self.acceleration(t, _after(state, a, tau))
@@ -78,6 +78,16 @@ class Mover:
             return _after(state, a, tau / max(1, pieces))
         return _after(state, a, tau)
 
+    def _along(self, plane: Plane, t: float, state: State, tau: float) -> State:
+        """The state after tau s on a plane, in all its phases; it is not moved."""
+        forces, radius = len(self.ball.forces) + len(self.ball.torques) > 0, self.ball.radius
+        while tau > 0.0:
+            phase = plane.phase_under(self.acceleration, t, state, radius) if forces else plane.phase(state, radius)
+            part = min(tau, phase.duration)
+            state = (*state[:2], *phase.after(part)[2:])
+            tau -= part
+        return state
+
     def _size(self, a: Acceleration) -> float:
         return float(abs(a[0]) + abs(a[1]) + self.ball.radius * abs(a[2]))
 
@@ -85,16 +95,6 @@ class Mover:
 def _after(state: State, a: Acceleration, tau: float) -> State:
     x, y, vx, vy, spin, *more = state
     return (x, y, vx + tau * a[0], vy + tau * a[1], spin + tau * a[2], *more)
-
-
-def _slowed(plane: Plane, state: State, radius: float, tau: float) -> State:
-    """The state after tau s of friction on a plane, in all its phases; it is not moved."""
-    while tau > 0.0:
-        phase = plane.phase(state, radius)
-        part = min(tau, phase.duration)
-        state = (*state[:2], *phase.after(part)[2:])
-        tau -= part
-    return state
 
 
 def _reaches(shape: pymunk.Shape) -> Iterator[float]:
