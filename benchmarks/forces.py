@@ -6,7 +6,7 @@ second for fixed steps; the balls are far apart and touch nothing.
 - bare pymunk: gravity alone, no callback. It is the limit: the cost without any force in Python.
 - velocity_func: gravity and drag in a function that pymunk calls for each ball, as its users would write it.
 - batch and numpy: all velocities read by ``pymunk.batch``, drag in numpy, all forces written; gravity by pymunk.
-- plain: our plain method, which is velocity_func plus the recording and checks of this program.
+- plain: our plain method, pymunk at its best: of second order, with a look for contacts, recording and checks.
 - exact: this engine at "balanced", all balls in one setup; its steps are as long as the error allows, with six
   evaluations of the forces each.
 - exact, many: the same with a setup for each ball, by ``simulate_many``, as in sweeps; with arrays if there are

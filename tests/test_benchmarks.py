@@ -145,8 +145,8 @@ def test_forces(run: Run):
     assert errors.pop("bare pymunk") is None  # it has no drag
     assert errors["exact"] < 1e-6
     assert errors["exact, many"] < 1e-6
-    for method in ("velocity_func", "batch and numpy", "plain"):
-        assert errors[method] == pytest.approx(errors["plain"], rel=0.01), method
+    assert errors["batch and numpy"] == pytest.approx(errors["velocity_func"], rel=0.01)
+    assert errors["plain"] < 0.01 * errors["velocity_func"]  # of second order
 
 
 def test_bodies(run: Run):

@@ -60,6 +60,9 @@ _LEAP = 0.5
 #: The remedy for a failure that a finer step avoids.
 _REMEDY = 'lower accuracy.step, or use accuracy.method = "exact"'
 
+#: Steps are of one length if they differ by less than this share.
+_ROUNDING = 1e-6
+
 #: Speed in m/s of what leaves the world because the method has exploded.
 _BURST = 1e4
 
@@ -165,7 +168,7 @@ class SetupSpace(pymunk.Space):
 
     def _step_part(self, h: float, end: float) -> None:
         """Step by h s to the time ``end`` in s."""
-        if self.hits and abs(h - self._h) > SLOP * h:  # or Chipmunk would begin with their impulses, scaled
+        if abs(h - self._h) > _ROUNDING * h:  # or Chipmunk would begin with their impulses, scaled to the step
             self._world.forget(shape for shape in {*chain(*self._touched)} if shape.body in self.movers)
         self._h, self.time, self.hits = h, end, []
         self._touching, self._touched = self._touched, set()
