@@ -127,11 +127,10 @@ def thick_outline(setup: Setup, surface: Surface) -> Polygon:
     return Polygon(((ax, ay), (bx, by), (bx + nx, by + ny), (ax + nx, ay + ny)), shape.radius)
 
 
-def _points(surface: Surface) -> Iterator[Vector]:
+def _points(surface: Surface) -> list[Vector]:
     """Points that a surface reaches to, in m."""
     shape = surface.shape
-    if isinstance(shape, Circle):
-        (x, y), r = shape.center, shape.radius
-        yield from ((x - r, y), (x + r, y), (x, y - r), (x, y + r))
-    else:
-        yield from (shape.a, shape.b)
+    if not isinstance(shape, Circle):
+        return [shape.a, shape.b]
+    (x, y), r = shape.center, shape.radius
+    return [(x - r, y), (x + r, y), (x, y - r), (x, y + r)]
