@@ -40,6 +40,7 @@ WAYS: dict[str, Sequence[str]] = {
     "sweep": [str(DROP), "--over", "launch.height=1:2:40", "--out", "{}/s.csv", "--jobs", "2"],
     "spread": ["throws", "--by", "launch.angle=1", "--samples", "64", "--no-causes"],
     "trade": [str(DROP), "--json"],
+    "coefficients": ["golf"],
     "stress": [str(DROP)],
     "validate": ["throws"],
     "tasks": [],
