@@ -210,15 +210,15 @@ def as_text(found: Trade, everything: bool = False) -> list[str]:
     lines = [
         f"{reference.scene.title}: position of {_whose(reference)} after {reference.time:.4g} s",
         *table(
-            ("for", "cheapest", "error", "time", "pymunk alone", "error", "time", "times"),
+            ("for", "cheapest", "error", "time", "pymunk alone", "time", "times"),
             [_choice(found, target) for target in TARGETS],
-            "llrrlrrr",
+            "llrrlrr",
         ),
         *paragraph(f"levels: {', '.join(_in_short(found, name) for name in found.levels)}"),
         *(paragraph(f"verdicts: {_verdicts(found.verdicts)}") if found.verdicts is not None else []),
     ]
     if not everything:
-        return [*lines, "  --all shows every setting, the verdicts, and what each part of the model changes"]
+        return [*lines, "  --all shows every setting, the verdicts, and the parts of the model"]
     return [*lines, "", *_everything(found)]
 
 
@@ -229,14 +229,12 @@ def _whose(reference: Reference) -> str:
 def _choice(found: Trade, target: float) -> list[str]:
     """The cheapest setting of all for an error in m, the cheapest of pymunk alone, and the ratio of their times."""
     best, plain = found.best(target), found.best(target, "plain")
-    cells = [
-        [name, length_or_below(point.error_m, found.reference.error), time(point.wall_s)]
-        if point is not None
-        else ["none", "", ""]
-        for point, name in ((best, best and best.name), (plain, plain and plain.setting))
-    ]
-    ratio = significant(plain.wall_s / best.wall_s) if best is not None and plain is not None else ""
-    return [length(target), *(cell or "" for cell in (*cells[0], *cells[1])), ratio]
+    ours, theirs = ["none", "", ""], ["none", "", ""]
+    if best is not None:
+        ours = [best.name, length_or_below(best.error_m, found.reference.error), time(best.wall_s)]
+    if best is not None and plain is not None:
+        theirs = [plain.setting, time(plain.wall_s), significant(plain.wall_s / best.wall_s)]
+    return [length(target), *ours, *theirs]
 
 
 def _in_short(found: Trade, name: str) -> str:
