@@ -187,7 +187,7 @@ def test_the_picture_of_a_setup_names_its_surfaces(run: sandbox.Run):
         (lambda: sandbox.simulate(setup()).state("ball", "now"), "t = 'now': must be a number, in s"),
         (lambda: sandbox.simulate(setup()).states("ball", ["now"]), r"times = \['now'\]: must be numbers, in s"),
         (lambda: sandbox.simulate(setup()).fork(0.1, remove=[{}]), "remove: there is no ball {}"),
-        (lambda: sandbox.simulate(setup()).poster(size=300), "must be between .* px"),
+        (lambda: sandbox.simulate(setup()).poster(size=300), "must be two whole numbers, between .* px"),
         (lambda: sandbox.simulate_many("golf", {"launch.speed": [60]}, facts=None), "facts = None: must be a tuple"),
         (lambda: sandbox.World("golf").apply(3.0), "parameters = 3.0: must be a dictionary such as"),
         (lambda: sandbox.simulate(setup()).state("ball", 4.0, "last"), 'outside = \'last\': must be "error" or "nan"'),
