@@ -121,7 +121,8 @@ def pairs(option: str, texts: tuple[str, ...]) -> dict[str, str]:
 
 def say(text: str) -> None:
     """Print on stdout, at once. A full disk is reported."""
-    out = click.get_current_context().meta.get(_STDOUT, sys.stdout)
+    context = click.get_current_context(silent=True)
+    out = sys.stdout if context is None else context.meta.get(_STDOUT, sys.stdout)
     if out is None:
         raise RunError("stdout cannot be written: it is closed")
     try:
