@@ -42,7 +42,7 @@ pictures: .venv/ready-dev
 gallery: .venv/ready
 	$(BIN)/python -m sandbox.page.gallery out/gallery
 
-# Comparisons with other libraries, into docs/benchmarks.md: twenty minutes on an idle machine.
+# Comparisons with other libraries, into benchmarks/results.md: twenty minutes on an idle machine.
 bench: .venv/ready-dev .venv/pooltool/ready
 	$(BIN)/python benchmarks/page.py
 

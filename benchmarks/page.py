@@ -1,4 +1,4 @@
-"""Runs all comparisons and writes their output into docs/benchmarks.md: ``make bench``, on an idle machine.
+"""Runs all comparisons and writes their output into benchmarks/results.md: ``make bench``, on an idle machine.
 
 The page is written once, when all have run, so that all its numbers are of one program on one machine. The JSON of each
 goes to out/benchmarks.
@@ -19,7 +19,7 @@ from pathlib import Path
 from time import perf_counter
 
 ROOT = Path(__file__).resolve().parent.parent
-PAGE = ROOT / "docs" / "benchmarks.md"
+PAGE = ROOT / "benchmarks" / "results.md"
 JSON = ROOT / "out" / "benchmarks"
 PEER = ROOT / ".venv" / "pooltool" / "bin" / "python"
 

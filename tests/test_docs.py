@@ -34,7 +34,8 @@ from sandbox.physics.integrators import INTEGRATORS
 from sandbox.record import diverges
 
 ROOT = Path(__file__).resolve().parent.parent
-PHYSICS = (ROOT / "docs" / "physics.md").read_text("utf-8")
+PHYSICS, ENGINE = ((ROOT / "docs" / f"{page}.md").read_text("utf-8") for page in ("physics", "engine"))
+METHODS_AND_MODELS = PHYSICS + ENGINE
 
 #: Arithmetic for floats and arrays alike, a method of INTEGRATORS written by hand, arguments of forces: no physics.
 NOT_MODELS = {"elementwise", "checks", "dormand_prince", "of_ball"}
@@ -63,7 +64,7 @@ def models(module: Any) -> list[str]:
 
 
 MODELS = [(module.__name__, name) for module in modules() for name in models(module)]
-HEADINGS = re.findall(r"^### .*$", PHYSICS, re.MULTILINE)
+HEADINGS = re.findall(r"^##+ .*$", METHODS_AND_MODELS, re.MULTILINE)
 
 
 def test_models_are_found():
@@ -84,14 +85,14 @@ def test_every_coefficient_of_a_scene_file_is_named(name: str):
 @pytest.mark.parametrize("name", INTEGRATORS)
 def test_the_integrators_are_listed_as_they_are(name: str):
     integrator = INTEGRATORS[name]
-    assert f"| `{name}` | {integrator.order} | {integrator.evaluations} |" in PHYSICS
+    assert f"| `{name}` | {integrator.order} | {integrator.evaluations} |" in ENGINE
 
 
-CHECKS = re.findall(r"^\*\*Check\*\* `(.+)` is (\S+)$", PHYSICS, re.MULTILINE)
+CHECKS = re.findall(r"^\*\*Check\*\* `(.+)` is (\S+)$", METHODS_AND_MODELS, re.MULTILINE)
 
 
 def test_checks_are_found():
-    assert len(CHECKS) == PHYSICS.count("\n**Check**") > 20
+    assert len(CHECKS) == METHODS_AND_MODELS.count("\n**Check**") > 20
 
 
 @pytest.mark.parametrize(("expression", "stated"), CHECKS)
@@ -104,7 +105,7 @@ def test_what_the_page_states_is_computed_again(expression: str, stated: str):
 
 def test_every_section_says_what_it_stands_on():
     """A source, or whose choice it is, in every section of a model that stands for something measured."""
-    for section in re.split(r"^### ", PHYSICS.partition("# The engine")[0], flags=re.MULTILINE)[1:]:
+    for section in re.split(r"^### ", PHYSICS, flags=re.MULTILINE)[1:]:
         title = section.partition("\n")[0]
         if not re.search(r"`(Gravity|UniformWind|Constant)`", title):
             assert re.search(r"Source|\*[Oo]urs\*|\(\d{4}|\b(19|20)\d\d\b", section), title
