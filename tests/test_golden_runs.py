@@ -28,6 +28,7 @@ RUNS = {
     "collisions": None,
     "collisions/bowl": 0.3,  # until they lie on one another
     "collisions/beach-balls": None,
+    "collisions/overlapping": None,
     "tennis": None,
     "bullet": None,
     "bullet-water": None,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain, product
@@ -22,6 +22,7 @@ from sandbox.kit import (
     Painter,
     Segment,
     Sheet,
+    metres,
     near,
     palette,
     round_number_above,
@@ -32,7 +33,8 @@ from sandbox.picture.places.plan import Plan
 from sandbox.picture.places.things import unit_of
 
 from .boxes import TOUCH, strip
-from .scene import AMOUNTS, Blow, Parameters, blow, hangs, shares
+from .scene import AMOUNTS, Blow, Parameters, blow, hangs, shares, stepped
+from .stepping import RULES, Stepped
 
 CARD, COLOURS = palette("card"), scene_colours(__file__)
 SPOTS = near(np.array(list(product((-1.0, 1.0), repeat=3))) / 3**0.5, 0.25)  # so that one sees them turn
@@ -41,6 +43,8 @@ LOOKS = [Look(colour, Mark(COLOURS["spot"], SPOTS), gloss=0.7) for colour in COL
 BARS, BLOCK, LONGEST = 0.27, 3.75, 90.0
 #: Under them the blow is drawn by itself if there is room for so many px.
 LEAST_BESIDE = 120.0
+#: Room between two rows of balls, for a line of letters, in radii of the larger; outlines along a row.
+BETWEEN, OUTLINES = 2.4, 8
 
 
 @dataclass(frozen=True)
@@ -81,8 +85,15 @@ class Picture(AboveView[Parameters]):
 
     @cached_property
     def met(self) -> Blow | None:
-        """The blow."""
-        return blow(self.run, self.parameters)
+        """The blow; None where rules at a fixed step take its room."""
+        return None if self.rows_of_rules else blow(self.run, self.parameters)
+
+    @cached_property
+    def rows_of_rules(self) -> list[tuple[str, Stepped, float]]:
+        """The name of each rule at a fixed step, its run, and how far below the exact run it is drawn, in m."""
+        low, high = self.surroundings
+        apart = high[1] - low[1] + BETWEEN * max(self.radii.values())
+        return [(name, each, i * apart) for i, (name, each) in enumerate(stepped(self.run, self.parameters).items(), 1)]
 
     def look_of(self, name: str) -> Look:
         place = self.balls.index(name)
@@ -93,8 +104,11 @@ class Picture(AboveView[Parameters]):
 
     @cached_property
     def seen(self) -> np.ndarray:
-        """With the ends of the strings."""
-        return np.vstack([self.surroundings, *(end for _, end in self.strings)])
+        """With the ends of the strings, and the rows of other rules."""
+        low, high = self.surroundings
+        room = np.array([0.0, 0.3 * BETWEEN * max(self.radii.values())])
+        rows = [corner for *_, below in self.rows_of_rules for corner in (low - np.array([0.0, below]), high + room)]
+        return np.vstack([self.surroundings, *(end for _, end in self.strings), *rows])
 
     @cached_property
     def plan(self) -> Plan:
@@ -209,6 +223,64 @@ class Picture(AboveView[Parameters]):
         painter.surface.set_clip(None)
         spot = self.sheet.frame.right, self.card_row - 2 * self.sheet.gap, -1.0, -1.0
         self.sheet.chip(between.why, [spot])
+
+    def behind(self, painter: Painter, camera: Camera, t: float) -> None:
+        """Draw the exact run and, below it, those of rules at a fixed step until t in s, if there are any: outlines at
+        even times, a tick under each exchange, and over each row its rule and, in the end, what came of it."""
+        if not self.rows_of_rules:
+            return
+        hits = [event.t for event in self.run.events if event.kind == "impact"]
+        self._row(painter, camera, t, "exact", "exchange at touch", hits, self._exact, 0.0)
+        for name, each, below in self.rows_of_rules:
+            times = [float(each.times[look]) for look in each.exchanges]
+            self._row(painter, camera, t, name, RULES[name].label, times, each.at, below)
+            for ball, (x, y) in zip(self.balls, each.at(t), strict=True):
+                self.draw_ball(painter, camera, ball, 0.0, camera.pixel(x, y - below), self.radii[ball] * camera.scale)
+
+    def remarks(self, camera: Camera) -> list[str]:
+        it = self.parameters.stepping
+        if it.step is None:
+            return super().remarks(camera)
+        looks = f"all but the exact way look every {it.step:g} s"
+        if it.first > it.step:
+            looks += f", first after {it.first:g} s"
+        return [looks, "a tick at each exchange", f"outlines every {self.story_end / (OUTLINES - 1):.2g} s"]
+
+    def _exact(self, t: float) -> np.ndarray:
+        """The places in m of the balls of the exact run, shape (2, 2)."""
+        return np.array([self.run.state(name, t)[:2] for name in self.balls])
+
+    def _row(
+        self,
+        painter: Painter,
+        camera: Camera,
+        t: float,
+        name: str,
+        rule: str,
+        exchanges: Sequence[float],
+        at: Callable[[float], np.ndarray],
+        below: float,
+    ) -> None:
+        """Draw all but the balls of one row: of a rule with exchanges at these times in s, ``below`` m down."""
+        for moment in np.linspace(0.0, self.story_end, OUTLINES):
+            for ball, (x, y) in zip(self.balls, at(moment), strict=True):
+                if moment <= t:
+                    spot, radius = camera.pixel(x, y - below), self.radii[ball] * camera.scale
+                    painter.ring(spot, radius, 1.2 * self.unit, self.colour_of(ball), 0.6)
+        (left, low), (_, high) = self.surroundings
+        for moment in exchanges:
+            x, y = camera.pixel(float(np.mean(at(moment)[:, 0])), low - below)
+            if moment <= t:
+                painter.line([(x, y + 3 * self.unit), (x, y + 12 * self.unit)], 1.6 * self.unit, CARD["accent"])
+        words = f"{name}: {rule}"
+        if t >= self.story_end:
+            count, gap = self.run.result["exchanges"][name], self.run.result["gaps"][name]
+            how = f"{metres(abs(gap))} {'apart' if gap >= 0.0 else 'deep'} at the end"
+            words += f"; {'once' if count == 1 else f'{count} times'}, {how}"
+        x, y = camera.pixel(left, high - below)
+        frame, lettering = self.sheet.frame, self.sheet.lettering
+        at_left = max(frame.left, min(x, frame.right - lettering.width(words, "small")))
+        lettering.write(painter.surface, words, "small", (at_left, y - 3 * self.unit), CARD["text"], "bottomleft")
 
     def frame(self, t: float) -> pygame.Surface:
         """With the sums, from the blow on."""

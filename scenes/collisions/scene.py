@@ -2,7 +2,8 @@
 
 Models: impulses for a lone pair, Hertz's contact law where others are reached; friction; gravity; a floor or a bowl,
 and balls that lie on one another; drag in the wind; strings of a cradle; boxes, ellipses, capsules and bowling pins,
-whose blows are impulses at one or two points.
+whose blows are impulses at one or two points. With ``stepping.step``, beside the exact run: rules of games that look at
+a fixed step, and find two balls that overlap already.
 Leaves out: the third dimension; the rise of a ball on its string (only drawn), 0.4 % of a swing's time at 15 deg; lift.
 """
 
@@ -11,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import accumulate, pairwise
-from math import cos, hypot, inf, pi, sin, sqrt
+from math import cos, dist, hypot, inf, pi, sin, sqrt
 from typing import Any, Literal, NamedTuple
 
 from sandbox.engine.contact.manifold import ContactManifold, meeting
@@ -28,6 +29,7 @@ from sandbox.kit import (
     Fact,
     Force,
     Gravity,
+    Group,
     Handle,
     RequestError,
     Run,
@@ -48,6 +50,7 @@ from sandbox.kit import (
 )
 
 from .boxes import TOUCH, Box, Moving, body_of
+from .stepping import RULES, Stepped, step_through
 
 SPHERE_DRAG = 0.47  # of a smooth sphere before its drag crisis (Clift, Grace & Weber 1978)
 
@@ -82,6 +85,13 @@ class Floor(Solid):
     resistance: float = quantity(..., "", 0, 1, "to rolling: deceleration over the acceleration that presses it on")
 
 
+class Stepping(Group):
+    """Rules at a fixed step, to compare with the exact run: for two balls alone, smooth, on a level bench."""
+
+    step: float | None = quantity(None, "s", 1e-3, 1, "between two looks whether they overlap; left out: no such rules")
+    first: float = quantity(0.0, "s", 0, 60, "the first step, if it is longer, as when a game stalls")
+
+
 class Parameters(SceneParameters):
     """All parameters of a collision."""
 
@@ -96,6 +106,7 @@ class Parameters(SceneParameters):
         ..., "m", 0, 50, "length of a cradle's strings, in which the balls hang in touch; 0: none"
     )
     air: Air = group(..., "the air; without density where it does not matter")
+    stepping: Stepping = group(..., "rules at a fixed step beside it")
     duration: float = quantity(..., "s", 0.01, 60, "shown at most")
 
 
@@ -151,6 +162,8 @@ def build(it: Parameters) -> Setup:
         raise RequestError("balls and boxes: needs one at least, and for each a name of its own")
     if it.boxes and it.contact.model == "hertz":
         raise RequestError('contact.model = "hertz": is for balls alone; with boxes it must be "auto" or "rigid"')
+    if it.stepping.step is not None:
+        _check_bare(it)
     for body, hung in zip(it.balls, hangs(it) if it.balls else (), strict=True):
         weight, forces = body.mass * it.gravity, list[Force]()
         if weight:
@@ -176,6 +189,21 @@ def build(it: Parameters) -> Setup:
         between_balls=it.contact.bounce,
         contact=ContactModel(it.contact.model, it.contact.stiffness),
     )
+
+
+def _check_bare(it: Parameters) -> None:
+    """Raise RequestError for what the rules at a fixed step do not have."""
+    if len(it.balls) != 2 or it.boxes:
+        raise RequestError("stepping.step: must be left out unless there are two balls, and no boxes")
+    others = {
+        "gravity": it.gravity,
+        "strings": it.strings,
+        "air.density": it.air.density,
+        "contact.friction": it.contact.friction,
+        "floor.shape": "" if it.floor.shape == "none" else it.floor.shape,
+    }
+    if too_much := next((f"{key} = {value}" for key, value in others.items() if value), None):
+        raise RequestError(f"{too_much}: the rules of stepping.step have none; leave one of the two out")
 
 
 def _velocity(it: Moving, launch: Stroke) -> Vector:
@@ -254,6 +282,36 @@ def shares(run: Run, states: States, what: str) -> list[float]:
     return [AMOUNTS[what][1](ball, states[ball.name]) for ball in run.setup.balls]
 
 
+@cached_per_run
+def stepped(run: Run, parameters: Parameters) -> dict[str, Stepped]:
+    """The run of each rule at a fixed step, until the exact one ends; none without ``stepping.step``."""
+    it = parameters.stepping
+    if it.step is None:
+        return {}
+    one, other = run.setup.balls
+    first = max(it.step, it.first)
+    return {
+        name: step_through((one, other), parameters.contact.restitution, rule, it.step, first, run.duration)
+        for name, rule in RULES.items()
+    }
+
+
+def _exchanges(run: Run, parameters: Parameters) -> dict[str, int] | None:
+    """The number of exchanges under each rule, and in the exact run."""
+    rules = {name: len(each.exchanges) for name, each in stepped(run, parameters).items()}
+    return {**rules, "exact": sum(event.kind == "impact" for event in run.events)} if rules else None
+
+
+def _gaps(run: Run, parameters: Parameters) -> dict[str, float] | None:
+    """The gap of the two at the end under each rule, and in the exact run, in m; negative where they overlap."""
+    rules = {name: each.at(run.duration).tolist() for name, each in stepped(run, parameters).items()}
+    if not rules:
+        return None
+    one, other = run.setup.balls
+    exact = [run.state(ball.name, run.duration)[:2] for ball in (one, other)]
+    return {name: dist(*ends) - one.radius - other.radius for name, ends in {**rules, "exact": exact}.items()}
+
+
 def _lost(run: Run, parameters: Parameters) -> float | None:
     """The share of the energy before the blow that is lost in it, in %."""
     if (met := blow(run, parameters)) is None:
@@ -307,6 +365,8 @@ FACTS = (
     Fact("spins", "", "rad/s", _at_end(lambda state: state[4])),
     *_sums("energy"),
     *_sums("momentum"),
+    Fact("exchanges", "", "", _exchanges),
+    Fact("gaps", "", "m", _gaps),
     ENDED,
 )
 
@@ -314,6 +374,8 @@ FACTS = (
 def verdict(run: SceneRun, parameters: Parameters) -> str:
     """Return the outcome in a sentence."""
     said = run.result
+    if said["exchanges"]:
+        return f"Exchanges: {', '.join(f'{name} {count}' for name, count in said['exchanges'].items())}"
     if said["lost"] is None:
         falls = said["falls"]
         rest = ", and comes to rest" if falls and said["ended"] == "rest" else ""
