@@ -25,7 +25,7 @@ from sandbox.kit import (
     scene_colours,
 )
 
-from .scene import Parameters, entry, halving, harmless
+from .scene import Parameters, closing, entry, halving, harmless
 
 COLOURS = scene_colours(__file__)
 WATER = COLOURS["water"]
@@ -75,7 +75,10 @@ class Picture(SideView[Parameters]):
         start, end = entry(self.run, self.parameters), harmless(self.run, self.parameters)
         if start is None or end is None:
             return
-        self.point_out(sheet, camera, (start.x, start.y), f"{start.speed:.0f} m/s into the water")
+        if self.parameters.launch.height > 0.0:
+            self.point_out(sheet, camera, (start.x, start.y), f"{start.speed:.0f} m/s into the water")
+        if closes := closing(self.run, self.parameters):
+            self.point_out(sheet, camera, (closes.x, closes.y), "cavity closes")
         self.point_out(sheet, camera, (end.x, end.y), f"harmless, {amount(end.speed, 'm/s')}")
 
     def remarks(self, camera: Camera) -> list[str]:
