@@ -89,7 +89,7 @@ class Stepping(Group):
     """Rules at a fixed step, to compare with the exact run: for two balls alone, smooth, on a level bench."""
 
     step: float | None = quantity(None, "s", 1e-3, 1, "between two looks whether they overlap; left out: no such rules")
-    first: float = quantity(0.0, "s", 0, 60, "the first step, if it is longer, as when a game stalls")
+    first: float = quantity(..., "s", 0, 60, "the first step, if it is longer, as when a game stalls")
 
 
 class Parameters(SceneParameters):
