@@ -4,7 +4,7 @@ Chipmunk moves bodies first, finds contacts at the depth that the step gives, ch
 It has no continuous collision, and its defaults are for pixels. Done about it, by pymunk's own means:
 
 - A step is split where a ball first touches something, found by ``Shape.segment_query`` along its way relative to the
-  shape: a contact is not late, and nothing is passed through. Bodies, and more than 25 balls, take shorter steps
+  shape: a contact is not late, and nothing is passed through. Bodies not round, and over 25 balls, take shorter steps
   instead where something is near: no longer than half a radius.
 - Half of a step's forces act before it and half in ``velocity_func`` (velocity Verlet), which is second order. Where
   drag would reverse a motion it acts in shorter pieces.
@@ -207,7 +207,7 @@ class SetupSpace(pymunk.Space):
                 continue
             way = pymunk.BB(min(x, x + dx) - r, min(y, y + dy) - r, max(x, x + dx) + r, max(y, y + dy) + r)
             near = [each for each in self.bb_query(way, _EVERYTHING) if each.body is not body and not each.sensor]
-            if not follows or mover.ball.rotates:
+            if not follows or not isinstance(mover.shape, pymunk.Circle):
                 soonest = min(soonest, h * _LEAP * mover.girth / mover.far) if near else soonest
                 continue
             for shape in near:
