@@ -27,7 +27,7 @@ from sandbox.engine.model.ball import Ball, Body, kinetic, outline_of
 from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.shapes import Ellipse, Shape, box, capsule, regular
 from sandbox.engine.model.surface import Bounce, ConstantBounce, Segment, Surface
-from sandbox.engine.motion.moving_ball import InCluster, InHeap
+from sandbox.engine.paths.phase import InCluster, InHeap
 from sandbox.engine.paths.run import Run
 from sandbox.errors import RunError
 from sandbox.physics.forces import Gravity
