@@ -54,7 +54,7 @@ def test_a_ball_or_a_bead_is_drawn_at_every_even_time(name: str, monkeypatch: py
 
 @pytest.mark.parametrize(
     ("name", "said"),
-    [("golf/golf-game", True), ("soccer/dipping-free-kick", False), ("tennis/clay", False)],  # behind the last ball
+    [("golf/driver", True), ("soccer/dipping-free-kick", False), ("tennis/clay", False)],  # behind the last ball
 )
 def test_beads_are_said_where_they_are_seen(name: str, said: bool):
     picture = picture_of(name)
