@@ -235,15 +235,23 @@ def check_replaced(option: str, path: Path) -> None:
     reads, or that could not be kept: the last also if a table or scene file of the user's has the backup's name."""
     target = Path(os.path.realpath(path))
     named = f"{option} {path}".strip()
-    backup = backup_of(target)
-    for file in (target, backup):
-        if file.exists() and not file.is_file():
-            raise RequestError(f"{named}: {'' if file == target else f'{backup} '}is no plain file; name another")
     if not target.exists():
         return
+    if not target.is_file():
+        raise RequestError(f"{named}: is no plain file; name another")
     if _is_input(target):
         raise RequestError(f"{named}: this command reads that file, which would be lost; name another")
-    if backup.exists() and (_is_input(backup) or not _is_ours(backup)):
+    backup = backup_of(target)
+    try:
+        backup.stat()
+    except FileNotFoundError:
+        return
+    except OSError as error:
+        why = f"its content could not be kept under this name with ~: {reason(error)}"
+        raise RequestError(f"{shortened(named)}: {why}; name another") from None
+    if not backup.is_file():
+        raise RequestError(f"{named}: {backup} is no plain file; name another")
+    if _is_input(backup) or not _is_ours(backup):
         raise RequestError(f"{named}: its content would be kept as {backup}, but that is a file of yours; name another")
 
 

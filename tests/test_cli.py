@@ -316,7 +316,8 @@ def test_settings_and_accuracy_stand_over_the_file(call, tmp_path: Path):
     (tmp_path / "shot.toml").write_text('scene = "golf"\nlaunch.speed = 50\naccuracy.level = "precise"')
     args = ["--set", "launch.angle=0.3 rad", "--set", "ball.drag.model=none", "--set", "launch.angle=20", "--json"]
     report = json.loads(call("run", tmp_path / "shot.toml", *args).out)
-    assert report["parameters"]["launch"] | {"spin": 0} == {"speed": 50, "angle": 20, "spin": 0}
+    assert report["parameters"]["start"] == "launch"  # by speed and angle
+    assert {key: report["parameters"]["launch"][key] for key in ("speed", "angle")} == {"speed": 50, "angle": 20}
     assert report["parameters"]["ball"]["drag"] == {"model": "none"}
     assert report["accuracy"]["level"] == "precise"
     for level in LEVELS:
@@ -443,6 +444,9 @@ def test_an_unwritable_output_is_refused_before_the_run(
 def test_a_name_may_be_as_long_as_the_system_allows(call, tmp_path: Path):
     file = tmp_path / ("x" * 251 + ".csv")
     assert call("run", DROP, "--trajectory", file).code == 0
+    assert [path.name for path in tmp_path.iterdir()] == [file.name]
+    again = call("run", DROP, "--trajectory", file)  # there is no longer name for what it replaces
+    assert_refused(again, "its content could not be kept under this name with ~: file name too long")
     assert [path.name for path in tmp_path.iterdir()] == [file.name]
 
 

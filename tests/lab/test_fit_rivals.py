@@ -33,6 +33,7 @@ class TwoRoots:
     names = ("x",)
     units = ("m",)
     free = ()
+    left_out = unused = ()
     rows = np.arange(1, 42)
     groups = np.zeros(41, dtype=int)
     times = np.full(41, np.nan)

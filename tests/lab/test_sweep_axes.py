@@ -193,5 +193,5 @@ def test_a_wrong_table_of_points_is_told(falling, tmp_path, text, told):
     with pytest.raises(RequestError) as refused:
         Plan(falling, points_in(falling, "--points", table), listed=True)
     assert told in str(refused.value)
-    with pytest.raises(RequestError, match="No such file"):
+    with pytest.raises(RequestError, match="cannot be read: no such file"):
         points_in(falling, "--points", tmp_path / "none.csv")
