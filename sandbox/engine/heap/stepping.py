@@ -277,8 +277,9 @@ class Stepper:
             for (ax, ay), (bx, by), distance in map(_AT, met)
         ]
         approach, along, slip = _speeds(here, there, (nx, ny), points)
-        if approach > self._impact_speed and other not in here.before:  # it is remembered
-            arbiter.process_collision = False
+        # pymunk remembers it while they touch: one that was left out is taken again here
+        arbiter.process_collision = other in here.before or approach <= self._impact_speed
+        if not arbiter.process_collision:
             here.left_out.add(other)
             if there is not None:
                 there.left_out.add(here.index)
