@@ -14,7 +14,7 @@ moisture of the grass.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from math import hypot, inf, radians
 from typing import Any, Literal
@@ -164,6 +164,7 @@ def build(parameters: Parameters) -> Setup:
     return Setup([ball], course, LONGEST, until, bounds=Bounds(-FAR, -FAR, FAR, FAR))
 
 
+@dataclass(frozen=True)
 class ComesDown(Until):
     """Ends a run when the ball touches anything on its way down."""
 
