@@ -57,10 +57,26 @@ def sys_exit_as_error() -> Iterator[None]:
     worker as if nothing were wrong."""
     try:
         yield
-    except (Exception, KeyboardInterrupt, GeneratorExit):  # the last: a run without memory may be left half way
+    except (Exception, KeyboardInterrupt):
         raise
     except BaseException as error:
+        if isinstance(error, GeneratorExit) and _is_left_half_way(error):  # as a run without memory
+            raise
         raise ExitCalled(f"{error!r}: a scene must not end the program").with_traceback(error.__traceback__) from None
+
+
+def _is_left_half_way(error: GeneratorExit) -> bool:
+    """Return True if Python has closed a generator at its ``yield``, and no code has raised this."""
+    from dis import opname  # here, not above: no run without this error needs it
+    from inspect import CO_GENERATOR
+
+    last = error.__traceback__
+    while last is not None and last.tb_next is not None:
+        last = last.tb_next
+    if last is None:
+        return True
+    code = last.tb_frame.f_code
+    return bool(code.co_flags & CO_GENERATOR) and opname[code.co_code[last.tb_lasti]] != "RAISE_VARARGS"
 
 
 def no_forks() -> None:

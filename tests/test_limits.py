@@ -14,7 +14,7 @@ from typing import Any
 
 import pytest
 
-from sandbox.errors import sys_exit_as_error
+from sandbox.errors import ExitCalled, sys_exit_as_error
 from sandbox.files import write_together
 from sandbox.lab.plan import Record
 from sandbox.lab.sweep import InTurn, RowsInOrder
@@ -186,6 +186,15 @@ def test_a_run_that_is_left_half_way_is_no_exit():
     next(run)
     run.close()  # raises nothing
     assert not [*run]
+
+
+def test_a_generator_that_raises_its_own_exit_is_an_exit():
+    def of_a_scene() -> Iterator[None]:
+        yield
+        raise GeneratorExit
+
+    with pytest.raises(ExitCalled, match="GeneratorExit"), sys_exit_as_error():
+        list(of_a_scene())
 
 
 @pytest.mark.parametrize("where", ["finished", "close"])
