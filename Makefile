@@ -8,7 +8,7 @@ unexport PYTHONDONTWRITEBYTECODE
 
 SCENES := $(patsubst scenes/%/scene.py,%,$(wildcard scenes/*/scene.py))
 
-.PHONY: run play test lint format schemas pictures gallery bench wheel clean
+.PHONY: run play test lint format schemas lists pictures gallery bench wheel clean
 
 run: .venv/ready
 	@mkdir -p out
@@ -33,6 +33,10 @@ format: .venv/ready-dev
 # With these, editors complete and check scene files.
 schemas: .venv/ready
 	@set -e; for scene in $(SCENES); do $(BIN)/sandbox schema $$scene > scenes/$$scene/$$scene.schema.json; done
+
+# What follows from the code: the schemas, and the lists in pages.
+lists: schemas
+	$(BIN)/python -m docs.lists
 
 pictures: .venv/ready-dev
 	$(BIN)/python docs/pictures/make.py

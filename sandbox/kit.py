@@ -44,6 +44,7 @@ from sandbox.physics.coefficients import (
     TENNIS_LIFT,
     Coefficient,
     Constant,
+    Laws,
     spin_ratio_lift,
 )
 from sandbox.physics.elementwise import anywhere, clip, cos, exp, log, maximum, minimum, sin, smooth, where
@@ -149,6 +150,7 @@ __all__ = [
     "InTurn",
     "Inside",
     "Launch",
+    "Laws",
     "LogWind",
     "Magnus",
     "Moment",

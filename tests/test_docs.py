@@ -24,12 +24,12 @@ from click.testing import CliRunner
 from PIL import Image
 
 import sandbox.physics
+from docs.lists import LISTS, page_with_lists
 from sandbox import kit
 from sandbox.cli import program
 from sandbox.cli.program import app
 from sandbox.new import FROM_ABOVE, FROM_SIDE, new_scene
 from sandbox.parameters import walk
-from sandbox.physics.coefficients import GOLF_DRAG, GOLF_LIFT, SOCCER_DRAG, SOCCER_LIFT
 from sandbox.physics.integrators import INTEGRATORS
 from sandbox.record import diverges
 
@@ -51,20 +51,20 @@ def modules() -> Iterator[Any]:
 
 
 def models(module: Any) -> list[str]:
-    """Public functions and classes of a module that compute something; a NamedTuple only holds it, an Enum names it."""
+    """Public functions and classes of a module that compute something; a tuple or dict holds it, an Enum names it."""
     found = [
         name
         for name, thing in vars(module).items()
         if (inspect.isfunction(thing) or inspect.isclass(thing))
         and not name.startswith("_")
         and thing.__module__ == module.__name__
-        and not (inspect.isclass(thing) and issubclass(thing, (tuple, Enum)))
+        and not (inspect.isclass(thing) and issubclass(thing, (tuple, dict, Enum)))
     ]
     return found or ["INTEGRATORS"]
 
 
 MODELS = [(module.__name__, name) for module in modules() for name in models(module)]
-HEADINGS = re.findall(r"^##+ .*$", METHODS_AND_MODELS, re.MULTILINE)
+HEADINGS = re.findall(r"^##+ .*$|^- `.*", METHODS_AND_MODELS, re.MULTILINE)  # or an item of a list, of a coefficient
 
 
 def test_models_are_found():
@@ -77,9 +77,9 @@ def test_every_model_has_a_section():
     assert [name for _, name in MODELS if not any(f"`{name}`" in heading for heading in HEADINGS)] == []
 
 
-@pytest.mark.parametrize("name", {**GOLF_DRAG, **GOLF_LIFT, **SOCCER_DRAG, **SOCCER_LIFT})
-def test_every_coefficient_of_a_scene_file_is_named(name: str):
-    assert f"`{name}`" in PHYSICS
+@pytest.mark.parametrize("page", LISTS, ids=lambda page: page.name)
+def test_lists_that_follow_from_the_code_are_in_step(page: Path):
+    assert page.read_text("utf-8") == page_with_lists(page), "make lists"
 
 
 @pytest.mark.parametrize("name", INTEGRATORS)

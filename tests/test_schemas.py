@@ -32,7 +32,7 @@ def read(folder: Path) -> Any:
 @pytest.mark.parametrize("folder", SCENES, ids=lambda folder: folder.name)
 def test_a_schema_is_in_step_with_its_scene(folder: Path):
     name, parameters = parameters_of(folder)
-    assert read(folder) == json.loads(json.dumps(json_schema(parameters, name))), "make schemas"
+    assert read(folder) == json.loads(json.dumps(json_schema(parameters, name))), "make lists"
 
 
 @pytest.mark.parametrize("folder", SCENES, ids=lambda folder: folder.name)

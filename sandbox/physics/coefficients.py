@@ -1,23 +1,85 @@
 """Drag and lift coefficients, named by their paper.
 
 Each is a function of the Reynolds number ``Re = rho |u| 2 r / mu`` and the spin ratio ``S = r |w| / |u|``, where u is
-the velocity relative to the air. Floats, or arrays of shape (n,).
+the velocity relative to the air. Floats, or arrays of shape (n,). Where a formula would become negative or grow without
+bound, its argument is clamped.
 
-Each docstring gives the formula, its measured range, its behaviour outside, and its source. Where a formula would
-become negative or grow without bound, its argument is clamped. "Second-hand" means that the formula was taken from a
-quotation, not from the paper.
+What is registered by :meth:`Laws.law` can be named in scene files, and is listed in docs/physics.md, with the first
+paragraph of its docstring. A test computes its points again.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from math import inf
+from typing import Any, Literal, NamedTuple, TypeVar
 
 from sandbox.physics.elementwise import clip, exp, sin
 
 #: coefficient(reynolds, spin_ratio) -> dimensionless
 Coefficient = Callable[[Any, Any], Any]
+Law = TypeVar("Law", bound=Coefficient)
+
+#: Lowest and highest value that a coefficient was found for.
+Range = tuple[float, float]
+ANY: Range = (0.0, inf)
+
+
+class Origin(NamedTuple):
+    """Source and range of a coefficient, and values to check it by."""
+
+    source: str
+    points: Mapping[tuple[float, float], float]  # by (Re, S)
+    within: float  # of these points
+    mark: Literal["", "second-hand", "ours", "assumed"]
+    reynolds: Range
+    spin_ratio: Range
+
+
+class Laws(dict[str, Coefficient]):
+    """The drag or the lift coefficients of one ball, by the names that scene files use; ``origins`` has their sources.
+
+    They are given to a ball's class: ``class GolfBall(Sphere, drag=GOLF_DRAG)``.
+    """
+
+    def __init__(self, ball: str, kind: Literal["drag", "lift"]) -> None:
+        self.ball, self.kind = ball, kind
+        self.origins: dict[str, Origin] = {}
+
+    def law(
+        self,
+        name: str,
+        source: str,
+        points: Mapping[tuple[float, float], float],
+        *,
+        within: float = 5e-5,
+        mark: Literal["", "second-hand", "ours", "assumed"] = "",
+        reynolds: Range = ANY,
+        spin_ratio: Range = ANY,
+    ) -> Callable[[Law], Law]:
+        """Register the function below under this name.
+
+        The source is cited as in docs/physics.md, which explains the marks, too; ``points`` are at least two values of
+        the coefficient by (Re, S), met ``within`` so much; the ranges are those for which it was found.
+        """
+        if len(points) < 2 or not source or name in self:
+            raise ValueError(f"{self.kind} {name!r} of {self.ball}: needs a new name, a source, and two points or more")
+        self.origins[name] = Origin(source, points, within, mark, reynolds, spin_ratio)
+
+        def register(law: Law) -> Law:
+            self[name] = law
+            return law
+
+        return register
+
+
+#: Of each ball, and of any.
+ANY_LIFT = Laws("any ball", "lift")
+GOLF_DRAG, GOLF_LIFT = Laws("a golf ball", "drag"), Laws("a golf ball", "lift")
+SOCCER_DRAG, SOCCER_LIFT = Laws("a soccer ball", "drag"), Laws("a soccer ball", "lift")
+TENNIS_DRAG, TENNIS_LIFT = Laws("a tennis ball", "drag"), Laws("a tennis ball", "lift")
+BASEBALL_DRAG, BASEBALL_LIFT = Laws("a baseball", "drag"), Laws("a baseball", "lift")
 
 
 @dataclass(frozen=True)
@@ -41,18 +103,32 @@ class Scaled:
         return self.share * self.coefficient(reynolds, spin_ratio)
 
 
+@ANY_LIFT.law("spin-ratio", "textbooks", {(1e5, 0.1): 0.1, (1e5, 0.3): 0.3}, spin_ratio=(0.0, 0.3))
 def spin_ratio_lift(reynolds: Any, spin_ratio: Any) -> Any:
-    """``Cl = S``: the textbook's simplest lift, linear in spin. A fair guess for S below 0.3, far too large above 1."""
+    """``Cl = S``: the simplest lift, linear in spin. A fair guess for S below 0.3, far too large above 1."""
     return spin_ratio
 
 
 # -------------------------------------------------------------------------------------------------------- golf ball
 
+# Drag and lift of one name belong together: their rms errors on the PGA Tour averages of lab/published/golf_tour.csv
+# are (height in yd, landing angle in deg, carry in yd) 1.8/1.7/3.1 for tour-fit, 3.2/2.8/3.7 for quadratic, 2.3/4.2/5.9
+# for power-law, 3.8/6.6/11.9 for smits-smith, 2.5/2.4/16.4 for usga, and 12.9/4.8/59.2 for lyu, which has no
+# spin-induced drag.
+
 _CRITICAL = 1.0 / 0.68e5
 
 
+@GOLF_DRAG.law(
+    "tour-fit",
+    "fitted to the 12 averages of the PGA Tour, by tests/reference/fit_golf_ball.py",
+    {(1.5e5, 0.2): 0.2736, (0.68e5, 0.0): 0.35},
+    mark="ours",
+    reynolds=(0.5e5, 2.2e5),
+    spin_ratio=(0.07, 1.07),
+)
 def tour_fit_drag(reynolds: Any, spin_ratio: Any) -> Any:
-    """Golf ball: ``Cd = 0.20 + 0.30 / (1 + (Re / 0.68e5)^8) + 1.10 Cl^2``, with the Cl of tour_fit_lift.
+    """``Cd = 0.20 + 0.30 / (1 + (Re / 0.68e5)^8) + 1.10 Cl^2``, with the Cl of tour_fit_lift.
 
     A drag polar: 0.20 for the dimpled ball past its drag crisis, 0.50 for a sphere before it (both as measured in wind
     tunnels), a smooth crisis between, and drag induced by lift. Cd lies between 0.20 and 0.62, falls with Re, rises
@@ -86,8 +162,16 @@ def tour_fit_drag(reynolds: Any, spin_ratio: Any) -> Any:
     return 0.20 + 0.30 / (1.0 + q * q) + 1.10 * lift * lift
 
 
+@GOLF_LIFT.law(
+    "tour-fit",
+    "as of its drag",
+    {(1.5e5, 0.2): 0.2577, (1.5e5, 0.126): 0.2048},
+    mark="ours",
+    reynolds=(0.5e5, 2.2e5),
+    spin_ratio=(0.07, 1.07),
+)
 def tour_fit_lift(reynolds: Any, spin_ratio: Any) -> Any:
-    """Golf ball: ``Cl = 0.324 (1 - exp(-S / 0.126))``: proportional to S at low spin, at most 0.324.
+    """``Cl = 0.324 (1 - exp(-S / 0.126))``: proportional to S at low spin, at most 0.324.
 
     Fitted here, with tour_fit_drag; range and errors there. Real lift also fades, and may turn over, below the drag
     crisis (Re under 0.7e5, reverse Magnus effect); that is left out.
@@ -95,109 +179,143 @@ def tour_fit_lift(reynolds: Any, spin_ratio: Any) -> Any:
     return 0.324 * (1.0 - exp(spin_ratio * (-1.0 / 0.126)))
 
 
+@GOLF_DRAG.law(
+    "smits-smith",
+    "Smits & Smith 1994, *Science and Golf II*, 340, by US patent 11230375",
+    {(1.5e5, 0.1): 0.3065, (0.9e5, 0.2): 0.276},
+    mark="second-hand",
+    reynolds=(0.7e5, 2.1e5),
+    spin_ratio=(0.08, 0.2),
+)
 def smits_smith_drag(reynolds: Any, spin_ratio: Any) -> Any:
-    """Golf ball: ``Cd = 0.24 + 0.18 S + 0.06 sin(pi (Re - 9e4) / 2e5)``.
-
-    Measured for Re 0.7e5 to 2.1e5 and S 0.08 to 0.2; Re is held inside 0 to 2.9e5, S at most 1.
-    Source: Smits & Smith 1994, Science and Golf II, 340; second-hand, US patent 11230375.
-    """
+    """``Cd = 0.24 + 0.18 S + 0.06 sin(pi (Re - 9e4) / 2e5)``; Re is held inside 0 to 2.9e5, S at most 1."""
     wave = sin(3.141592653589793 * (clip(reynolds, 0.0, 2.9e5) - 9e4) / 2e5)
     return 0.24 + 0.18 * clip(spin_ratio, 0.0, 1.0) + 0.06 * wave
 
 
+@GOLF_LIFT.law(
+    "smits-smith",
+    "as of its drag",
+    {(1.5e5, 0.1): 0.215, (1.5e5, 0.2): 0.2837},
+    mark="second-hand",
+    reynolds=(0.7e5, 2.1e5),
+    spin_ratio=(0.08, 0.2),
+)
 def smits_smith_lift(reynolds: Any, spin_ratio: Any) -> Any:
-    """Golf ball: ``Cl = 0.54 S^0.4``; measured for S 0.08 to 0.2, S held at most 1. Source: as for smits_smith_drag."""
+    """``Cl = 0.54 S^0.4``; S is held at most 1."""
     return 0.54 * clip(spin_ratio, 0.0, 1.0) ** 0.4
 
 
+@GOLF_DRAG.law(
+    "lyu",
+    "Lyu et al. 2018, *MDPI Proceedings* 2(6):238, flights",
+    {(1.5e5, 0.1): 0.1798, (1e5, 0.1): 0.211},
+    mark="second-hand",
+    spin_ratio=(0.0, 0.32),
+)
 def lyu_drag(reynolds: Any, spin_ratio: Any) -> Any:
-    """Golf ball: ``Cd = 1.91e-11 Re^2 - 5.40e-6 Re + 0.56``, independent of spin; Re clamped to at most 2.1e5.
-
-    Measured in flight for S up to 0.32. Source: Lyu et al. 2018, MDPI Proceedings 2(6):238; second-hand.
-    """
+    """``Cd = 1.91e-11 Re^2 - 5.40e-6 Re + 0.56``, independent of spin; Re is held at most 2.1e5."""
     re = clip(reynolds, 0.0, 2.1e5)
     return (1.91e-11 * re - 5.40e-6) * re + 0.56
 
 
+@GOLF_LIFT.law(
+    "lyu",
+    "as of its drag",
+    {(1.5e5, 0.1): 0.1665, (1.5e5, 0.2): 0.268},
+    mark="second-hand",
+    spin_ratio=(0.0, 0.32),
+)
 def lyu_lift(reynolds: Any, spin_ratio: Any) -> Any:
-    """Golf ball: ``Cl = -3.25 S^2 + 1.99 S``, S held at most 0.306, the parabola's maximum. Source: as for lyu_drag."""
+    """``Cl = -3.25 S^2 + 1.99 S``; S is held at most 0.306, the parabola's maximum."""
     s = clip(spin_ratio, 0.0, 0.306)
     return (1.99 - 3.25 * s) * s
 
 
-def quadratic_drag(reynolds: Any, spin_ratio: Any) -> Any:
-    """Golf ball: ``Cd = 0.19710 + 0.54852 S - 0.52694 S^2 - 0.09160 (Re/1e5 - 1.5)``.
-
-    A fit, not made here, to the 23 tour averages of lab/published/golf_tour.csv, with a spin decay of 6e-5; S 0.05
-    to 0.45, Re 0.5e5 to 2.3e5. S is held at most 0.52, the parabola's maximum, and Re inside 0.3e5 to 2.2e5.
-    Source: numbers from a public repository, form from McNally, Lambeth & Brekke 2023; second-hand.
-    """
-    s = clip(spin_ratio, 0.0, 0.52)
-    return 0.19710 + (0.54852 - 0.52694 * s) * s - 0.09160 * (clip(reynolds, 0.3e5, 2.2e5) * 1e-5 - 1.5)
-
-
-def quadratic_lift(reynolds: Any, spin_ratio: Any) -> Any:
-    """Golf ball: ``Cl = 0.06628 + 1.37548 S - 1.41620 S^2``, S held at most 0.4856, the parabola's maximum.
-
-    Below S = 0.02 it falls linearly to zero, as a ball without spin has no lift. Source: as for quadratic_drag.
-    """
-    s = clip(spin_ratio, 0.0, 0.4856)
-    return (0.06628 + (1.37548 - 1.41620 * s) * s) * clip(50.0 * s, 0.0, 1.0)
-
-
-def power_law_golf_drag(reynolds: Any, spin_ratio: Any) -> Any:
-    """Golf ball: ``Cd = 0.2333 + 0.3260 S``, independent of speed; S clamped to at most 1.
-
-    Fitted for this project to the PGA Tour averages of lab/published/golf_tour.csv, S 0.07 to 0.9.
-    """
-    return 0.2333 + 0.3260 * clip(spin_ratio, 0.0, 1.0)
-
-
-def power_law_golf_lift(reynolds: Any, spin_ratio: Any) -> Any:
-    """Golf ball: ``Cl = 0.5277 S^0.4124``, S held at most 1. Source: as for power_law_golf_drag."""
-    return 0.5277 * clip(spin_ratio, 0.0, 1.0) ** 0.4124
-
-
+@GOLF_DRAG.law(
+    "usga",
+    "the USGA's indoor test range, a ball of the 1990s, by US patent 6186002",
+    {(1.5e5, 0.1): 0.2344, (1e5, 0.2): 0.29},
+    mark="second-hand",
+    reynolds=(0.5e5, 2.5e5),
+    spin_ratio=(0.0, 0.35),
+)
 def usga_drag(reynolds: Any, spin_ratio: Any) -> Any:
-    """Golf ball: ``Cd = 0.2028 + 2.8466 S^2 + 0.0165 Re - 0.2159 S`` with Re in 1e5.
-
-    Re is held inside 0.5e5 to 2.5e5, S at most 0.35. A ball of the 1990s.
-    Source: the USGA's indoor test range; second-hand, US patent 6186002.
-    """
+    """``Cd = 0.2028 + 2.8466 S^2 + 0.0165 Re - 0.2159 S`` with Re in 1e5; Re is held inside 0.5e5 to 2.5e5, S at most
+    0.35."""
     s = clip(spin_ratio, 0.0, 0.35)
     return 0.2028 + (2.8466 * s - 0.2159) * s + 0.0165e-5 * clip(reynolds, 0.5e5, 2.5e5)
 
 
+@GOLF_LIFT.law(
+    "usga",
+    "as of its drag",
+    {(1.5e5, 0.1): 0.16, (1e5, 0.2): 0.2622},
+    mark="second-hand",
+    reynolds=(0.5e5, 2.5e5),
+    spin_ratio=(0.0, 0.35),
+)
 def usga_lift(reynolds: Any, spin_ratio: Any) -> Any:
-    """Golf ball: ``Cl = 0.0860 + 0.6463 S - 0.0122 / Re^2 + 1.4789 S^2`` with Re in 1e5, held as for usga_drag.
-
-    Below S = 0.02 it falls linearly to zero, as a ball without spin has no lift. Source: as for usga_drag.
-    """
+    """``Cl = 0.0860 + 0.6463 S - 0.0122 / Re^2 + 1.4789 S^2`` with Re in 1e5, held as for usga_drag. Below S = 0.02 it
+    falls linearly to zero, as a ball without spin has no lift."""
     s = clip(spin_ratio, 0.0, 0.35)
     re = 1e-5 * clip(reynolds, 0.5e5, 2.5e5)
     return (0.0860 + (0.6463 + 1.4789 * s) * s - 0.0122 / (re * re)) * clip(50.0 * s, 0.0, 1.0)
 
 
-#: Models of a golf ball, by name. Drag and lift of one name belong together: their rms errors on the PGA Tour averages
-#: of lab/published/golf_tour.csv are (height in yd, landing angle in deg, carry in yd) 1.8/1.7/3.1 for tour-fit,
-#: 3.2/2.8/3.7 for quadratic, 2.3/4.2/5.9 for power-law, 3.8/6.6/11.9 for smits-smith, 2.5/2.4/16.4 for usga, and
-#: 12.9/4.8/59.2 for lyu, which has no spin-induced drag.
-GOLF_DRAG: dict[str, Coefficient] = {
-    "tour-fit": tour_fit_drag,
-    "smits-smith": smits_smith_drag,
-    "lyu": lyu_drag,
-    "usga": usga_drag,
-    "quadratic": quadratic_drag,
-    "power-law": power_law_golf_drag,
-}
-GOLF_LIFT: dict[str, Coefficient] = {
-    "tour-fit": tour_fit_lift,
-    "smits-smith": smits_smith_lift,
-    "lyu": lyu_lift,
-    "usga": usga_lift,
-    "quadratic": quadratic_lift,
-    "power-law": power_law_golf_lift,
-}
+@GOLF_DRAG.law(
+    "quadratic",
+    "tour averages fitted by others, with a spin decay of 6e-5: numbers from a public repository, "
+    "form by McNally, Lambeth & Brekke 2023",
+    {(1.5e5, 0.1): 0.2467, (1e5, 0.2): 0.3315},
+    mark="second-hand",
+    reynolds=(0.5e5, 2.3e5),
+    spin_ratio=(0.05, 0.45),
+)
+def quadratic_drag(reynolds: Any, spin_ratio: Any) -> Any:
+    """``Cd = 0.19710 + 0.54852 S - 0.52694 S^2 - 0.09160 (Re/1e5 - 1.5)``; S is held at most 0.52, the parabola's
+    maximum, and Re inside 0.3e5 to 2.2e5."""
+    s = clip(spin_ratio, 0.0, 0.52)
+    return 0.19710 + (0.54852 - 0.52694 * s) * s - 0.09160 * (clip(reynolds, 0.3e5, 2.2e5) * 1e-5 - 1.5)
+
+
+@GOLF_LIFT.law(
+    "quadratic",
+    "as of its drag",
+    {(1.5e5, 0.1): 0.1897, (1.5e5, 0.2): 0.2847},
+    mark="second-hand",
+    reynolds=(0.5e5, 2.3e5),
+    spin_ratio=(0.05, 0.45),
+)
+def quadratic_lift(reynolds: Any, spin_ratio: Any) -> Any:
+    """``Cl = 0.06628 + 1.37548 S - 1.41620 S^2``; S is held at most 0.4856, the parabola's maximum. Below S = 0.02 it
+    falls linearly to zero, as a ball without spin has no lift."""
+    s = clip(spin_ratio, 0.0, 0.4856)
+    return (0.06628 + (1.37548 - 1.41620 * s) * s) * clip(50.0 * s, 0.0, 1.0)
+
+
+@GOLF_DRAG.law(
+    "power-law",
+    "fitted to the 12 averages of the PGA Tour",
+    {(1.5e5, 0.1): 0.2659, (1.5e5, 0.2): 0.2985},
+    mark="ours",
+    spin_ratio=(0.07, 0.9),
+)
+def power_law_golf_drag(reynolds: Any, spin_ratio: Any) -> Any:
+    """``Cd = 0.2333 + 0.3260 S``, independent of speed; S is held at most 1. Simpler than the tour fit and worse."""
+    return 0.2333 + 0.3260 * clip(spin_ratio, 0.0, 1.0)
+
+
+@GOLF_LIFT.law(
+    "power-law",
+    "as of its drag",
+    {(1.5e5, 0.1): 0.2042, (1.5e5, 0.2): 0.2717},
+    mark="ours",
+    spin_ratio=(0.07, 0.9),
+)
+def power_law_golf_lift(reynolds: Any, spin_ratio: Any) -> Any:
+    """``Cl = 0.5277 S^0.4124``; S is held at most 1."""
+    return 0.5277 * clip(spin_ratio, 0.0, 1.0) ** 0.4124
 
 
 # ------------------------------------------------------------------------------------------------------ soccer ball
@@ -209,31 +327,47 @@ _GOFF_CARRE = 1.2 * 0.2185 / 1.8e-5
 _EVEN_SPIN = (0.155 / 0.4127) ** (1.0 / 0.3056)
 
 
+@SOCCER_DRAG.law(
+    "goff-carre",
+    "Goff & Carré 2010, *Eur. J. Phys.* 31:775; the part with spin is not verified",
+    {(3.6e5, 0.0): 0.155, (3.6e5, 0.2): 0.2524, (0.9e5, 0.0): 0.4975},
+    mark="second-hand",
+)
 def goff_carre_drag(reynolds: Any, spin_ratio: Any) -> Any:
-    """Soccer ball: ``Cd = a + (0.501 - a) / (1 + exp((v - 12.19) / 1.309))`` with ``a = 0.155`` without spin.
+    """``Cd = a + (0.501 - a) / (1 + exp((v - 12.19) / 1.309))`` with ``a = 0.155`` without spin and ``a = 0.4127
+    S^0.3056`` with it, once that exceeds 0.155 (S = 0.041); v in m/s is ``Re / 1.457e4``, of the source's ball and air.
 
-    The drag crisis is at v = 12.19 m/s; v stands for ``Re / 1.457e4``, the source's ball and air. Beyond the crisis
-    spin raises drag to ``a = 0.4127 S^0.3056``, here once that exceeds 0.155 (S = 0.041). The source switches
-    abruptly at S = 0.05 and 12.19 m/s; here the transition is smooth. S is held at most 1; at low speed Cd stays at
-    0.501, at any spin. Source: Goff & Carre 2010, Eur. J. Phys. 31:775, second-hand; the part with spin is not
-    verified.
+    The drag crisis is at v = 12.19 m/s. The source switches abruptly at S = 0.05 and 12.19 m/s; here the transition is
+    smooth. S is held at most 1; at low speed Cd stays at 0.501, at any spin.
     """
     beyond = 0.4127 * clip(spin_ratio, _EVEN_SPIN, 1.0) ** 0.3056
     crisis = clip((reynolds / _GOFF_CARRE - 12.19) / 1.309, -50.0, 50.0)
     return beyond + (0.501 - beyond) / (1.0 + exp(crisis))
 
 
+@SOCCER_DRAG.law(
+    "textbook",
+    "textbooks, simplified: a smooth sphere on one side, a ball past its drag crisis on the other",
+    {(1.2e5, 0.2): 0.3271, (1.35e5, 0.0): 0.22},
+    mark="second-hand",
+)
 def textbook_soccer_drag(reynolds: Any, spin_ratio: Any) -> Any:
-    """Soccer ball: ``Cd`` 0.47 below Re = 1e5, 0.22 above 1.35e5, a straight line between; independent of spin.
-
-    A smooth sphere on one side, a ball past its drag crisis on the other. Source: a textbook simplification,
-    second-hand.
-    """
+    """``Cd`` is 0.47 below Re = 1e5, 0.22 above 1.35e5, a straight line between; independent of spin."""
     return 0.47 - 0.25 * clip((reynolds - 1e5) / 0.35e5, 0.0, 1.0)
 
 
+@SOCCER_LIFT.law(
+    "pooled",
+    "fitted to Asai 2007, Passmore 2012, Bray & Kerwin 2003 and Goff & Carré 2009, "
+    "by tests/reference/fit_soccer_lift.py",
+    {(4e5, 0.10): 0.185, (4e5, 0.20): 0.27, (4e5, 0.24): 0.26, (4e5, 0.71): 0.31},
+    within=0.02,
+    mark="ours",
+    reynolds=(3e5, inf),
+    spin_ratio=(0.05, 0.7),
+)
 def pooled_lift(reynolds: Any, spin_ratio: Any) -> Any:
-    """Soccer ball: ``Cl = 0.301 (1 - exp(-S / 0.108))``: proportional to S at low spin, at most 0.301.
+    """``Cl = 0.301 (1 - exp(-S / 0.108))``: proportional to S at low spin, at most 0.301.
 
     Fitted here to four sources, each with the same weight, beyond the drag crisis (Re above 3e5):
 
@@ -252,77 +386,107 @@ def pooled_lift(reynolds: Any, spin_ratio: Any) -> Any:
     return 0.301 * (1.0 - exp(spin_ratio * (-1.0 / 0.108)))
 
 
+@SOCCER_LIFT.law(
+    "mencke",
+    "fitted to one filmed kick of Mencke et al. 2020, *Am. J. Phys.* 88:934, digitised",
+    {(2.7e5, 0.28): 0.5, (2.7e5, 0.27): 0.4957},
+    within=0.01,
+    mark="second-hand",
+    spin_ratio=(0.25, 0.33),
+)
 def mencke_lift(reynolds: Any, spin_ratio: Any) -> Any:
-    """Soccer ball: ``Cl = 0.54 (1 - exp(-S / 0.108))``, 1.8 times pooled_lift: the most lift that was measured.
+    """``Cl = 0.54 (1 - exp(-S / 0.108))``, 1.8 times pooled_lift: the most lift that was measured.
 
     Fitted here to one filmed kick of (20, 2.5, 4.9) m/s with -46 rad/s about the upright, S 0.25 to 0.33, with drag by
     goff_carre_drag: its sideways track is met to 8 cm, 6 cm rms. The shape over S is that of pooled_lift. With the
     direction of the launch fitted, too, 6.2 deg in place of 7.1, it is 1.65 times pooled_lift.
-    Source: Mencke et al. 2020, Am. J. Phys. 88:934; second-hand, digitised.
     """
     return 0.54 * (1.0 - exp(spin_ratio * (-1.0 / 0.108)))
 
 
+@SOCCER_LIFT.law(
+    "asai",
+    "Asai et al. 2007, *Sports Eng.* 10:101, wind tunnel; the curve between and beyond the points is *ours*",
+    {(3.6e5, 0.18): 0.21, (3.6e5, 0.22): 0.24, (3.6e5, 0.34): 0.29},
+    within=0.0031,
+    mark="second-hand",
+    spin_ratio=(0.18, 0.34),
+)
 def asai_lift(reynolds: Any, spin_ratio: Any) -> Any:
-    """Soccer ball: ``Cl = 0.498 S / (0.242 + S)``: 0.21 at S 0.18, 0.24 at 0.22 and 0.29 at 0.34, each within 0.003.
+    """``Cl = 0.498 S / (0.242 + S)``; other sources have more below S = 0.3, and less above.
 
-    Between and beyond these points the curve is ours: it starts proportional to S, as lift must, and levels off at
-    0.498. Others measured more below S = 0.3 and less above (pooled_lift). Source of the points: Asai et al. 2007,
-    Sports Eng. 10:101, second-hand.
+    The curve starts proportional to S, as lift must, and levels off at 0.498.
     """
     return 0.498 * spin_ratio / (0.242 + spin_ratio)
 
 
+@SOCCER_LIFT.law(
+    "power-law",
+    "textbooks",
+    {(3.6e5, 0.22): 0.2637, (4e5, 0.2): 0.2575},
+    mark="second-hand",
+)
 def power_law_soccer_lift(reynolds: Any, spin_ratio: Any) -> Any:
-    """Soccer ball: ``Cl = 0.385 S^0.25``, S held at most 1; too large at low spin. Source: textbooks, second-hand."""
+    """``Cl = 0.385 S^0.25``, S held at most 1; too large at low spin."""
     return 0.385 * clip(spin_ratio, 0.0, 1.0) ** 0.25
-
-
-#: Models of a soccer ball, by name.
-SOCCER_DRAG: dict[str, Coefficient] = {"goff-carre": goff_carre_drag, "textbook": textbook_soccer_drag}
-SOCCER_LIFT: dict[str, Coefficient] = {
-    "pooled": pooled_lift,
-    "mencke": mencke_lift,
-    "asai": asai_lift,
-    "power-law": power_law_soccer_lift,
-}
 
 
 # ------------------------------------------------------------------------------------------------------ tennis ball
 
 
-def stepanek_drag(reynolds: Any, spin_ratio: Any) -> Any:
-    """Tennis ball: ``Cd = 0.508 + (22.053 + 4.196 S^-2.5)^-0.4``: 0.508 without spin, 0.80 at most.
+TENNIS_DRAG.law(
+    "cross-lindsey",
+    "Cross & Lindsey 2013, flights of 15 to 30 m/s and up to 2,500 rpm: 0.507 ± 0.024, whatever the spin; wind tunnels "
+    "give 0.6 to 0.7 without spin",
+    {(1e5, 0.1): 0.507, (1.4e5, 0.3): 0.507},
+)(Constant(0.507))
 
-    Measured in a wind tunnel for S 0.05 to 0.6, independent of speed. Source: Stepanek 1988, Am. J. Phys. 56:138;
-    second-hand, Gander & Hrebicek, Solving Problems in Scientific Computing, chapter 1.
-    """
+
+@TENNIS_DRAG.law(
+    "stepanek",
+    "Štěpánek 1988, *Am. J. Phys.* 56:138, wind tunnel, by Gander & Hřebíček, *Solving Problems in Scientific "
+    "Computing*, chapter 1",
+    {(1e5, 0.3): 0.6622, (1e5, 0.0): 0.508},
+    mark="second-hand",
+    spin_ratio=(0.05, 0.6),
+)
+def stepanek_drag(reynolds: Any, spin_ratio: Any) -> Any:
+    """``Cd = 0.508 + (22.053 + 4.196 S^-2.5)^-0.4``: 0.508 without spin, 0.80 at most, independent of speed."""
     s = clip(spin_ratio, 1e-6, 1e6)
     return 0.508 + (22.053 + 4.196 * s**-2.5) ** -0.4
 
 
+@TENNIS_LIFT.law(
+    "stepanek",
+    "as of its drag; a table tennis ball borrows it (assumed)",
+    {(1e5, 0.3): 0.189, (1e5, 0.1): 0.0845},
+    mark="second-hand",
+    spin_ratio=(0.05, 0.6),
+)
 def stepanek_lift(reynolds: Any, spin_ratio: Any) -> Any:
-    """Tennis ball: ``Cl = S / (0.981 + 2.022 S)``: nearly S at low spin, 0.49 at most. Source: as for stepanek_drag."""
+    """``Cl = S / (0.981 + 2.022 S)``: nearly S at low spin, 0.49 at most."""
     return spin_ratio / (0.981 + 2.022 * spin_ratio)
 
 
+@TENNIS_LIFT.law(
+    "lift-crisis",
+    "Miyazaki et al. 2017, *Eur. J. Phys.* 38:024001, of which the abstract was read: one point; the rest is *assumed*",
+    {(9e4, 0.5): 0.0, (3e4, 0.5): 0.251},
+    mark="assumed",
+    reynolds=(3e4, 9e4),
+    spin_ratio=(0.0, 1.0),
+)
 def lift_crisis(reynolds: Any, spin_ratio: Any) -> Any:
-    """Table tennis ball: ``stepanek_lift (1 - a exp(-((S - 0.5) / 0.15)^2))``, a = 0 at Re = 3e4, 1 at 9e4, held there.
+    """Table tennis: ``Cl = stepanek_lift (1 - a exp(-((S - 0.5) / 0.15)^2))``, ``a = (Re - 3e4) / 6e4``, held between 0
+    and 1.
 
-    Measured in flight for Re 3e4 to 9e4 and S up to 1: a deep valley of the lift around S = 0.5, with almost none left
-    at Re = 9e4 and S = 0.48 to 0.50. Only that point is from the source; the width of the valley, its growth with Re
-    and the lift beside it, a tennis ball's, are assumed. Source: Miyazaki, Sakai, Komatsu, Takahashi & Himeno 2017,
-    Eur. J. Phys. 38:024001, of which the abstract was read.
+    Measured in flight: a deep valley of the lift around S = 0.5, with almost none left at Re = 9e4 and S = 0.48 to
+    0.50. Only that point is from the source; the width of the valley, its growth with Re and the lift beside it, a
+    tennis ball's, are assumed.
     """
     depth = clip((reynolds - 3e4) / 6e4, 0.0, 1.0)
     off = (clip(spin_ratio, 0.0, 10.0) - 0.5) / 0.15
     return stepanek_lift(reynolds, spin_ratio) * (1.0 - depth * exp(-off * off))
-
-
-#: Models of a tennis ball, by name. In free flight, 15 to 30 m/s and up to 2,500 rpm, the drag coefficient is 0.507 +-
-#: 0.024, whatever the spin: Cross & Lindsey 2013.
-TENNIS_DRAG: dict[str, Coefficient] = {"cross-lindsey": Constant(0.507), "stepanek": stepanek_drag}
-TENNIS_LIFT: dict[str, Coefficient] = {"stepanek": stepanek_lift, "lift-crisis": lift_crisis}
 
 
 # --------------------------------------------------------------------------------------------------------- baseball
@@ -330,34 +494,54 @@ TENNIS_LIFT: dict[str, Coefficient] = {"stepanek": stepanek_lift, "lift-crisis":
 
 @dataclass(frozen=True)
 class NathanDrag:
-    """Baseball: ``Cd = 0.3008 + 0.0292 (spin / 1000 rpm)``, with ``turns`` rpm for each unit of Re S.
+    """``Cd = 0.3008 + 0.0292 (spin / 1000 rpm)``, with ``turns`` rpm for each unit of Re S, by default those of a
+    baseball in air of 20 C.
 
     Re S is ``2 r^2 rho w / mu``: the spin, whatever the speed. Fitted to fly balls tracked in the major leagues, 40 to
-    50 m/s and 1,000 to 3,000 rpm. Source: Nathan 2016, trajectory calculator; second-hand (pybaseball).
+    50 m/s and 1,000 to 3,000 rpm.
     """
 
-    turns: float
+    turns: float = 0.0521
 
     def __call__(self, reynolds: Any, spin_ratio: Any) -> Any:
         return 0.3008 + 0.0292e-3 * self.turns * reynolds * spin_ratio
 
 
+BASEBALL_DRAG.law(
+    "nathan",
+    "Nathan 2016, *Trajectory calculator*, by pybaseball: fly balls of 40 to 50 m/s and 1,000 to 3,000 rpm",
+    {(1.8e5, 0.0): 0.3008, (1.8e5, 0.2): 0.3556},
+    mark="second-hand",
+)(NathanDrag())
+
+
+@BASEBALL_LIFT.law("nathan", "as of its drag", {(1e5, 0.2): 0.2134, (1e5, 0.3): 0.2619}, mark="second-hand")
 def nathan_lift(reynolds: Any, spin_ratio: Any) -> Any:
-    """Baseball: ``Cl = 1.120 S / (0.583 + 2.333 S)``, at most 0.48. Source: as for NathanDrag."""
+    """``Cl = 1.120 S / (0.583 + 2.333 S)``, at most 0.48."""
     return 1.120 * spin_ratio / (0.583 + 2.333 * spin_ratio)
 
 
+@BASEBALL_LIFT.law(
+    "sawicki",
+    "Sawicki, Hubbard & Stronge 2003, *Am. J. Phys.* 71:1152",
+    {(1e5, 0.05): 0.075, (1e5, 0.3): 0.27},
+    mark="second-hand",
+)
 def sawicki_lift(reynolds: Any, spin_ratio: Any) -> Any:
-    """Baseball: ``Cl = 1.5 S`` below S = 0.1, ``0.09 + 0.6 S`` above; S held at most 1.
-
-    Source: Sawicki, Hubbard & Stronge 2003, Am. J. Phys. 71:1152; second-hand.
-    """
+    """``Cl = 1.5 S`` below S = 0.1, ``0.09 + 0.6 S`` above; S is held at most 1."""
     s = clip(spin_ratio, 0.0, 1.0)
     return 0.9 * clip(s, 0.0, 0.1) + 0.6 * s
 
 
+@BASEBALL_DRAG.law(
+    "pitch-fit",
+    "fitted to 1,254 pitches of 30 to 45 m/s of 3 September 2020, by tests/reference/fit_pitches.py",
+    {(1.8e5, 0.0): 0.299, (1.8e5, 0.2): 0.3336},
+    mark="ours",
+    spin_ratio=(0.05, 0.35),
+)
 def pitch_fit_drag(reynolds: Any, spin_ratio: Any) -> Any:
-    """Baseball, pitched: ``Cd = 0.299 + 0.76 Cl^2``, with the Cl of nathan_lift at the active spin: a drag polar.
+    """A pitch: ``Cd = 0.299 + 0.76 Cl^2``, with the Cl of nathan_lift at the active spin: a drag polar.
 
     The drag of each pitch follows from how its tracked speed falls (Kagan & Nathan 2014, Phys. Teach. 52:278; method of
     the abstract). Fitted here to 1,254 pitches of 3 September 2020 in eight parks (Statcast), every second one of each
@@ -370,7 +554,3 @@ def pitch_fit_drag(reynolds: Any, spin_ratio: Any) -> Any:
     """
     lift = nathan_lift(reynolds, spin_ratio)
     return 0.299 + 0.76 * lift * lift
-
-
-#: Models of a baseball, by name; the drag also depends on the spin itself, so that a scene makes it.
-BASEBALL_LIFT: dict[str, Coefficient] = {"nathan": nathan_lift, "sawicki": sawicki_lift}

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from sandbox.parameters import Group, choice, quantity, vector
 from sandbox.physics.air import LogWind, UniformWind, moist_density
-from sandbox.physics.coefficients import Coefficient, Constant, spin_ratio_lift
+from sandbox.physics.coefficients import ANY_LIFT, Coefficient, Constant
 from sandbox.physics.forces import Wind
 
 if TYPE_CHECKING:
@@ -113,7 +113,7 @@ class ConstantLift(Lift):
 class SpinRatioLift(Lift):
     """A lift coefficient equal to the spin ratio r w / v."""
 
-    LAWS = {"spin-ratio": spin_ratio_lift}
+    LAWS = ANY_LIFT
     model: str = choice("spin-ratio", "coefficient by its source")
 
 

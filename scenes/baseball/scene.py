@@ -49,7 +49,7 @@ from sandbox.kit import (
     roughly,
     where,
 )
-from sandbox.physics.coefficients import BASEBALL_LIFT, NathanDrag, pitch_fit_drag
+from sandbox.physics.coefficients import BASEBALL_DRAG, BASEBALL_LIFT, NathanDrag
 from sandbox.sport import flight
 from sandbox.sport.air import Model
 from sandbox.sport.swing import Bat, struck_by
@@ -58,12 +58,13 @@ from sandbox.sport.swing import Bat, struck_by
 class BaseballDrag(Model):
     """Drag that grows with the spin."""
 
-    model: Literal["nathan", "pitch-fit"] = choice(..., "coefficient by its source")
+    LAWS = BASEBALL_DRAG
 
     def coefficient_in(self, air: Air, ball: Sphere) -> Coefficient:
-        if self.model == "pitch-fit":
-            return pitch_fit_drag
-        return NathanDrag(air.viscosity / (2.0 * ball.radius**2 * air.density * RPM))
+        law = self.LAWS[self.model]
+        if isinstance(law, NathanDrag):
+            return NathanDrag(air.viscosity / (2.0 * ball.radius**2 * air.density * RPM))
+        return law
 
 
 class Baseball(Sphere, drag=BaseballDrag, lift=BASEBALL_LIFT):

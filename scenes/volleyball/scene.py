@@ -17,6 +17,7 @@ from sandbox.kit import (
     Fact,
     Handle,
     Launch,
+    Laws,
     RequestError,
     Setup,
     Sphere,
@@ -33,18 +34,26 @@ from sandbox.kit import (
 from sandbox.sport import net_game
 from sandbox.sport.readings import coefficient_at_start
 
+VOLLEYBALL_DRAG = Laws("a volleyball", "drag")
 
+
+@VOLLEYBALL_DRAG.law(
+    "hong",
+    "Hong, Ozaki, Watanabe & Asai 2020, *Appl. Sci.* 10:3256; where and how steeply it falls is *assumed*",
+    {(2.6e5, 0.0): 0.15, (2.9e5, 0.0): 0.17},
+    within=0.015,
+)
 def hong_drag(reynolds: Any, spin_ratio: Any) -> Any:
-    """0.47 for a slow ball, 0.16 for a fast one, past the drag crisis at Re = 2.1e5 (15 m/s).
+    """``Cd = 0.16 + 0.31 / (1 + exp((Re - 2.1e5) / 0.12e5))``: 0.47 for a slow ball, 0.16 for a fast one, past the drag
+    crisis at Re = 2.1e5 (15 m/s).
 
-    Hong, Ozaki, Watanabe & Asai 2020, Appl. Sci. 10:3256: a Mikasa V200W has least drag with 0.15 at Re = 2.6e5 or 0.17
-    at 2.9e5, by the side that it turns to the wind. Where and how steeply the drag falls before that is assumed; Thomas
-    2012 (thesis, University of Washington) calls other balls supercritical from Re = 2e5 on.
+    A Mikasa V200W has least drag with 0.15 at Re = 2.6e5 or 0.17 at 2.9e5, by the side that it turns to the wind.
+    Thomas 2012 (thesis, University of Washington) calls other balls supercritical from Re = 2e5 on.
     """
     return 0.16 + 0.31 / (1.0 + exp(clip((reynolds - 2.1e5) / 0.12e5, -50.0, 50.0)))
 
 
-class Volleyball(Sphere, drag={"hong": hong_drag}):
+class Volleyball(Sphere, drag=VOLLEYBALL_DRAG):
     """The ball, a hollow sphere."""
 
 

@@ -1,4 +1,4 @@
-"""Drag and lift coefficients of a golf ball, and the simple ones: ranges, limits, published values."""
+"""Drag and lift coefficients: those of every ball, those of a golf ball, and the simple ones."""
 
 from __future__ import annotations
 
@@ -10,13 +10,56 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sandbox.physics import coefficients as law
-from sandbox.physics.coefficients import GOLF_DRAG, GOLF_LIFT, Constant
+from sandbox.physics.coefficients import GOLF_DRAG, GOLF_LIFT, Constant, Laws
+from scenes.volleyball.scene import VOLLEYBALL_DRAG
 
 #: From a ball at rest to ten times the speed of sound in water; from no spin to a ball that spins on the spot.
 REYNOLDS = st.floats(0.0, 1e10)
 SPIN_RATIOS = st.floats(0.0, 1e33)
 
+#: Every coefficient that is registered.
+REGISTERED = [
+    pytest.param(laws, name, id=f"{laws.ball} {laws.kind} {name}")
+    for laws in (*vars(law).values(), VOLLEYBALL_DRAG)
+    if isinstance(laws, Laws)
+    for name in laws
+]
+
 # Any model, anywhere --------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("laws", "name"), REGISTERED)
+def test_a_coefficient_goes_through_its_points(laws: Laws, name: str):
+    origin = laws.origins[name]
+    for (reynolds, spin_ratio), value in origin.points.items():
+        assert laws[name](reynolds, spin_ratio) == pytest.approx(value, abs=origin.within)
+
+
+@pytest.mark.parametrize(("laws", "name"), REGISTERED)
+def test_floats_and_arrays_agree(laws: Laws, name: str):
+    reynolds, spin_ratio = (grid.ravel() for grid in np.meshgrid(np.linspace(0.0, 4e5, 41), np.linspace(0.0, 2.0, 41)))
+    together = np.broadcast_to(laws[name](reynolds, spin_ratio), reynolds.shape)
+    one_by_one = [laws[name](float(re), float(s)) for re, s in zip(reynolds, spin_ratio, strict=True)]
+    assert together == pytest.approx(one_by_one, rel=1e-14, abs=1e-16)
+
+
+@pytest.mark.parametrize(("laws", "name"), REGISTERED)
+def test_coefficients_have_no_jumps(laws: Laws, name: str):
+    """A jump would defeat the integrator's error control."""
+    spins, speeds = np.linspace(0.0, 1.2, 4801), np.linspace(0.0, 4e5, 4001)
+    for reynolds in (2e4, 6.8e4, 1.5e5):
+        values = np.broadcast_to(laws[name](np.full_like(spins, reynolds), spins), spins.shape)
+        assert np.abs(np.diff(values))[spins[1:] > 0.02].max() < 1.2e-3
+    values = np.broadcast_to(laws[name](speeds, np.full_like(speeds, 0.1)), speeds.shape)
+    assert np.abs(np.diff(values)).max() < 2e-3
+
+
+def test_a_coefficient_is_registered_once_with_source_and_points():
+    mine = Laws("a feather", "drag")
+    assert mine.law("mine", "me", {(1e5, 0.0): 0.3, (2e5, 0.0): 0.3})(Constant(0.3)) == Constant(0.3) == mine["mine"]
+    for name, source, points in (("mine", "me", 2), ("other", "", 2), ("other", "me", 1)):
+        with pytest.raises(ValueError, match="of a feather: needs a new name, a source, and two points or more"):
+            mine.law(name, source, dict.fromkeys(((float(re), 0.0) for re in range(points)), 0.3))
 
 
 @pytest.mark.parametrize("name", GOLF_DRAG)
@@ -30,27 +73,6 @@ def test_drag_is_positive_and_no_more_than_a_rough_sphere_has(name: str, reynold
 def test_lift_is_bounded_and_lifts_by_spin_alone(name: str, reynolds: float, spin_ratio: float):
     assert 0.0 <= GOLF_LIFT[name](reynolds, spin_ratio) < 0.6
     assert GOLF_LIFT[name](reynolds, 0.0) == 0.0
-
-
-@pytest.mark.parametrize("model", [*GOLF_DRAG.values(), *GOLF_LIFT.values(), law.spin_ratio_lift, Constant(0.3)])
-def test_floats_and_arrays_agree(model):
-    reynolds, spin_ratio = (grid.ravel() for grid in np.meshgrid(np.linspace(0.0, 4e5, 41), np.linspace(0.0, 2.0, 41)))
-    together = np.broadcast_to(model(reynolds, spin_ratio), reynolds.shape)
-    one_by_one = [model(float(re), float(s)) for re, s in zip(reynolds, spin_ratio, strict=True)]
-    assert together == pytest.approx(one_by_one, rel=1e-14, abs=1e-16)
-
-
-@pytest.mark.parametrize("name", GOLF_DRAG)
-def test_coefficients_have_no_jumps(name: str):
-    """A jump would defeat the integrator's error control."""
-    spins = np.linspace(0.0, 1.2, 4801)
-    for reynolds in (2e4, 6.8e4, 1.5e5):
-        for model in (GOLF_DRAG[name], GOLF_LIFT[name]):
-            values = np.broadcast_to(model(np.full_like(spins, reynolds), spins), spins.shape)
-            rises = np.abs(np.diff(values))
-            assert rises[spins[1:] > 0.02].max() < 1e-3
-    speeds = np.linspace(0.0, 4e5, 4001)
-    assert np.abs(np.diff(GOLF_DRAG[name](speeds, np.full_like(speeds, 0.1)))).max() < 2e-3
 
 
 @pytest.mark.parametrize(("model", "edge"), [(law.quadratic_lift, 0.06628), (law.usga_lift, 0.0860 - 0.0122)])

@@ -1,0 +1,108 @@
+"""Writes the lists in pages that follow from the code: ``python -m docs.lists``; a test holds the pages against them.
+
+Each stands between two comments, ``<!-- coefficients -->`` and ``<!-- end -->`` such as.
+"""
+
+from __future__ import annotations
+
+import inspect
+import re
+import textwrap
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from math import isinf
+from pathlib import Path
+
+from sandbox.parameters import Group, groups_of
+from sandbox.physics.coefficients import ANY, Coefficient, Laws, Origin, Range
+from sandbox.scene import parameters_of
+from sandbox.scene.finding import installed_folders
+
+WHOLE_WORDS: Mapping[str, bool] = {"break_long_words": False, "break_on_hyphens": False}
+ROOT = Path(__file__).resolve().parent.parent
+
+
+def filled(page: str, name: str, lines: Iterable[str]) -> str:
+    """The page with new lines between the marks of a block."""
+    block = "\n".join([f"<!-- {name} -->", *lines, "<!-- end -->"])
+    page, count = re.subn(rf"<!-- {name} -->\n.*?<!-- end -->", lambda match: block, page, flags=re.DOTALL)
+    assert count == 1, name
+    return page
+
+
+def coefficients() -> Iterator[str]:
+    """Every drag and lift coefficient that a scene file may name, by ball: formula, source, range, values."""
+    yield ""
+    balls: dict[str, list[Laws]] = {}
+    for laws in all_laws():
+        balls.setdefault(laws.ball, []).append(laws)
+    for ball, of_ball in sorted(balls.items(), key=lambda each: (each[0] != "any ball", each[0])):
+        yield f"## {ball.capitalize()}\n"
+        for laws in of_ball:
+            symbol = {"drag": "Cd", "lift": "Cl"}[laws.kind]
+            yield f"By name in a scene file, `ball.{laws.kind}.model`:\n"
+            yield from (entry(symbol, name, law, laws.origins[name]) for name, law in laws.items())
+            yield ""
+
+
+def all_laws() -> list[Laws]:
+    """The coefficients of all balls of the scenes that come with the sandbox."""
+    found: dict[int, Laws] = {}
+    for folder in sorted(installed_folders().values()):
+        _, parameters = parameters_of(folder)
+        found |= {id(laws): laws for laws in laws_in(type(parameters))}
+    return list(found.values())
+
+
+def laws_in(schema: type[Group]) -> Iterator[Laws]:
+    """The registered coefficients that the groups of a scene's parameters may be set to."""
+    laws = getattr(schema, "LAWS", None)
+    if isinstance(laws, Laws):
+        yield laws
+    for field in schema.model_fields.values():
+        for inner in groups_of(field.annotation):
+            yield from laws_in(inner)
+
+
+def entry(symbol: str, name: str, law: Coefficient, origin: Origin) -> str:
+    """One coefficient as an item of a list."""
+    code = getattr(law, "__name__", type(law).__name__)
+    about = (inspect.getdoc(law) or "").partition("\n\n")[0]
+    about = " ".join(about.split()).replace("``", "`")
+    parts = [about.rstrip(".")]
+    limits = [span(of, limit) for of, limit in (("Re", origin.reynolds), ("S", origin.spin_ratio)) if limit != ANY]
+    if limits:
+        parts.append(f"For {' and '.join(limits)}")
+    parts.append(f"Source{f', *{origin.mark}*' if origin.mark else ''}: {origin.source}")
+    values = [f"{symbol}({number(re)}, {s:g}) = {value:g}" for (re, s), value in origin.points.items()]
+    parts.append(", ".join(values) + (f", within {origin.within:g}" if origin.within > 1e-4 else ""))
+    return textwrap.fill(f"- `{name}`, `{code}`: {'. '.join(parts)}.", 120, subsequent_indent="  ", **WHOLE_WORDS)
+
+
+def span(symbol: str, limits: Range) -> str:
+    low, high = (number(limit) if symbol == "Re" else f"{limit:g}" for limit in limits)
+    if isinf(limits[1]):
+        return f"{symbol} above {low}"
+    return f"{symbol} up to {high}" if limits[0] == 0.0 else f"{symbol} from {low} to {high}"
+
+
+def number(reynolds: float) -> str:
+    return f"{reynolds / 1e5:g}e5"
+
+
+#: The blocks of each page.
+LISTS: Mapping[Path, Mapping[str, Callable[[], Iterable[str]]]] = {
+    ROOT / "docs" / "physics.md": {"coefficients": coefficients},
+}
+
+
+def page_with_lists(page: Path) -> str:
+    """The text of a page as it should be."""
+    text = page.read_text("utf-8")
+    for name, lines in LISTS[page].items():
+        text = filled(text, name, lines())
+    return text
+
+
+if __name__ == "__main__":
+    for page in LISTS:
+        page.write_text(page_with_lists(page), "utf-8")
