@@ -76,15 +76,18 @@ const heard = {
     fillScenes($("scene"), scenes);
   },
   scene(scene) {
-    if (scene.source !== state.source) waiting(`Loading ${scene.title} ...`);
+    const another = scene.source !== state.source;
+    if (another) waiting(`Loading ${scene.title} ...`);
     Object.assign(state, { source: scene.source, changes: { ...scene.changes }, scene, stage: null, run: null });
     scene.by = new Map(scene.parameters.map((each) => [each.key, each]));
     $("scene").value = scene.source;
     settings.build(scene.parameters);
     settings.show(state.changes);
-    const options = (first) => [...first, ...scene.facts.map(({ key, label, unit }) => new Option(`${label} (${unit})`, key))];
-    $("fact").replaceChildren(...options([]));
-    $("predict").replaceChildren(...options([new Option("nothing", "")]));
+    if (another) {
+      const options = (first) => [...first, ...scene.facts.map(({ key, label, unit }) => new Option(`${label} (${unit})`, key))];
+      $("fact").replaceChildren(...options([]));
+      $("predict").replaceChildren(...options([new Option("nothing", "")]));
+    }
     for (const each of Object.values(ask)) each.forget();
     ask.path.ask({ changes: state.changes });
     [state.seen, state.asked] = [state.changes, ""];

@@ -56,9 +56,23 @@ def serving(*args: str, cwd: Any = None, port: int = 0, state: Any = os.devnull)
 
 
 @pytest.fixture(scope="session")
-def served() -> Iterator[Served]:
+def server() -> Iterator[Served]:
     with serving("basketball", "golf", "billiards", "free-throw", "--jobs", "1") as server:
         yield server
+
+
+@pytest.fixture
+def served(server: Served) -> Iterator[Served]:
+    """The server, where everybody chooses a scene: whatever a test did as teacher, passed or failed, ends with it."""
+    yield server
+    teacher = Client(server.teacher)
+    teacher.say(do="lead", source="")
+    teacher.say(do="freeze", on=False)
+    while True:
+        lead = teacher.hear("room")["lead"]
+        if not lead["source"] and not lead["frozen"]:
+            break
+    teacher.close()
 
 
 class Client:

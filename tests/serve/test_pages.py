@@ -248,7 +248,7 @@ def test_a_teacher_and_two_pupils(pages, browser: Browser, served: Served):
     assert browser.run("document.querySelectorAll('#players img').length") == 0
     Select(teacher.find("scene")).select_by_value("golf")
     teacher.find("lead").click()
-    teacher.until("state.source === 'golf' && !ask.stage.awaited && !ask.path.awaited")
+    teacher.until("state.room.lead.source === 'golf' && !ask.stage.awaited && !ask.path.awaited")
     Select(teacher.find("predict")).select_by_value("carry")
     pupil.at()
     pupil.until("state.source === 'golf' && state.run?.hidden && !ask.stage.awaited")
