@@ -15,7 +15,6 @@ from sandbox.engine.paths.run import Event, Run
 from sandbox.parameters import Group, group, quantity
 from sandbox.physics.court import cross_restitution
 from sandbox.renamed import name_old_names
-from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Handle
 from sandbox.sport.facts import Fact, cached_per_run
@@ -176,16 +175,18 @@ BOUNCE_FACTS = (
 )
 
 
-def verdict(run: SceneRun, parameters: Any) -> str:
+def verdict(run: Run, parameters: Any) -> str:
     """Return the outcome in a sentence."""
-    said, landed, (limit, line) = run.result["verdict"], run.result["landing"], parameters.limit
-    if said == "in":
-        return f"In, {roughly(limit - landed)} before the {line}"
-    if said == "long":
-        return f"Out, {roughly(landed - limit)} beyond the {line}"
-    if said == "short":
-        return f"Comes down on its own side, {roughly(abs(parameters.middle - landed))} from the net"
-    return "Into the net" if said == "net" else "Did not come down"
+    word, landed, (limit, line) = outcome(run, parameters), landing(run, parameters), parameters.limit
+    if landed is None:
+        return "Did not come down"
+    if word == "in":
+        return f"In, {roughly(limit - landed.x)} before the {line}"
+    if word == "long":
+        return f"Out, {roughly(landed.x - limit)} beyond the {line}"
+    if word == "short":
+        return f"Comes down on its own side, {roughly(abs(parameters.middle - landed.x))} from the net"
+    return "Into the net"
 
 
 name_old_names(__name__)

@@ -19,9 +19,9 @@ from sandbox.lab.spread.causes import players_spread
 from sandbox.parameters import value_at, walk
 from sandbox.scene import Scene, load
 from sandbox.scene.finding import is_installed
-from sandbox.scene.games import game_names, game_of
 from sandbox.scene.scene_run import SceneRun
-from sandbox.sport.match import PLAYERS, Match
+from sandbox.tasks.games import game_names, game_of
+from sandbox.tasks.match import PLAYERS, Match
 
 #: What the player may set, by key: bounds, in the parameter's unit.
 Limits = Mapping[str, tuple[float, float]]

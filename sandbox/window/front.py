@@ -14,9 +14,9 @@ from sandbox.errors import RequestError
 from sandbox.picture.palette import ASSETS, palette
 from sandbox.scene import load as load_scene
 from sandbox.scene.finding import docstring, installed_folders
-from sandbox.scene.games import game_names, game_of
 from sandbox.tasks import Task, load
 from sandbox.tasks.file import read_task_file
+from sandbox.tasks.games import game_names, game_of
 from sandbox.text import title_of
 from sandbox.window.best import BestList
 from sandbox.window.contest import AtMatch, AtTask, Contest

@@ -13,7 +13,7 @@ from math import atan2, degrees, dist, hypot
 from typing import Any, ClassVar, TypeVar
 
 from sandbox.kit import Vector
-from sandbox.sport.match import Match, Outcome, named
+from sandbox.tasks.match import Match, Outcome, named
 
 #: The table (9 ft, between the noses) and the balls, in m; the balls that must reach a cushion in a break.
 LENGTH, WIDTH, RADIUS, DRIVEN = 2.54, 1.27, 0.028575, 4

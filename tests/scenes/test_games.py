@@ -12,8 +12,8 @@ import sandbox
 from sandbox import resources
 from sandbox.errors import RequestError
 from sandbox.scene.finding import installed_folder
-from sandbox.scene.games import game_names, game_of
-from sandbox.sport.match import Match
+from sandbox.tasks.games import game_names, game_of
+from sandbox.tasks.match import Match
 from sandbox.toml import read_toml
 
 WRITTEN = sorted((Path(__file__).parent / "games").glob("*.toml"))

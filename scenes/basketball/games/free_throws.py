@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from sandbox.sport.match import Shootout
+from sandbox.tasks.match import Shootout
 
 
 class FreeThrows(Shootout):

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from sandbox.sport.match import Outcome
+from sandbox.tasks.match import Outcome
 
 from ..pool import CUE, Pool
 

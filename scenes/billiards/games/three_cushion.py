@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from sandbox.sport.match import Match, Outcome
+from sandbox.tasks.match import Match, Outcome
 from sandbox.text import counted
 
 POINTS, CUSHIONS = 5, 3

@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from sandbox.sport.match import Match, Outcome
+from sandbox.tasks.match import Match, Outcome
 
 FRAMES, PINS = 10, 10
 ALL = " ".join(str(pin) for pin in range(1, PINS + 1))

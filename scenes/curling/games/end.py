@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from math import hypot
 from typing import Any
 
-from sandbox.sport.match import Match, Outcome
+from sandbox.tasks.match import Match, Outcome
 
 from ..scene import DELIVERED, HOG, RINGS
 

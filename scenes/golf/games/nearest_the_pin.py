@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from sandbox.sport.amounts import roughly
-from sandbox.sport.match import Match, Outcome
+from sandbox.tasks.match import Match, Outcome
 
 SHOTS = 3  # of each
 

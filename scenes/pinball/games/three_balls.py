@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from sandbox.sport.match import Match, Outcome
+from sandbox.tasks.match import Match, Outcome
 
 BALLS = 3  # of each
 

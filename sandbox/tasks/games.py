@@ -7,7 +7,7 @@ from pathlib import Path
 from sandbox.errors import RequestError
 from sandbox.files import from_here
 from sandbox.scene.modules import module_in
-from sandbox.sport.match import Match
+from sandbox.tasks.match import Match
 
 FOLDER = "games"
 
@@ -23,5 +23,5 @@ def game_of(folder: Path, name: str) -> type[Match]:
     game = getattr(module, "GAME", None)
     if not (isinstance(game, type) and issubclass(game, Match)):
         file = from_here(folder / FOLDER / f"{name.replace('-', '_')}.py")
-        raise RequestError(f"{file}: GAME must be a Match of sandbox.sport.match")
+        raise RequestError(f"{file}: GAME must be a Match of sandbox.tasks.match")
     return game
