@@ -481,6 +481,20 @@ def path_of(option: str, key: str) -> tuple[str | int, ...]:
     return steps
 
 
+def choices_of(parameters: Any, key: str) -> tuple[Any, ...]:
+    """The words that a parameter can be, also those that make another kind of group of the one it is in."""
+    try:
+        *groups, name = path_of("models", key)
+    except RequestError:
+        return ()
+    kinds: tuple[Any, ...] = (type(parameters),)
+    for step in groups:
+        fields = [kind.model_fields[step] for kind in kinds if step in kind.model_fields]
+        kinds = tuple(kind for field in fields for kind in groups_of(field.annotation))
+    words = [words_of(kind.model_fields[name].annotation) for kind in kinds if name in kind.model_fields]
+    return tuple(dict.fromkeys(word for some in words for word in some))
+
+
 def _placed(node: Any, path: Sequence[str | int], value: Any, what: str) -> Any:
     """``node``, a list or a group in one, with ``value`` at ``path``."""
     if not path:

@@ -27,7 +27,7 @@ from sandbox.text import printable
 def print_formats(context: click.Context, option: click.Parameter, value: bool) -> None:
     """Print the known columns of tables and end, in place of a command."""
     if value:
-        from sandbox.lab.fit.formats import as_text
+        from sandbox.lab.formats import as_text
 
         say(as_text())
         context.exit()
@@ -116,11 +116,11 @@ def fit(
     from sandbox.cli.fit_outputs import check_outputs, write_outputs
     from sandbox.lab.fit import fit_track, parse_varied, read_data, report
     from sandbox.lab.fit.data import Reading
-    from sandbox.lab.fit.formats import parse_entry
     from sandbox.lab.fit.frame import parse_free
     from sandbox.lab.fit.launches import Launches
     from sandbox.lab.fit.models import compare, parse_models
     from sandbox.lab.fit.reading import Film, parse_ball, parse_pair, parse_scale
+    from sandbox.lab.formats import parse_entry
 
     chosen = load(scene, changes)
     spans = [parse_varied(chosen, text) for text in vary]
@@ -192,7 +192,7 @@ def validate(
     notes: tuple[str, ...] = ()
     if against is not None:
         from sandbox.lab.against import cases_against
-        from sandbox.lab.fit.formats import parse_entry
+        from sandbox.lab.formats import parse_entry
 
         if teeth:
             raise RequestError("--teeth: says what the published numbers test; it cannot be combined with --against")

@@ -8,8 +8,8 @@ from typing import NamedTuple
 
 from sandbox import units
 from sandbox.errors import RequestError
-from sandbox.lab.fit.formats import Entry, recognized, stated
-from sandbox.lab.fit.mapped import Quantity, mapped
+from sandbox.lab.formats import Entry, recognized, stated
+from sandbox.lab.mapped import Quantity, mapped
 from sandbox.lab.selection import used
 from sandbox.lab.table_file import Table, read_table
 from sandbox.lab.validate import KINDS, Case, assignments

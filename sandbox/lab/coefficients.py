@@ -11,9 +11,8 @@ import numpy as np
 
 from sandbox.errors import RequestError
 from sandbox.lab.chart import figure, legend
-from sandbox.lab.fit.models import choices_of
 from sandbox.lab.tables import paragraph, table
-from sandbox.parameters import value_at, walk
+from sandbox.parameters import choices_of, value_at, walk
 from sandbox.scene import Scene
 from sandbox.sport.air import Air
 from sandbox.sport.flight import Sphere

@@ -15,7 +15,7 @@ import numpy as np
 
 from sandbox import tasks
 from sandbox.errors import RequestError
-from sandbox.lab.spread.causes import players_spread
+from sandbox.lab.scatter import players_spread
 from sandbox.parameters import value_at, walk
 from sandbox.scene import Scene, load
 from sandbox.scene.finding import is_installed

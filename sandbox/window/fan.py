@@ -12,8 +12,8 @@ import numpy as np
 
 from sandbox import parameters as declared
 from sandbox.lab.runs import fly_together, runs
-from sandbox.lab.spread.causes import players_spread
-from sandbox.lab.spread.statistics import Numbers, Share
+from sandbox.lab.scatter import players_spread
+from sandbox.lab.statistics import Numbers, Share
 from sandbox.picture.camera import Camera
 from sandbox.picture.palette import Colour
 from sandbox.picture.path import points

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 import pygame
 
-from sandbox.lab.spread.statistics import Numbers
+from sandbox.lab.statistics import Numbers
 from sandbox.picture.palette import Colour, palette
 from sandbox.sport.amounts import amount
 from sandbox.sport.facts import Fact

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from sandbox.lab.aim import search
 from sandbox.lab.aim.question import Solution, Target
 from sandbox.lab.axes import Span
-from sandbox.lab.spread.causes import players_spread
+from sandbox.lab.scatter import players_spread
 from sandbox.scene import Scene
 from sandbox.sport.amounts import amount
 from sandbox.sport.controls import Goal

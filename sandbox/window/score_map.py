@@ -13,7 +13,7 @@ import pygame
 from sandbox import parameters as declared
 from sandbox.errors import RequestError
 from sandbox.lab.runs import runs
-from sandbox.lab.spread.causes import ANGLE, SPEED, players_spread
+from sandbox.lab.scatter import ANGLE, SPEED, players_spread
 from sandbox.picture.palette import Colour, mix, palette
 from sandbox.scene import Scene
 from sandbox.sport.controls import Spread

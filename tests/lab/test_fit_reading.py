@@ -13,11 +13,11 @@ import sandbox
 from sandbox.cli.program import app, call
 from sandbox.errors import RequestError
 from sandbox.lab.fit.data import Reading, data_of, read_data, table_of
-from sandbox.lab.fit.formats import forms, parse_entry, recognized
 from sandbox.lab.fit.launches import Launches
 from sandbox.lab.fit.outline import distances
 from sandbox.lab.fit.reading import Film, measurements, parse_scale
 from sandbox.lab.fit.report import as_text
+from sandbox.lab.formats import forms, parse_entry, recognized
 from sandbox.lab.selection import LeftOut
 from sandbox.lab.table_file import read_table
 

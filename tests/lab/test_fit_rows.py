@@ -15,10 +15,10 @@ import sandbox
 from sandbox.errors import RequestError
 from sandbox.lab.axes import Span
 from sandbox.lab.fit.data import Reading, read_data
-from sandbox.lab.fit.formats import parse_entry
-from sandbox.lab.fit.mapped import TILTED
 from sandbox.lab.fit.problem import Problem
 from sandbox.lab.fit.report import as_text
+from sandbox.lab.formats import parse_entry
+from sandbox.lab.mapped import TILTED
 from sandbox.lab.selection import LeftOut
 from sandbox.lab.table_file import read_table
 from sandbox.parameters import value_at, walk

@@ -16,7 +16,7 @@ from sandbox.lab.axes import Span
 from sandbox.lab.many import Runs
 from sandbox.lab.spread import Spread, report
 from sandbox.lab.spread.causes import Cause, points_of, shares_of
-from sandbox.lab.spread.statistics import Ellipse, Share, shots_for_mean, shots_for_share, wilson
+from sandbox.lab.statistics import Ellipse, Share, shots_for_mean, shots_for_share, wilson
 from sandbox.sport.amounts import shown_in
 
 GOLF = {"launch.speed": "1%", "launch.angle": "1deg"}

@@ -15,8 +15,8 @@ import pytest
 
 from sandbox.errors import RunError
 from sandbox.lab.runs import runs
-from sandbox.lab.spread.causes import players_spread
-from sandbox.lab.spread.statistics import wilson
+from sandbox.lab.scatter import players_spread
+from sandbox.lab.statistics import wilson
 from sandbox.picture.camera import Camera
 from sandbox.picture.lettering import Lettering
 from sandbox.scene import load, simulate

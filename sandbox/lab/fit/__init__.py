@@ -13,7 +13,6 @@ from typing import Any
 from sandbox.errors import RequestError
 from sandbox.lab.axes import Span, as_axis, checked
 from sandbox.lab.fit.data import Reading, data_of, read_data, table_of
-from sandbox.lab.fit.formats import parse_entry
 from sandbox.lab.fit.frame import parse_free
 from sandbox.lab.fit.launches import Launches
 from sandbox.lab.fit.measured import Measured
@@ -22,6 +21,7 @@ from sandbox.lab.fit.problem import Declared
 from sandbox.lab.fit.reading import Film, parse_scale
 from sandbox.lab.fit.squares import Fit, solve
 from sandbox.lab.fit.track import Track
+from sandbox.lab.formats import parse_entry
 from sandbox.parameters import value_at, walk
 from sandbox.scene import Scene, as_scene
 from sandbox.text import check_mapping

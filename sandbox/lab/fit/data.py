@@ -8,13 +8,13 @@ from pathlib import Path
 from typing import Any
 
 from sandbox.errors import RequestError
-from sandbox.lab.fit.formats import Entry, device, in_table, recognized, stated
 from sandbox.lab.fit.frame import frame_of
 from sandbox.lab.fit.launches import launches
 from sandbox.lab.fit.measured import Measured
 from sandbox.lab.fit.outline import Outline
 from sandbox.lab.fit.reading import NAMES, Film, flattened, has_positions, measurements, unknown_columns
 from sandbox.lab.fit.track import Track
+from sandbox.lab.formats import Entry, device, in_table, recognized, stated
 from sandbox.lab.table_file import Column, Table, read_table, split_unit
 from sandbox.physics.forces import Gravity
 from sandbox.scene import Scene, simulate

@@ -10,9 +10,9 @@ from math import isfinite
 import numpy as np
 
 from sandbox.errors import RequestError
-from sandbox.lab.fit.formats import Form
-from sandbox.lab.fit.mapped import mapped
 from sandbox.lab.fit.measured import Free
+from sandbox.lab.formats import Form
+from sandbox.lab.mapped import mapped
 from sandbox.lab.runs import runs
 from sandbox.lab.selection import LeftOut, reasons
 from sandbox.lab.table_file import Table

@@ -11,7 +11,7 @@ from sandbox.errors import RequestError, RunError
 from sandbox.lab.axes import Span, checked
 from sandbox.lab.fit.measured import Measured
 from sandbox.lab.fit.squares import Fit, Model, check_near, solve
-from sandbox.parameters import groups_of, path_of, value_at, words_of
+from sandbox.parameters import choices_of, value_at
 from sandbox.scene import Scene
 from sandbox.text import nearest
 from sandbox.toml import toml_value
@@ -43,20 +43,6 @@ def chosen_models(scene: Scene, option: str, key: str, words: Sequence[Any] = ()
     if len(found) < FEWEST:
         raise RequestError(f"{option} {key}: {found[0]} alone cannot be compared; name at least two")
     return found
-
-
-def choices_of(parameters: Any, key: str) -> tuple[Any, ...]:
-    """The words that a parameter can be, also those that make another kind of group of the one it is in."""
-    try:
-        *groups, name = path_of("models", key)
-    except RequestError:
-        return ()
-    kinds: tuple[Any, ...] = (type(parameters),)
-    for step in groups:
-        fields = [kind.model_fields[step] for kind in kinds if step in kind.model_fields]
-        kinds = tuple(kind for field in fields for kind in groups_of(field.annotation))
-    words = [words_of(kind.model_fields[name].annotation) for kind in kinds if name in kind.model_fields]
-    return tuple(dict.fromkeys(word for some in words for word in some))
 
 
 def _has(scene: Scene, key: str, value: float) -> bool:

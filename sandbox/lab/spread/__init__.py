@@ -22,7 +22,7 @@ from sandbox.lab.many import Runs, simulate_many
 from sandbox.lab.runs import Progress, no_progress
 from sandbox.lab.spread.causes import SAMPLINGS, Cause, Points, cause, causes_of, points_of
 from sandbox.lab.spread.needs import Need, width_of
-from sandbox.lab.spread.statistics import (
+from sandbox.lab.statistics import (
     Ellipse,
     Numbers,
     Share,

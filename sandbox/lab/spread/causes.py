@@ -13,17 +13,14 @@ from sandbox import parameters as declared
 from sandbox import units
 from sandbox.errors import RequestError
 from sandbox.lab.axes import Normal, Span, checked, span, unit_of
+from sandbox.lab.scatter import players_spread
 from sandbox.parameters import value_at
 from sandbox.scene import Scene
 from sandbox.sport.amounts import significant
-from sandbox.sport.controls import Spread as Practised
 from sandbox.toml import toml_value
 
 #: The ways in which points are drawn.
 SAMPLINGS = ("sobol", "random")
-
-#: Spread if the scene gives none: of the speed, as a share of it, and of the angle, in deg.
-SPEED, ANGLE = 0.01, 0.5
 
 
 @dataclass(frozen=True)
@@ -143,22 +140,6 @@ def causes_of(scene: Scene, given: Sequence[Cause], option: str) -> list[Cause]:
             for key, (parameter, sd) in own.items()
         ),
     ]
-
-
-def players_spread(scene: Scene, width: float = 1.0) -> dict[str, tuple[declared.Parameter, float]]:
-    """Each parameter that a player does not hit exactly, and its standard deviation, ``width`` times the usual one;
-    none where the shot does not start as a player's does."""
-    controls, known = scene.controls, {p.key: p for p in declared.walk(scene.parameters)}
-    if any(known[key].value != value for key, value in controls.set_on_pull.items()):
-        return {}  # these parameters have no effect
-    spread = controls.spread or (Practised(controls.speed, SPEED), Practised(controls.angle, minimum=ANGLE))
-    varied = [(known[item.key], item) for item in spread if item.key in known]
-    sigmas = [
-        (p, width * (known[item.sd].value if item.sd else item.sigma(p.value)))
-        for p, item in varied
-        if isinstance(p.value, float)
-    ]
-    return {p.key: (p, sigma) for p, sigma in sigmas if sigma > 0}
 
 
 # ---------------------------------------------------------------------------------------------------------------------

@@ -7,7 +7,7 @@ from typing import Any
 from sandbox.files import json_text
 from sandbox.lab.spread import Indices, Spread
 from sandbox.lab.spread.needs import Need
-from sandbox.lab.spread.statistics import QUANTILES, Ellipse, Numbers, Share
+from sandbox.lab.statistics import QUANTILES, Ellipse, Numbers, Share
 from sandbox.lab.tables import paragraph, table
 from sandbox.sport.amounts import amount, in_chosen_unit, ladder, margin, signed, significant, written
 from sandbox.text import one_line

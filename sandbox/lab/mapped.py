@@ -11,7 +11,7 @@ import numpy as np
 from sandbox import units
 from sandbox.errors import RequestError
 from sandbox.lab.axes import checked
-from sandbox.lab.fit.formats import Entry, Form, declared_units
+from sandbox.lab.formats import Entry, Form, declared_units
 from sandbox.lab.selection import LeftOut, Selection
 from sandbox.lab.table_file import Column, Table
 from sandbox.scene import Scene
