@@ -11,11 +11,8 @@ True
 
 from __future__ import annotations
 
-from sandbox import display
-
 TYPE_CHECKING = False  # not from typing, which is slow to import: Ctrl-C is not handled until imports are done
 if TYPE_CHECKING:
-    from types import ModuleType
     from typing import Any
 
     from sandbox.engine.model.accuracy import Accuracy
@@ -160,21 +157,6 @@ if not TYPE_CHECKING:  # or a misspelt name would pass as one of any type
         from importlib import import_module
 
         return getattr(import_module(_MODULES[name]), name)
-
-
-def _pictures() -> ModuleType:
-    from sandbox.picture import plain
-
-    return plain
-
-
-def _notebook() -> ModuleType:
-    from sandbox.page import notebook
-
-    return notebook
-
-
-display.show_with(_pictures, _notebook)
 
 
 def __dir__() -> list[str]:

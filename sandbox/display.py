@@ -1,12 +1,14 @@
-"""Display of runs, scenes and results by pictures and notebooks, which are above them and register here."""
+"""Display of runs, scenes and results by pictures and in notebooks, which are above them and found by their entries."""
 
 from __future__ import annotations
 
-TYPE_CHECKING = False  # not from typing, which is slow to import: ``sandbox`` registers here as it is imported
+from typing import TYPE_CHECKING, Any
+
+from sandbox import entries
+
 if TYPE_CHECKING:
-    from collections.abc import Callable
     from pathlib import Path
-    from typing import Any, Protocol
+    from typing import Protocol
 
     File = Path | str | None
     Size = tuple[int, int] | None
@@ -20,8 +22,8 @@ if TYPE_CHECKING:
         @property
         def View(self) -> type: ...  # noqa: N802
 
-    class Notebook(Protocol):
-        """Images and HTML: sizes in px, times in s. What draws writes to ``path`` if there is one, or returns it."""
+    class Images(Protocol):
+        """A run as images: sizes in px, times in s. What draws writes to ``path`` if there is one, or returns it."""
 
         def poster(self, run: Any, path: File, size: Size) -> Any: ...
 
@@ -31,11 +33,14 @@ if TYPE_CHECKING:
 
         def animate(self, run: Any, path: File, size: Size, fps: float) -> Any: ...
 
-        def page(self, run: Any, path: File) -> Any: ...
-
         def energy_chart(self, run: Any, path: File, size: Size) -> Any: ...
 
         def graph(self, run: Any, path: File, size: Size) -> Any: ...
+
+    class Notebook(Protocol):
+        """Pages, charts and HTML."""
+
+        def page(self, run: Any, path: File) -> Any: ...
 
         def sweep_plot(self, sweep: Any, path: File, of: str | None) -> Any: ...
 
@@ -60,24 +65,22 @@ if TYPE_CHECKING:
         def aim_html(self, aim: Any) -> str: ...
 
 
-_loaders: dict[str, Callable[[], Any]] = {}
-
-
-def show_with(pictures: Callable[[], Pictures], notebook: Callable[[], Notebook]) -> None:
-    """Register what pictures and notebooks are made by. Each function imports it, and is called on first use."""
-    _loaders.update(pictures=pictures, notebook=notebook)
-
-
 def pictures() -> Pictures:
-    """The registered pictures."""
-    found: Pictures = _loaders["pictures"]()
-    return found
+    """The default picture, and the class of all."""
+    return _part("pictures")
 
 
 def notebook() -> Notebook:
-    """The registered display of notebooks."""
-    found: Notebook = _loaders["notebook"]()
-    return found
+    """The display in notebooks. Raises RequestError where the package that has it was taken off."""
+    return _part("notebooks")
+
+
+def _images() -> Images:
+    return _part("images")
+
+
+def _part(name: str) -> Any:
+    return entries.require(name, "sandbox")
 
 
 class Drawable:
@@ -88,19 +91,19 @@ class Drawable:
 
         ``size`` is in px, here and below.
         """
-        return notebook().poster(self, path, size)
+        return _images().poster(self, path, size)
 
     def frame(self, t: float, size: Size = None) -> Any:
         """Draw the run at time t in s, as a Pillow image."""
-        return notebook().frame(self, t, size)
+        return _images().frame(self, t, size)
 
     def frames(self, folder: Path | str, fps: float = 60.0, size: Size = None) -> int:
         """Write frame_00000.png, frame_00001.png, ... into a folder; return how many."""
-        return notebook().save_frames(self, folder, fps, size)
+        return _images().save_frames(self, folder, fps, size)
 
     def animate(self, path: File = None, size: Size = None, fps: float = 25.0) -> Any:
         """Draw the run in motion: write it to ``path`` (GIF or WebP), or return it for a notebook to show."""
-        return notebook().animate(self, path, size, fps)
+        return _images().animate(self, path, size, fps)
 
     def page(self, path: File = None) -> Any:
         """Make a page for any browser that plays the run: write it to ``path``, or return its text."""
@@ -108,11 +111,11 @@ class Drawable:
 
     def energy_chart(self, path: File = None, size: Size = None) -> Any:
         """Draw the energy by cause over time: write it to ``path`` (a PNG), or return a Pillow image."""
-        return notebook().energy_chart(self, path, size)
+        return _images().energy_chart(self, path, size)
 
     def graph(self, path: File = None, size: Size = None) -> Any:
         """Draw position, speed, spin, acceleration, forces and energy over time: a PNG, or a Pillow image."""
-        return notebook().graph(self, path, size)
+        return _images().graph(self, path, size)
 
     def _repr_html_(self) -> str:
         return notebook().run_html(self)

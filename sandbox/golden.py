@@ -27,7 +27,7 @@ from typing import TYPE_CHECKING, NoReturn, TypeVar
 
 import pytest
 
-from sandbox import record, resources
+from sandbox import entries, record, resources
 from sandbox.errors import RequestError, RunError
 from sandbox.files import check_size, forbidden, is_given, write_together
 from sandbox.picture.difference import SIZE, as_png, coarser, compare, side_by_side, what_changed
@@ -53,6 +53,8 @@ Known = TypeVar("Known")
 NEW = "new"
 #: Kinds of notes in the report of a test.
 WRITTEN, CHECKED, USED, FAILED = "golden file written", "golden name", "golden file", "golden failure"
+#: The part of an extension that writes failures as a page.
+PAGES = "pages of golden failures"
 HOW_TO_ACCEPT = "if the change is intended: pytest --golden-update"
 FOLDER = "golden"
 REPORT = Path("out", "golden")
@@ -146,10 +148,9 @@ class Golden:
         """Add a failure to the page of all failures, if there is to be one."""
         if not self.with_page:
             return
-        from sandbox.page.golden_report import failure
-
         same_size = expected is not None and expected.size == actual.size
         difference = what_changed(expected, actual) if expected is not None and same_size else None
+        failure = entries.require(PAGES, "--golden-report").failure
         self.note(FAILED, json.dumps(failure(name, lines, changes, expected, actual, difference)))
 
     def _known(self, name: str, actual: Image.Image, path: Path, read: Callable[[Path], Known]) -> Known | None:
@@ -323,6 +324,8 @@ def pytest_configure(config: pytest.Config) -> None:
     page = config.getoption("--golden-report")
     if page is not None and Path(page).suffix.lower() != ".html":
         raise pytest.UsageError(f"--golden-report {page}: its name must end in .html")
+    if page is not None and entries.find(PAGES) is None:
+        raise pytest.UsageError(entries.missing(PAGES, "--golden-report"))
     if config.getoption("--golden-unused") and (chosen := _selection(config)) is not None:
         raise pytest.UsageError(f"--golden-unused needs all tests of a folder to run, not some by {chosen}")
     if config.getoption("--golden-update") and os.environ.get("CI", "").lower() not in ("", "0", "false"):
@@ -399,13 +402,11 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
 
 def _write_page(config: pytest.Config, path: Path) -> str:
     """Write the page of all failures; a line that says so, or why it could not be written."""
-    from sandbox.page.golden_report import page_of
-    from sandbox.page.parts import save
-
     failures = ((sorted(tests)[0], json.loads(line)) for line, tests in _noted(config, FAILED).items())
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        save(page_of(sorted(failures, key=lambda failed: (failed[0], failed[1]["name"]))), path)
+        pages = entries.require(PAGES, "--golden-report")
+        pages.save_page(sorted(failures, key=lambda failed: (failed[0], failed[1]["name"])), path)
     except OSError as error:
         return f"--golden-report {path}: cannot be written: {error.strerror}"
     return f"golden failures as a page: {path}"

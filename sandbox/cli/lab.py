@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from sandbox import entries
 from sandbox.cli.arguments import (
     changes_options,
     json_option,
@@ -23,6 +24,9 @@ if TYPE_CHECKING:
     from sandbox.lab.plan import Plan
     from sandbox.lab.spread import Spread
     from sandbox.scene import Scene
+
+#: The part of an extension that writes a sweep as a page.
+PAGES = "pages of sweeps"
 
 
 @click.command()
@@ -314,11 +318,9 @@ def _check_pictures(plan: Plan, plot: Path | None, html: Path | None, of: str | 
         check_chart("--plot", plot)
         check_plot(plan, of, family)
     if html is not None:
-        from sandbox.page import sweep as page
-
         check_file("--html", html, ".html")
         check_installed("--html", "matplotlib")
-        page.check_page(plan)
+        entries.require(PAGES, "--html").check_page(plan)
 
 
 def _draw(plan: Plan, out: Path, plot: Path | None, html: Path | None, of: str | None, family: str | None) -> None:
@@ -331,11 +333,8 @@ def _draw(plan: Plan, out: Path, plot: Path | None, html: Path | None, of: str |
         with writing("--plot", plot):
             draw_sweep(plan, rows(out), plot, of, family)
     if html is not None:
-        from sandbox.page.parts import save
-        from sandbox.page.sweep import page_of
-
         with writing("--html", html):
-            save(page_of(plan, rows(out), of), html)
+            entries.require(PAGES, "--html").save_page(plan, rows(out), html, of)
 
 
 @click.command()

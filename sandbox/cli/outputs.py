@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from sandbox import entries
 from sandbox.errors import RequestError
 from sandbox.files import LARGEST, SMALLEST, check_size, writing
 
@@ -21,6 +22,9 @@ if TYPE_CHECKING:
 USUAL = (1280, 720)
 #: GIFs are made of so many px and frames, unless others are asked for: the largest, of a long flight, has 5 MB then.
 SMALL, MOST_FRAMES = (800, 450), 450
+
+#: The part of an extension that writes a run as a page.
+PAGES = "pages of runs"
 
 Size = tuple[int, int]
 
@@ -63,6 +67,7 @@ class Output:
     is_picture: bool = True
     moves: bool = False
     needs: str = ""  # a library that is not always installed
+    part: str = ""  # of an extension
 
 
 def _trajectory(drawn: Drawn, path: Path) -> None:
@@ -84,13 +89,11 @@ def _poster(drawn: Drawn, path: Path) -> None:
 
 
 def _html(drawn: Drawn, path: Path) -> None:
-    from sandbox.page.parts import save
-    from sandbox.page.replay import page_of
     from sandbox.sport.amounts import chosen_units
 
     options = [word for source in drawn.others for word in ("--compare", source)]
     options += ["--units", chosen_units()] if chosen_units() != "si" else []
-    save(page_of(drawn.run, drawn.ghosts, options), path)
+    entries.require(PAGES, "--html").save_page(drawn.run, path, drawn.ghosts, options)
 
 
 def _strip(drawn: Drawn, path: Path) -> None:
@@ -138,7 +141,10 @@ OUTPUTS = (
     Output("--trajectory", ".csv", _trajectory, "Write the path of every ball: t,ball,x,y,vx,vy,spin.", False),
     Output("--momentum", ".csv", _momentum, "Write velocity, momentum and energy before and after each impact.", False),
     Output("--poster", ".png", _poster, "Write the whole run as one picture."),
-    Output("--html", ".html", _html, "Write a page for any browser that plays the run; it needs no network.", False),
+    Output(
+        *("--html", ".html", _html, "Write a page for any browser that plays the run; it needs no network.", False),
+        part=PAGES,
+    ),
     Output("--strip", ".png", _strip, "Write some frames side by side."),
     Output("--energy", ".png", _energy, "Write a chart of where the energy goes."),
     Output("--graph", ".png", _graph, "Write graphs over time: position, speed, spin, acceleration, forces, energy."),
@@ -178,6 +184,8 @@ def requested(paths: Mapping[str, Path | None], size: Size | None, rate: int | N
         if output.suffix:
             check_file(output.option, path, output.suffix)
             check_installed(output.option, output.needs)
+            if output.part:
+                entries.require(output.part, output.option)
         else:
             from sandbox.picture.frames import check_frames_folder
 

@@ -4,42 +4,47 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
+from functools import cache
 from importlib import import_module
 from io import TextIOWrapper
 from itertools import pairwise
 
 import click
 
-import sandbox
+from sandbox import __version__, entries
 from sandbox.cli.interrupts import is_interrupt
 from sandbox.errors import SandboxError, Stopped
 from sandbox.text import one_line, printable
 
-#: The commands of each module, which is imported when one of them is needed.
+#: The core's commands by module, which is imported when one of them is needed.
 COMMANDS = {
-    "scenes": ("list", "schema", "new", "play"),
+    "scenes": ("list", "schema", "new"),
     "run": ("run",),
-    "serve": ("serve",),
-    "tasks": ("tasks",),
     "lab": ("aim", "coefficients", "spread", "sweep", "trade", "stress"),
     "compare": ("fit", "validate"),
 }
+
+
+@cache
+def modules() -> dict[str, str]:
+    """The module of each command, of the core and of the entries."""
+    core = {name: f"sandbox.cli.{module}" for module, names in COMMANDS.items() for name in names}
+    return {**core, **entries.added("COMMANDS")}
 
 
 class Commands(click.Group):
     """The commands of those modules."""
 
     def list_commands(self, context: click.Context) -> list[str]:
-        return sorted(name for names in COMMANDS.values() for name in names)
+        return sorted(modules())
 
     def get_command(self, context: click.Context, name: str) -> click.Command | None:
-        modules = [import_module(f"sandbox.cli.{module}") for module, names in COMMANDS.items() if name in names]
-        every = [each for module in modules for each in vars(module).values() if isinstance(each, click.Command)]
-        return next((command for command in every if command.name == name), None)
+        every = vars(import_module(modules()[name])).values() if name in modules() else ()
+        return next((each for each in every if isinstance(each, click.Command) and each.name == name), None)
 
 
 @click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
-@click.version_option(sandbox.__version__, message="sandbox %(version)s")
+@click.version_option(__version__, message="sandbox %(version)s")
 def app() -> None:
     """A 2D sports sandbox: pick a sport, let go, and see real physics.
 

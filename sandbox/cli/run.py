@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from sandbox import entries
 from sandbox.cli import outputs
 from sandbox.cli.arguments import changes_options, json_option, load, say, scene_argument, units_option
 from sandbox.errors import RequestError
@@ -91,12 +92,15 @@ def run(
       sandbox run free-throw --attempt 3 --set launch.speed=7.4
     """
     from sandbox import report
-    from sandbox.cli.tasks import tried
     from sandbox.progress import bar
     from sandbox.scene import check as check_scene
     from sandbox.scene import simulate
 
-    task = tried(scene, changes, attempt, seed)
+    for option, number in (("--attempt", attempt), ("--seed", seed)):
+        if number is not None:
+            entries.require("tasks", f"{option} {number}")
+    tasks = entries.find("tasks")
+    task = None if tasks is None else tasks.tried(scene, changes, attempt, seed)
     chosen = load(scene, changes) if task is None else task.scene
     compared = {source: _comparable(chosen, source, changes) for source in compare}
     files = outputs.requested(paths, size, fps)

@@ -1,13 +1,13 @@
-"""The commands about scenes themselves: ``list``, ``schema``, ``new``, ``play``."""
+"""The commands about scenes themselves: ``list``, ``schema``, ``new``."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import click
 
-from sandbox.cli.arguments import changes_options, load, prints_to_stderr, say, scene_argument
+from sandbox import entries
+from sandbox.cli.arguments import load, prints_to_stderr, say, scene_argument
 from sandbox.errors import RequestError
 
 
@@ -56,9 +56,7 @@ def schema(scene: str, tasks: bool) -> None:
     from sandbox.schema import json_schema
 
     if tasks:
-        from sandbox.tasks.schema import task_schema
-
-        made = task_schema(load(scene, {}))
+        made = entries.require("schemas of tasks", "--tasks").task_schema(load(scene, {}))
     else:
         name, parameters = parameters_of(scene)
         made = json_schema(parameters, name)
@@ -84,39 +82,3 @@ def new(name: Path, from_above: bool, copied: str | None) -> None:
         raise RequestError(f"new {name}: give --from-above or --from {copied}, not both")
     files = new_scene(name, FROM_ABOVE if from_above else FROM_SIDE, copied)
     say("\n".join([*(f"wrote {file}" for file in files), "", *next_steps(name)]))
-
-
-@click.command()
-@click.argument("scene", metavar="[SCENE]", required=False, help="A scene, preset, scene file, task or replay file.")
-@changes_options
-@click.option("--scene", "scene_of_replay", metavar="FOLDER", help="The scene of a replay file.")
-@click.option("--game", metavar="NAME", help="A game for two in the scene, such as nine-ball of billiards.")
-@click.option("--two", is_flag=True, help="Two players take turns at the task.")
-def play(scene: str | None, changes: dict[str, Any], scene_of_replay: str | None, game: str | None, two: bool) -> None:
-    """Open the window: pull back anywhere and let go to shoot. H lists the keys.
-
-    Without SCENE it begins with a tile for each sport. SCENE may also be a task (sandbox tasks lists them), or a replay
-    file, which contains no code: if its scene is not installed, --scene names the folder.
-
-    \b
-    Examples:
-      sandbox play
-      sandbox play golf
-      sandbox play basketball/free-throw
-      sandbox play free-throw --two
-      sandbox play billiards --game nine-ball
-      sandbox play --scene ./volleyball out/volleyball-1.replay.json
-    """
-    from sandbox.window.app import play as play_in_window
-
-    if scene is not None and any("[" in key for key in changes):  # the window keeps changes by whole parameters
-        from sandbox.parameters import without_indices
-
-        changes = without_indices(load(scene, {}).parameters, changes, "--set")
-
-    def page_of(session: Any) -> str:
-        from sandbox.page.task import session_page
-
-        return session_page(session)
-
-    play_in_window(scene, changes, scene_of_replay, game, 1 + two, page_of)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 from PIL import Image
 
-from sandbox.page.parts import filled, html, picture
+from sandbox.page.parts import filled, html, picture, save
 
 
 def failure(
@@ -29,6 +30,11 @@ def failure(
             kind: picture(image.convert("RGB"), exact=True) for kind, image in images.items() if image is not None
         },
     }
+
+
+def save_page(failures: Iterable[tuple[str, Mapping[str, Any]]], path: Path) -> None:
+    """Write the page of failures, each after the test that it is of."""
+    save(page_of(failures), path)
 
 
 def page_of(failures: Iterable[tuple[str, Mapping[str, Any]]]) -> str:

@@ -1,25 +1,22 @@
-"""Display of a run, a scene, a sweep and a search in notebooks, and pictures of a run as Pillow images."""
+"""Display of a run, a scene, a sweep and a search in notebooks; and their pages and charts."""
 
 from __future__ import annotations
 
 import io
-import os
 import tempfile
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from html import escape
-from numbers import Real
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from PIL import Image
 
-from sandbox.engine.paths.run import ROUNDING_OF_TIME
 from sandbox.errors import RequestError
-from sandbox.files import check_name, check_size
 from sandbox.page.parts import html, picture, save, table
 from sandbox.page.replay import page_of, text_of
 from sandbox.parameters import walk
 from sandbox.picture import frames
+from sandbox.picture.images import POSTER, check_path, picture_of
 from sandbox.scene.setup_scene import with_scene
 
 if TYPE_CHECKING:
@@ -30,55 +27,8 @@ if TYPE_CHECKING:
     from sandbox.lab.sweep import Sweep
     from sandbox.scene import Scene
 
-Size = tuple[int, int]
-
-#: Size of pictures in a notebook, in px, and frames per second of animations.
-POSTER, MOVING, FPS = (960, 540), (640, 360), 25
 #: Height of the page of a run in a notebook, in px.
 PLAYER = 760
-#: The writers of animations, by the end of the file's name.
-WRITERS: Mapping[str, Callable[..., int]] = {".gif": frames.save_gif, ".webp": frames.save_webp}
-
-
-class Animation:
-    """A run in motion: shown by a notebook, and ``data`` is an animated WebP."""
-
-    def __init__(self, data: bytes):
-        self.data = data
-
-    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, Any]:
-        import base64
-
-        url = f"data:image/webp;base64,{base64.b64encode(self.data).decode()}"
-        return {"text/html": f'<img alt="the run in motion" src="{url}">', "text/plain": "<Animation of a run>"}
-
-
-def poster(run: Run, path: Path | str | None, size: Size | None) -> Image.Image | None:
-    """The whole run as one picture: written to ``path``, or handed back."""
-    return _drawn_once(lambda: _picture(run, size or POSTER).poster(), path)
-
-
-def energy_chart(run: Run, path: Path | str | None, size: Size | None) -> Image.Image | None:
-    """The energy by cause over time: written to ``path``, or handed back."""
-    from sandbox.picture.energy_chart import energy_chart
-
-    return _drawn_once(lambda: energy_chart(with_scene(run), _checked(size or POSTER)), path)
-
-
-def graph(run: Run, path: Path | str | None, size: Size | None) -> Image.Image | None:
-    """Graphs over time: written to ``path``, or handed back."""
-    from sandbox.picture.graph import graph
-
-    return _drawn_once(lambda: graph(with_scene(run), _checked(size or POSTER)), path)
-
-
-def _drawn_once(draw: Callable[[], Any], path: Path | str | None) -> Image.Image | None:
-    """A picture: written to ``path``, or handed back."""
-    if path is None:
-        return frames.to_image(draw())
-    _check(path, ".png")
-    frames.save_png(draw(), path)
-    return None
 
 
 def page(run: Run, path: Path | str | None) -> str | None:
@@ -90,65 +40,9 @@ def _paged(make: Callable[[], str], path: Path | str | None) -> str | None:
     """A page: written to ``path``, or its text."""
     if path is None:
         return make()
-    _check(path, ".html", ".htm")
+    check_path(path, ".html", ".htm")
     save(make(), Path(path))
     return None
-
-
-def frame(run: Run, t: float, size: Size | None) -> Image.Image:
-    """The run at time t in s. Raises RequestError for a time outside it."""
-    if not isinstance(t, float | Real):
-        raise RequestError(f"frame at t = {t!r:.60}: must be a number, in s")
-    rounding = ROUNDING_OF_TIME * run.duration
-    if not -rounding <= t <= run.duration + rounding:
-        raise RequestError(f"frame at t = {t:.12g} s: the run is from 0 to {run.duration:.12g} s")
-    return frames.to_image(_picture(run, size or POSTER).frame(float(t)))
-
-
-def save_frames(run: Run, folder: Path | str, fps: float, size: Size | None) -> int:
-    """Write the frames of the run into a folder; return how many."""
-    _check_rate(fps)
-    _check(folder)
-    return frames.save_frames(_picture(run, size or MOVING), run, folder, fps)
-
-
-def animate(run: Run, path: Path | str | None, size: Size | None, fps: float) -> Animation | None:
-    """The run in motion: written to ``path``, or handed back."""
-    _check_rate(fps)
-    drawn = _picture(run, size or MOVING)
-    if path is not None:
-        _check(path, *WRITERS)
-        WRITERS[Path(path).suffix.lower()](drawn, run, path, fps)
-        return None
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder, "run.webp")
-        frames.save_webp(drawn, run, file, fps)
-        return Animation(file.read_bytes())
-
-
-def _picture(run: Run, size: Size) -> Any:
-    drawn = with_scene(run)
-    return drawn.scene.picture(drawn, _checked(size))
-
-
-def _checked(size: Size) -> Size:
-    """Return the size. Raises RequestError if no picture can have it."""
-    check_size(f"size = {size}", size)
-    return size
-
-
-def _check_rate(fps: float) -> None:
-    if not isinstance(fps, float | Real) or not 1 <= fps <= 240:
-        raise RequestError(f"fps = {fps!r:.60}: must be from 1 to 240")
-
-
-def _check(path: Path | str, *suffixes: str) -> None:
-    """Raise RequestError for what is no name, or of no file with one of these endings, where there are any."""
-    if not isinstance(path, str | os.PathLike):
-        raise RequestError(f"path = {path!r:.60}: must be the name of a file or folder, as text or a Path")
-    check_name("path", Path(path))
-    if suffixes and Path(path).suffix.lower() not in suffixes:
-        raise RequestError(f"{path}: its name must end in {' or '.join(suffixes)}")
 
 
 # ------------------------------------------------------------------------------------------------------------ as HTML
@@ -158,7 +52,7 @@ def run_html(done: Run) -> str:
     """Card and poster, and the page that plays it where the notebook is trusted."""
     run = with_scene(done)
     page = escape(page_of(run))
-    shown = picture(frames.to_image(_picture(run, POSTER).poster()))
+    shown = picture(frames.to_image(picture_of(run, POSTER).poster()))
     return (
         f'<h3>{html(run.scene.verdict(run))}</h3><img alt="poster" width="{POSTER[0]}" src="{shown}">'
         f"{table(run.scene.rows(run), run.scene.title, 'card')}"
@@ -218,7 +112,7 @@ def _plotted(draw: Callable[[Path], None], path: Path | str | None, option: str 
 
     if path is None:
         return _drawn(checked)
-    _check(path)
+    check_path(path)
     checked(Path(path))
     return None
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
-from sandbox.page.parts import css, filled, fonts, html, packed, rows, table
+from sandbox.page.parts import css, filled, fonts, html, packed, rows, save, table
 from sandbox.page.playing import force_data, layout_data, path_data, place_data, told_events
 from sandbox.parameters import Group, walk
 from sandbox.picture.sheet import CARD, drawn_at
@@ -20,6 +21,13 @@ from sandbox.text import command_line
 
 #: The picture on a wide screen and on a phone: size in px, and how many times as large letters are drawn on it.
 LAYOUTS = (((1600, 900), 1.0), ((801, 1001), 1.78))
+
+
+def save_page(
+    run: SceneRun, path: Path, ghosts: Mapping[str, SceneRun] | None = None, options: Sequence[str] = ()
+) -> None:
+    """Write the page of a run, as ``page_of`` makes it."""
+    save(page_of(run, ghosts, options), path)
 
 
 def page_of(run: SceneRun, ghosts: Mapping[str, SceneRun] | None = None, options: Sequence[str] = ()) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from itertools import accumulate
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,7 @@ from sandbox.lab.maps import ChartData, Row, coded, has_numbers, own_place, read
 from sandbox.lab.plan import Plan
 from sandbox.lab.row_file import cell
 from sandbox.lab.runs import runs
-from sandbox.page.parts import css, filled, fonts, html, packed
+from sandbox.page.parts import css, filled, fonts, html, packed, save
 from sandbox.page.replay import command
 from sandbox.picture.palette import palette
 from sandbox.picture.path import points, simplify
@@ -36,6 +37,11 @@ def check_page(plan: Plan) -> None:
         raise RequestError(f"--html shows one or two parameters, not {len(plan.axes)}: {', '.join(plan.keys)}")
     if plan.size > MOST_POINTS:
         raise RequestError(f"--html: {plan.size:,} points are too many for a page; the limit is {MOST_POINTS:,}")
+
+
+def save_page(plan: Plan, rows: Iterable[Row], path: Path, of: str | None = None) -> None:
+    """Write the page of these rows, as ``page_of`` makes it."""
+    save(page_of(plan, rows, of), path)
 
 
 def page_of(plan: Plan, rows: Iterable[Row], of: str | None = None) -> str:

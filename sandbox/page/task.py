@@ -4,13 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from html import escape
+from pathlib import Path
 from typing import Any
 
 from sandbox.files import from_here
-from sandbox.page.parts import filled, html
+from sandbox.page.parts import filled, html, save
 from sandbox.page.replay import page_of
 from sandbox.tasks import Attempt, Session, Shot, Task, find_task, tasks
 from sandbox.text import command_line, title_of
+
+
+def save_page(session: Session, path: Path) -> None:
+    """Write the page of what a player did at a task."""
+    save(session_page(session), path)
 
 
 def session_page(session: Session) -> str:

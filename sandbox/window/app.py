@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from concurrent.futures import wait as wait_for
 from contextlib import contextmanager
 from pathlib import Path
@@ -59,10 +59,9 @@ class App:
         screen: pygame.Surface,
         sound: Sound | None = None,
         patience: float = 0.0,
-        page_of: Callable[[Any], str] | None = None,
     ) -> None:
         self.game, self.sound = game, sound
-        self.view = View(game, screen, sound, patience, commands.hint_of, page_of)
+        self.view = View(game, screen, sound, patience, commands.hint_of)
         self.pointer = Pointer(self.view)
         self.hidden = False  # minimised
         self.last_event = perf_counter()
@@ -203,12 +202,11 @@ def play(
     scene: str | None = None,
     game: str | None = None,
     players: int = 1,
-    page_of: Callable[[Any], str] | None = None,
 ) -> None:
     """Open the window until it is closed: on a scene, a replay or a task, or without any on the first screen.
 
-    ``scene`` is that of the replay, ``game`` one for two in the scene; ``players`` play the task, and ``page_of`` makes
-    a page of what one of them did. Raises RequestError if there is no display.
+    ``scene`` is that of the replay, ``game`` one for two in the scene; ``players`` play the task. Raises RequestError
+    if there is no display.
     """
     recorded = source is not None and source.endswith(replay.SUFFIX)
     if scene is not None and not recorded:
@@ -226,7 +224,7 @@ def play(
         with opened(f"{session.title} – Sports sandbox") as screen:
             if recorded:
                 played.opening.open_replay(Path(shown), scene)
-            app = App(played, screen, Sound(), page_of=page_of)
+            app = App(played, screen, Sound())
             if contest is not None:
                 played.referee.begin(contest)
             elif source is None:

@@ -93,9 +93,3 @@ def _put(table: Any, path: list[str], value: Any) -> None:
         item.trivia.comment_ws, item.trivia.comment = old.trivia.comment_ws, old.trivia.comment
         item.trivia.trail = old.trivia.trail
     table[last] = item
-
-
-def page(page_of: Callable[[Any], str], session: Any, path: Path) -> None:
-    """Write a page of what a player did at a task."""
-    with atomic_write(path) as file:
-        file.write(page_of(session))

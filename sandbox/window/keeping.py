@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pygame
 
+from sandbox import entries
 from sandbox.picture.frames import save_png
 from sandbox.window import export, replay
 from sandbox.window.contest import AtTask
@@ -68,15 +69,16 @@ def animate(view: View, shot: Shot) -> None:
 
 def write_page(view: View, by: float) -> None:
     """Write a page of each player's attempts at the task, each shot as a replay."""
-    game, contest, page_of = view.game, view.game.referee.contest, view.page_of
-    if not isinstance(contest, AtTask) or page_of is None:
+    game, contest = view.game, view.game.referee.contest
+    if not isinstance(contest, AtTask):
         game.messages.tell("a page is made of a task that is played")
         return
     if not game.referee.shots:
         game.messages.tell(NO_SHOTS)
         return
+    page = entries.require("pages of tasks", "F8")
     for session in contest.sessions:
-        work = view.writer.submit(export.new_file, contest.title, ".html", partial(export.page, page_of, session))
+        work = view.writer.submit(export.new_file, contest.title, ".html", partial(page.save_page, session))
         game.jobs.ask(work, lambda path: game.messages.tell(f"wrote {path}"), "writing the page ...")
 
 

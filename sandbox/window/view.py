@@ -41,11 +41,9 @@ class View:
         sound: Sound | None = None,
         patience: float = 0.0,
         hint_of: Callable[[str], str] = str,
-        page_of: Callable[[Any], str] | None = None,
     ) -> None:
-        """A frame waits up to ``patience`` s for a stage. ``hint_of`` says what a button of the bar does, ``page_of``
-        makes a page of what a player did at a task."""
-        self.game, self.sound, self.hint_of, self.page_of = game, sound, hint_of, page_of
+        """A frame waits up to ``patience`` s for a stage. ``hint_of`` says what a button of the bar does."""
+        self.game, self.sound, self.hint_of = game, sound, hint_of
         self.background, self.writer = Background(), Background()  # for what is seen, and for files
         self.thumbnails = Thumbnails(game.workers.helper)
         self.shown = Shown(game)

@@ -14,7 +14,6 @@ import pytest
 
 from sandbox import tasks
 from sandbox.errors import RequestError
-from sandbox.page.task import session_page
 from sandbox.scene.finding import installed_folder, installed_folders
 from sandbox.window import commands, keeping
 from sandbox.window.app import play
@@ -274,9 +273,6 @@ class TestATask:
     def test_a_page_has_the_attempts_so_far(self, thrower, tmp_path, monkeypatch):
         monkeypatch.chdir(tmp_path)
         thrower.key(pygame.K_F8)
-        assert thrower.game.notices[-1][0] == "a page is made of a task that is played"
-        thrower.view.page_of = session_page
-        thrower.key(pygame.K_F8)
         assert thrower.game.notices[-1][0] == keeping.NO_SHOTS
         shoot(thrower, launch__speed=5.0)
         thrower.key(pygame.K_F8)
@@ -292,6 +288,8 @@ class TestATask:
         thrower.game.opening.open("golf")
         thrower.settle()
         assert (thrower.game.referee.contest, thrower.game.session.limits) == (None, None)
+        thrower.key(pygame.K_F8)
+        assert thrower.game.notices[-1][0] == "a page is made of a task that is played"
         assert thrower.game.aiming.change({"gravity": 5.0})
 
     def test_a_run_that_fails_costs_no_attempt(self, thrower, monkeypatch):

@@ -1,0 +1,9 @@
+"""What pages for a browser add."""
+
+PARTS = {
+    "notebooks": "sandbox.page.notebook",
+    "pages of golden failures": "sandbox.page.golden_report",
+    "pages of runs": "sandbox.page.replay",
+    "pages of sweeps": "sandbox.page.sweep",
+    "pages of tasks": "sandbox.page.task",
+}

@@ -1,0 +1,3 @@
+"""What pictures add."""
+
+PARTS = {"pictures": "sandbox.picture.plain", "images": "sandbox.picture.images"}

@@ -1,0 +1,4 @@
+"""What scenes in browsers add."""
+
+NEEDS = ("page", "tasks", "window")
+COMMANDS = {"serve": "sandbox.serve.command"}

@@ -1,0 +1,4 @@
+"""What the window adds."""
+
+NEEDS = ("tasks",)
+COMMANDS = {"play": "sandbox.window.command"}
