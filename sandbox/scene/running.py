@@ -7,18 +7,17 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, overload
+from typing import Any, overload
 
+from sandbox.engine import simulate as run_setup
+from sandbox.engine.model.accuracy import Accuracy, resolve
+from sandbox.engine.model.setup import ForceRegion, Setup
+from sandbox.engine.paths.run import Run
 from sandbox.errors import RequestError, RunError
 from sandbox.renamed import with_old_fields_named
 from sandbox.scene.scene import Scene, as_scene
 from sandbox.scene.scene_run import SceneRun
 from sandbox.text import shortened
-
-if TYPE_CHECKING:
-    from sandbox.engine.model.accuracy import Accuracy
-    from sandbox.engine.model.setup import Setup
-    from sandbox.engine.paths.run import Run
 
 Progress = Callable[[float, float], None]
 
@@ -93,16 +92,11 @@ def simulate(
     >>> sandbox.simulate("golf", accuracy="fast").scene.parameters.accuracy.level
     'fast'
     """
-    from sandbox.engine.model.accuracy import Accuracy, resolve
-    from sandbox.engine.model.setup import Setup
-
     if accuracy is not None and not isinstance(accuracy, Accuracy | str):
         remedy = "; parameters go into sandbox.load(scene, parameters)" if isinstance(accuracy, Mapping) else ""
         said = shortened(repr(accuracy))
         raise RequestError(f"accuracy = {said}: must be the name of a level, or an Accuracy{remedy}")
     if isinstance(setup_or_scene, Setup):
-        from sandbox.engine import simulate as run_setup
-
         level = accuracy if isinstance(accuracy, Accuracy) else resolve(accuracy or "balanced")
         return run_setup(setup_or_scene, level, progress)
     chosen = as_scene(setup_or_scene)
@@ -117,8 +111,6 @@ def simulate_at(
     scene: Scene, accuracy: Accuracy, setup: Setup | None = None, progress: Progress | None = None
 ) -> SceneRun:
     """Run the scene at an accuracy; ``setup`` is a variation of the scene's own, to run in its place."""
-    from sandbox.engine import simulate as run_setup
-
     run = run_setup(setup or scene.build(), accuracy, progress)
     return SceneRun.of(run, scene, scene.result(run))
 
@@ -202,8 +194,6 @@ def _finer(scene: Scene, run: SceneRun, progress: Progress | None) -> Iterator[S
                 raise
             break
     if exact:
-        from sandbox.engine.model.setup import ForceRegion
-
         setup = nudged(scene.build(), _ROUNDING, FINER)
         everywhere = ForceRegion(-_AWAY, -_AWAY, _AWAY, _AWAY, max(SHORT, run.duration / MOST_SHORT))
         short = replace(setup, force_regions=[*setup.force_regions, everywhere])

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 from sandbox import display
 from sandbox import parameters as declared
+from sandbox.engine.model.setup import Setup
 from sandbox.errors import RequestError, RunError, sys_exit_as_error
 from sandbox.files import from_here, is_given
 from sandbox.scene.finding import SceneSource, default_file, docstring, find, first_comment
@@ -28,7 +29,6 @@ from sandbox.toml import read_toml
 from sandbox.tracebacks import is_of_library
 
 if TYPE_CHECKING:
-    from sandbox.engine.model.setup import Setup
     from sandbox.engine.paths.run import Run
     from sandbox.scene.points import Points
     from sandbox.scene.scene_run import SceneRun
@@ -112,8 +112,6 @@ class Scene:
 
     def build(self) -> Setup:
         """The setup that the engine simulates."""
-        from sandbox.engine.model.setup import Setup
-
         with sys_exit_as_error():
             setup = self.module.build(self.parameters)
         if not isinstance(setup, Setup):

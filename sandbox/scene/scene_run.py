@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NoReturn, Unpack
 
 from sandbox.engine.model.change import Changes, changes_between
 from sandbox.engine.paths.run import Run
+from sandbox.text import no_such_result
 
 if TYPE_CHECKING:
     from sandbox.scene.scene import Scene
@@ -28,8 +29,6 @@ class Result(dict[str, Any]):
     """The facts of a run by name, each in its unit."""
 
     def __missing__(self, name: object) -> NoReturn:
-        from sandbox.text import no_such_result
-
         raise UnknownFact(f"{name!r}: {no_such_result(str(name), list(self))}")
 
 

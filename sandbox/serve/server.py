@@ -21,6 +21,7 @@ from sandbox.serve.limits import CONNECTIONS, MESSAGE, PLAYERS
 from sandbox.serve.protocols import Asking, Talking
 from sandbox.serve.room import Listed, Room
 from sandbox.serve.tokens import tokens
+from sandbox.tasks import find_task, is_task, tasks
 
 LOOPBACK, ALL = "127.0.0.1", "0.0.0.0"
 #: The port that is taken if it is free and no other is asked for, so that addresses stay the same.
@@ -43,8 +44,6 @@ class Address(NamedTuple):
 def scenes_of(names: Sequence[str]) -> dict[str, Listed]:
     """The scenes that may be played, each with its presets, and tasks, by the names that are shown; all installed ones
     by default. Raises RequestError. No scene is imported for this."""
-    from sandbox.tasks import find_task, is_task, tasks
-
     if not names:
         found = {each.name: Listed(each.name, each.about) for each in listings()}
         return found | {name: Listed(name, first_comment(find_task(name)), True) for name in tasks()}

@@ -14,16 +14,16 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any
 
-    from sandbox.tasks.finding import TaskListing, find_task, is_task, listed, tasks
-    from sandbox.tasks.reading import load
+    from sandbox.tasks.finding import find_task, is_task, tasks
+    from sandbox.tasks.reading import TaskListing, listed, load
     from sandbox.tasks.scoring import Score
     from sandbox.tasks.session import Attempt, Session, Shot
     from sandbox.tasks.task import Control, Start, Task
 
 #: The names of each module, which is imported on first use.
 _MODULES = {
-    "finding": ("TaskListing", "find_task", "is_task", "listed", "tasks"),
-    "reading": ("load",),
+    "finding": ("find_task", "is_task", "tasks"),
+    "reading": ("TaskListing", "listed", "load"),
     "scoring": ("Score",),
     "session": ("Attempt", "Session", "Shot"),
     "task": ("Control", "Start", "Task"),

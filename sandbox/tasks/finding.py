@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
@@ -12,17 +10,6 @@ from sandbox.scene.finding import installed_folders
 from sandbox.tasks.file import looks_like_task, read_task_file
 from sandbox.text import nearest, shortened
 from sandbox.toml import read_toml
-
-
-@dataclass(frozen=True)
-class TaskListing:
-    """One task as ``sandbox tasks`` shows it."""
-
-    name: str
-    scene: str
-    goal: str
-    attempts: int
-    score: str
 
 
 @lru_cache(maxsize=1)
@@ -62,12 +49,3 @@ def is_task(source: str | Path) -> bool:
         return path.suffix == ".toml" and path.is_file() and looks_like_task(read_toml(path))
     except (OSError, RequestError):
         return False
-
-
-def listed() -> Iterator[TaskListing]:
-    """Every installed task, scene by scene in rising order of difficulty."""
-    from sandbox.tasks.reading import load
-
-    for name in tasks():
-        task = load(name)
-        yield TaskListing(name, task.scene.title, task.goal, task.attempts, task.score.summary)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import fields
+from dataclasses import dataclass, fields
 from math import inf, isfinite
 from pathlib import Path
 from typing import Any
@@ -14,7 +14,7 @@ from sandbox import units
 from sandbox.errors import RequestError
 from sandbox.files import from_here
 from sandbox.tasks.file import ScoreEntry, TaskFile, read_task_file
-from sandbox.tasks.finding import find_task
+from sandbox.tasks.finding import find_task, tasks
 from sandbox.tasks.scoring import KINDS, Score, Wanted
 from sandbox.tasks.task import Control, Start, Task
 from sandbox.text import counted, nearest, no_such_result
@@ -215,3 +215,21 @@ class _Reader:
                 yield Wanted(fact, given)
             else:
                 raise self.wrong(f"{what}.{name} = {shown(given)}: must be a number, a word, true, false or a range")
+
+
+@dataclass(frozen=True)
+class TaskListing:
+    """One task as ``sandbox tasks`` shows it."""
+
+    name: str
+    scene: str
+    goal: str
+    attempts: int
+    score: str
+
+
+def listed() -> Iterator[TaskListing]:
+    """Every installed task, scene by scene in rising order of difficulty."""
+    for name in tasks():
+        task = load(name)
+        yield TaskListing(name, task.scene.title, task.goal, task.attempts, task.score.summary)

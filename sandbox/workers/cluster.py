@@ -93,8 +93,10 @@ class Cluster:
         """Raise RunError if a worker does not have this package."""
 
         def missing() -> str:  # sent as code, since the worker may not have this module
+            from importlib import import_module
+
             try:
-                import sandbox.workers  # noqa: F401
+                import_module("sandbox.workers")
             except Exception as error:
                 return f"{type(error).__name__}: {error}"
             return ""
