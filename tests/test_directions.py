@@ -35,19 +35,27 @@ def layers(text: str) -> tuple[dict[str, int], dict[str, set[str]]]:
 PLACES, OWNERS = layers((ROOT / "CONTRIBUTING.md").read_text("utf-8"))
 
 
-def imported(tree: ast.AST, package: str) -> Iterator[str]:
+@cache
+def read(source: str) -> list[ast.AST]:
+    """The imports, constants, functions and conditions of a module."""
+    kinds = ast.Import | ast.ImportFrom | ast.Constant | ast.FunctionDef | ast.AsyncFunctionDef | ast.If
+    return [node for node in ast.walk(ast.parse(source)) if isinstance(node, kinds)]
+
+
+def imported(source: str, package: str) -> Iterator[str]:
     """Dotted names of all modules that a module imports or names anywhere in it; ``package`` resolves relative
     imports."""
-    for node in ast.walk(tree):
+    for node in read(source):
         if isinstance(node, ast.Import | ast.ImportFrom):
             yield from imports_of(node, package)
-        elif isinstance(node, ast.Constant) and is_module(str(node.value)):
-            yield str(node.value)  # for import_module
+        elif isinstance(node, ast.Constant) and is_module(node.value):
+            yield node.value  # for import_module
 
 
-def is_module(text: str) -> bool:
+def is_module(value: object) -> bool:
     """True for the name of a module of the package, and not for another name, such as ``sandbox.stdout``."""
-    return bool(re.fullmatch(r"sandbox(\.\w+)+", text)) and layer_of(text) != "__init__"
+    known = isinstance(value, str) and value.startswith("sandbox.") and re.fullmatch(r"sandbox(\.\w+)+", value)
+    return bool(known) and layer_of(str(value)) != "__init__"
 
 
 def imports_of(node: ast.Import | ast.ImportFrom, package: str) -> Iterator[str]:
@@ -69,9 +77,8 @@ def layer_of(module: str) -> str:
 
 def broken_rules(source: str, where: str, own: str) -> list[str]:
     """What a module of the layer ``own`` imports or says that it must not."""
-    tree = ast.parse(source)
     broken = []
-    for module in imported(tree, f"sandbox.{own}".replace("/", ".")):
+    for module in imported(source, f"sandbox.{own}".replace("/", ".")):
         top = module.partition(".")[0]
         if own not in OWNERS.get(top, {own}):
             broken.append(f"{where}: {own} imports {top}")
@@ -81,7 +88,7 @@ def broken_rules(source: str, where: str, own: str) -> list[str]:
             broken.append(f"{where}: {own} imports {module}")
     broken += [
         f"{where}, line {node.lineno}: names the scene {node.value}"
-        for node in ast.walk(tree)
+        for node in read(source)
         if isinstance(node, ast.Constant) and isinstance(node.value, str) and node.value.partition("/")[0] in SCENES
     ]
     return broken
@@ -121,22 +128,14 @@ def test_the_list_of_layers_is_read():
 @cache
 def imports(path: Path) -> tuple[list[str], list[tuple[int, str]]]:
     """What a module imports as it is imported itself, and late, in functions, with the line; without types."""
-    tree = ast.parse(path.read_text("utf-8"))
-    early: list[str] = []
-    late: list[tuple[int, str]] = []
-    waiting: list[tuple[ast.AST, bool]] = [(tree, False)]
-    while waiting:
-        node, inside = waiting.pop()
-        if isinstance(node, ast.Import | ast.ImportFrom):
-            names = list(imports_of(node, "sandbox"))
-            late += [(node.lineno, name) for name in names if inside]
-            early += [] if inside else names
-        elif not isinstance(node, ast.If) or ast.unparse(node.test) != "TYPE_CHECKING":
-            inside = inside or isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)
-            waiting += [(child, inside) for child in ast.iter_child_nodes(node)]
-        else:
-            waiting += [(child, inside) for child in node.orelse]
-    return early, late
+    nodes = read(path.read_text("utf-8"))
+    functions = [node for node in nodes if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)]
+    typing = [node for node in nodes if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING"]
+    late = {line for node in functions for line in range(node.lineno, node.end_lineno + 1)}
+    unread = {line for node in typing for line in range(node.lineno, node.body[-1].end_lineno + 1)}
+    found = [node for node in nodes if isinstance(node, ast.Import | ast.ImportFrom) and node.lineno not in unread]
+    named = [(node.lineno, name) for node in found for name in imports_of(node, "sandbox")]
+    return [name for line, name in named if line not in late], [(line, name) for line, name in named if line in late]
 
 
 @cache
@@ -172,21 +171,22 @@ def test_late_imports_are_for_the_time_to_start():
     ] == []
 
 
+@cache
 def offered() -> dict[str, str]:
     """What ``sandbox.kit`` offers by name, and where it comes from: ``sandbox.kit.Ball``, ``sandbox.engine...Ball``."""
     files = (ROOT / "sandbox" / "kit.py", ROOT / "sandbox" / "picture" / "views.py")
-    trees = [ast.parse(file.read_text("utf-8")) for file in files]
-    homes = [module for tree in trees for module in imported(tree, "sandbox") if module.startswith("sandbox.")]
+    sources = [file.read_text("utf-8") for file in files]
+    homes = [module for source in sources for module in imported(source, "sandbox") if module.startswith("sandbox.")]
     return {f"sandbox.kit.{home.rpartition('.')[2]}": home for home in homes}
 
 
 def through_kit(source: str) -> str:
     """The source of a scene with the imports from ``sandbox.kit`` as those from where the names come from."""
-    homes, tree = offered(), ast.parse(source)
-    named = [module for module in imported(tree, "itself") if module.startswith("sandbox.kit.")]
+    homes = offered()
+    named = [module for module in imported(source, "itself") if module.startswith("sandbox.kit.")]
     unknown = [module for module in named if module not in homes]
     assert unknown == []
-    kept = [node for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.module == "sandbox.kit"]
+    kept = [node for node in read(source) if isinstance(node, ast.ImportFrom) and node.module == "sandbox.kit"]
     lines = source.splitlines()
     for node in kept:
         lines[node.lineno - 1 : node.end_lineno] = [""] * (node.end_lineno - node.lineno + 1)
@@ -201,7 +201,7 @@ def used_by_scene(folder: Path) -> set[str]:
         file = folder / f"{name}.py"
         if name not in names and file.is_file():
             names.add(name)
-            modules = imported(ast.parse(file.read_text("utf-8")), "itself")
+            modules = imported(file.read_text("utf-8"), "itself")
             waiting += [module.split(".")[1] for module in modules if module.startswith("itself.")]
     return names
 
@@ -228,7 +228,7 @@ def test_a_scene_takes_from_the_kit_what_it_may():
 def past_kit(source: str) -> list[str]:
     """The names that a scene takes from where they are defined, though the kit has them."""
     homes = set(offered().values())
-    return [module for module in imported(ast.parse(source), "itself") if module in homes]
+    return [module for module in imported(source, "itself") if module in homes]
 
 
 def test_scenes_take_from_the_kit_what_it_has():
@@ -301,7 +301,7 @@ def engine_modules() -> dict[str, set[str]]:
     return {
         name: {
             "/".join(parts[: length + 1])
-            for module in imported(ast.parse(path.read_text("utf-8")), "sandbox.engine")
+            for module in imported(path.read_text("utf-8"), "sandbox.engine")
             if module.startswith("sandbox.engine.")
             for parts in [module.split(".")[2:]]
             for length in range(len(parts))
@@ -360,10 +360,10 @@ def test_no_module_of_the_engine_has_more_than_400_lines():
 def test_names_of_tests_have_at_most_60_characters():
     """A name that says one behaviour is short; ``pytest -k`` finds it."""
     longer = [
-        f"{path.relative_to(ROOT)}, line {node.lineno}: {node.name}"
+        f"{path.relative_to(ROOT)}: {name}"
         for folder in ("tests", "template", "template_above")
         for path in sorted((ROOT / folder).rglob("*.py"))
-        for node in ast.walk(ast.parse(path.read_text("utf-8")))
-        if isinstance(node, ast.FunctionDef) and node.name.startswith("test_") and len(node.name) > 60
+        for name in re.findall(r"^ *def (test_\w+)", path.read_text("utf-8"), re.MULTILINE)
+        if len(name) > 60
     ]
     assert longer == []
