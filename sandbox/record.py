@@ -143,6 +143,8 @@ def changed_results(
     found, facts = [], facts or {}
     before, after = ({**recorded.get("result", {}), "ended": recorded.get("ended")} for recorded in (expected, actual))
     for name in [*before, *(name for name in after if name not in before)]:
+        if before.get(name) is None and after.get(name) is None:  # it did not happen, and may be new
+            continue
         if name not in after or name not in before:
             found.append(f"{name} is {'new' if name in after else 'gone'}")
         elif not _same(before[name], after[name], tolerance):

@@ -60,6 +60,7 @@ RUNS = {
     "golf/golf-game": None,
     "golf/moon": None,
     "golf/putt": None,
+    "golf/slice": None,
 }
 
 

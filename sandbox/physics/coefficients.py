@@ -103,6 +103,18 @@ class Scaled:
         return self.share * self.coefficient(reynolds, spin_ratio)
 
 
+@dataclass(frozen=True)
+class OfWholeSpin:
+    """Another coefficient by the whole spin, of a ball that is simulated with only a ``share`` of it: the part about an
+    axis across the plane, if the spin's axis is tilted."""
+
+    coefficient: Coefficient
+    share: float
+
+    def __call__(self, reynolds: Any, spin_ratio: Any) -> Any:
+        return self.coefficient(reynolds, spin_ratio / self.share)
+
+
 @ANY_LIFT.law("spin-ratio", "textbooks", {(1e5, 0.1): 0.1, (1e5, 0.3): 0.3}, spin_ratio=(0.0, 0.3))
 def spin_ratio_lift(reynolds: Any, spin_ratio: Any) -> Any:
     """``Cl = S``: the simplest lift, linear in spin. A fair guess for S below 0.3, far too large above 1."""

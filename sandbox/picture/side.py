@@ -20,6 +20,7 @@ from sandbox.picture.path import FINEST, ImpactMark, apart
 from sandbox.picture.places import Person
 from sandbox.picture.sheet import CARD, Entry, Sheet, SideRows
 from sandbox.picture.side_options import SideOptions
+from sandbox.picture.track import draw_track
 from sandbox.picture.view import P, View
 from sandbox.sport.amounts import metres, roughly
 
@@ -147,8 +148,11 @@ class SideView(SideOptions[P], View[P]):
         return low * self.size[0], high * self.size[0]
 
     def inset(self, sheet: Sheet, camera: Camera, t: float | None) -> pygame.Rect | None:
-        """In frames from nearer than the poster a map of the whole path, and where on it the ball is."""
-        if t is None or self.camera in (self.home, camera):
+        """In frames from nearer than the poster a map of the whole path, and where on it the ball is; on the poster the
+        track from above of a ball that leaves the plane."""
+        if t is None:
+            return draw_track(sheet, track, self.datum[0][0], self.TRACE) if (track := self.track) else None
+        if self.camera in (self.home, camera):
             return None
         painter, unit, (rect, seen, kept, ground) = sheet.painter, self.unit, self._map
         painter.panel(rect, CARD["background"], CARD["opacity"], 8 * unit)

@@ -15,6 +15,7 @@ from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour
 from sandbox.picture.places import Ground, Hall, Scenery, Thing
 from sandbox.picture.sheet import CARD
+from sandbox.sport.sideways import GroundPlace
 
 
 class Length(NamedTuple):
@@ -97,6 +98,11 @@ class SideOptions(SceneOptions[P]):
 
     def on_map(self, painter: Painter, camera: Camera) -> None:
         """Draw the target on the map of frames."""
+
+    @property
+    def track(self) -> Sequence[GroundPlace]:
+        """The track over the ground of a ball that leaves the plane: shown from above on the poster."""
+        return ()
 
     def lengths(self) -> Sequence[Length]:
         """Distances to be drawn along the ground; the first is drawn lowest."""

@@ -12,7 +12,7 @@ from sandbox.engine.model.ball import HOLLOW_SPHERE, Ball, Force
 from sandbox.engine.model.shapes import Vector
 from sandbox.engine.model.surface import Surface
 from sandbox.parameters import Group, SceneParameters, group, one_of, quantity
-from sandbox.physics.coefficients import Coefficient, Scaled
+from sandbox.physics.coefficients import Coefficient, OfWholeSpin, Scaled
 from sandbox.physics.elementwise import cos, maximum, sin
 from sandbox.physics.forces import Drag, Gravity, Magnus, SpinDecay
 from sandbox.sport.air import Air, AnyDrag, AnyLift, Lift, Model, model_of, wind_in
@@ -45,13 +45,22 @@ class Launch(Directed):
 
     @property
     def active_spin(self) -> float:
-        """The spin in rpm about an axis across the flight, which is all that the air notices."""
-        return self.spin
+        """The spin in rpm that the ball is simulated with."""
+        return self.spin if self.spin_share is None else self.spin * self.spin_share
 
     @property
     def lift_share(self) -> float | None:
         """The share of the lift in the scene's plane, less than 1 if the spin axis is tilted; None for all of it."""
         return None
+
+    @property
+    def spin_share(self) -> float | None:
+        """The share of the whole spin, by which drag and lift go, that the ball is simulated with; None for all."""
+        return None
+
+    def in_plane(self, air: Air) -> Air:
+        """The air with its wind as it blows in the plane of the flight."""
+        return air
 
 
 class Release(Group):
@@ -120,21 +129,27 @@ class Flight(SceneParameters):
 
     def launched(self, place: Vector, *forces: Force) -> Ball:
         """The ball ``"ball"`` as it leaves ``place`` (m), with its weight, drag, lift and these forces."""
-        ball, air = self.ball, self.air.air
-        own = forces_in_flight(ball, air, self.gravity, self.launch.lift_share)
-        return launched_ball(self.launch, ball, air, place, [*own, *forces])
+        launch, ball = self.launch, self.ball
+        air = launch.in_plane(self.air.air)
+        own = forces_in_flight(ball, air, self.gravity, launch.lift_share, launch.spin_share)
+        return launched_ball(launch, ball, air, place, [*own, *forces])
 
 
-def forces_in_flight(ball: Sphere, air: Air, gravity: float = 0.0, lift_share: float | None = None) -> list[Force]:
+def forces_in_flight(
+    ball: Sphere, air: Air, gravity: float = 0.0, lift_share: float | None = None, spin_share: float | None = None
+) -> list[Force]:
     """Weight, drag and Magnus lift; those that are zero are left out.
 
-    Only ``lift_share`` of the lift is in the scene's plane, less than 1 if the spin axis is tilted; None for all.
+    Only ``lift_share`` of the lift is in the scene's plane, less than 1 if the spin axis is tilted, and only
+    ``spin_share`` of the whole spin is that of the simulated ball; None for all.
     """
     forces: list[Force] = [Gravity(gravity)] if gravity > 0.0 else []
     if air.density == 0.0:
         return forces
     about = (wind_in(air), ball.cross_section, air.viscosity)
     drag, lift = ball.drag.coefficient_in(air, ball), ball.lift.coefficient_in(air, ball)
+    if spin_share is not None:
+        drag, lift = (None if law is None else OfWholeSpin(law, spin_share) for law in (drag, lift))
     if drag is not None:
         forces.append(Drag(ball.radius, air.density, drag, *about))
     if lift is not None:

@@ -180,12 +180,20 @@ def launch_value(what: str) -> Callable[[Run, Any], Any]:
     return fact_from(start, lambda ball, parameters: round(getattr(ball, what), _DIGITS))
 
 
+def whole_rpm(ball: Moment, parameters: Any) -> float:
+    """Its spin, that out of the scene's plane included if the spin's axis is tilted."""
+    return ball.rpm / (getattr(getattr(parameters, "launch", None), "spin_share", None) or 1.0)
+
+
 #: Digits after the point that are left of a value that was converted to a velocity or rad/s and back.
 _DIGITS = 10
 
 BALL_SPEED = Fact("ball_speed", "ball speed", "m/s", launch_value("speed"), "start")
 LAUNCH_ANGLE = Fact("launch_angle", "launch", "deg", launch_value("direction"), "start")
-LAUNCH_SPIN = Fact("launch_spin", "spin", "rpm", launch_value("rpm"), "start", sides=("topspin", "backspin"))
+LAUNCH_SPIN = Fact(
+    "launch_spin", "spin", "rpm", fact_from(start, lambda ball, it: round(whole_rpm(ball, it), _DIGITS)), "start",
+    sides=("topspin", "backspin"),
+)  # fmt: skip
 #: The launch of the ball, seen from the side.
 LAUNCH = (BALL_SPEED, LAUNCH_ANGLE, LAUNCH_SPIN)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cached_property
 
 from sandbox.kit import (
@@ -22,8 +23,9 @@ from sandbox.kit import (
     seams,
     turf,
 )
+from sandbox.sport.sideways import GroundPlace
 
-from .scene import Parameters
+from .scene import Parameters, track
 
 COLOURS = scene_colours(__file__)
 FIELD = COLOURS["field"]
@@ -61,6 +63,10 @@ class Picture(SideView[Parameters]):
         wall, batter = Shape(corners, COLOURS["fence"]["wall"]), Person(0.0, 1.85, COLOURS["batter"], "batting")
         pole = Post([(foot, 0.0, 0.0), (foot, high + POLE, 0.0)], 0.1, COLOURS["fence"]["pole"])
         return Place(Landscape(**COLOURS["landscape"]), ground, [wall, pole, batter])
+
+    @property
+    def track(self) -> Sequence[GroundPlace]:
+        return track(self.run, self.parameters)
 
     def annotate(self, sheet: Sheet, camera: Camera) -> None:
         fence, over = self.parameters.fence, self.run.result["over_fence"]

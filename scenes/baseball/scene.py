@@ -3,14 +3,15 @@
 Models: gravity; drag that grows with spin and Magnus lift, as fitted to tracked fly balls; spin about an upright axis,
 too, which costs distance; loss of spin; the air by weather and height above the sea; a bat that recoils, and that the
 ball grips.
-Leaves out: everything sideways, with foul balls and the bend of the path by sidespin (it takes another 2 ft of an
-average ball's distance, 11 ft with 2,500 rpm); the sidespin that a bat gives; fielders; the fence as a thing to hit,
+Leaves out: what the bend of the path by sidespin takes of the distance (2 ft of an average ball's, 11 ft with 2,500
+rpm); foul balls; the sidespin that a bat gives; fielders; the fence as a thing to hit,
 for the distance is that to where the ball would come down.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
+from math import inf
 from typing import Literal
 
 from sandbox.kit import (
@@ -25,6 +26,7 @@ from sandbox.kit import (
     RPM,
     SOLID_SPHERE,
     Air,
+    Ball,
     Coefficient,
     Controls,
     Fact,
@@ -50,8 +52,9 @@ from sandbox.kit import (
     where,
 )
 from sandbox.physics.coefficients import BASEBALL_DRAG, BASEBALL_LIFT, NathanDrag
-from sandbox.sport import flight
 from sandbox.sport.air import Model
+from sandbox.sport.readings import landing
+from sandbox.sport.sideways import Crosswind, GroundPlace, SidewaysLaunch, ground_track, side
 from sandbox.sport.swing import Bat, struck_by
 
 
@@ -85,21 +88,35 @@ class BaseballFlight(Flight):
     ball: Baseball = group(..., "the ball")
 
 
-class BattedBall(flight.Launch):
+class BattedBall(SidewaysLaunch):
     """The ball as it leaves the bat."""
 
-    sidespin: float = quantity(..., "rpm", -20000, 20000, "about an upright axis; to either side")
+    sidespin: float = quantity(..., "rpm", -20000, 20000, "about an upright axis, to the right; not if axis is given")
 
     @property
     def active_spin(self) -> float:
         """The spin in rpm of both, with the sign of the backspin."""
+        if self.axis is not None:
+            return self.spin
         both = (self.spin * self.spin + self.sidespin * self.sidespin) ** 0.5
         return where(self.spin < 0.0, -both, both)
 
     @property
     def lift_share(self) -> float:
         """The share of the backspin in both."""
-        return abs(self.spin) / (abs(self.active_spin) + 1e-30)
+        return super().lift_share or abs(self.spin) / (abs(self.active_spin) + 1e-30)
+
+    @property
+    def spin_share(self) -> None:
+        """The ball is simulated with its whole spin, for its flight is all there is."""
+        return None
+
+    @property
+    def side_share(self) -> float:
+        return super().side_share if self.axis is not None else self.sidespin / (self.active_spin or inf)
+
+    def square_to(self, ball: Ball) -> complex:
+        return super().square_to(ball) if self.axis is not None else 1.0 + 0.0j
 
 
 class Fence(Group):
@@ -109,11 +126,16 @@ class Fence(Group):
     height: float = quantity(..., "m", 0, 30, "height")
 
 
+class FieldAir(Crosswind, Weather):
+    """The air over the field."""
+
+
 class Parameters(BaseballFlight):
     """All parameters of a fly ball."""
 
     start: Literal["launch", "bat"] = choice(..., "begin with the ball's launch, or with the bat")
     launch: BattedBall = group(..., "the ball as it leaves the bat")
+    air: FieldAir = group(..., "the air")
     bat: Bat = group(..., "the bat and the pitch")
     fence: Fence = group(..., "the fence")
 
@@ -128,11 +150,16 @@ CONTROLS = Controls(
 )
 
 
+def as_hit(parameters: Parameters) -> Parameters:
+    """The parameters of the ball as it flies: a bat gives no sidespin."""
+    if parameters.start == "launch":
+        return parameters
+    return parameters.model_copy(update={"launch": parameters.launch.model_copy(update={"sidespin": 0.0})})
+
+
 def build(parameters: Parameters) -> Setup:
     """The ball over level ground."""
-    ball, bat = parameters.ball, parameters.bat
-    if parameters.start == "bat":  # which gives no sidespin
-        parameters = parameters.model_copy(update={"launch": parameters.launch.model_copy(update={"sidespin": 0.0})})
+    ball, bat, parameters = parameters.ball, parameters.bat, as_hit(parameters)
     hit = parameters.launched(parameters.release.of(ball))
     if parameters.start == "bat":
         hit = struck_by(bat, "bat", bat.rebound(ball.mass, ball.inertia_factor), hit)
@@ -145,6 +172,11 @@ over_fence = fact_from(
 )
 
 
+def track(run: Run, parameters: Parameters) -> list[GroundPlace]:
+    """The track of the ball over the field, if its axis or direction, or a wind across, is given."""
+    return ground_track(run, as_hit(parameters), landing(run, parameters))
+
+
 def backspin(run: Run, parameters: Parameters) -> float:
     """The backspin in rpm, without the sidespin."""
     return parameters.launch.spin if parameters.start == "launch" else LAUNCH_SPIN.compute(run, parameters)
@@ -153,6 +185,7 @@ def backspin(run: Run, parameters: Parameters) -> float:
 FACTS = (
     replace(DISTANCE, label="projected distance"),  # to the ground, as if there were no fence
     Fact("over_fence", "over the fence", "m", over_fence, final_when="ground", also="ft"),
+    side(track, "ground"),
     APEX,
     replace(FLIGHT_TIME, key="hang_time", label="hang time"),
     LANDING_ANGLE,

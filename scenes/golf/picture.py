@@ -36,8 +36,9 @@ from sandbox.kit import (
     round_number_above,
     scene_colours,
 )
+from sandbox.sport.sideways import GroundPlace
 
-from .scene import Parameters
+from .scene import Parameters, track
 
 CARD, COLOURS = palette("card"), scene_colours(__file__)
 HOLE, BALL = COLOURS["hole"], COLOURS["ball"]
@@ -238,6 +239,10 @@ class Picture(SideView[Parameters]):
             sheet.label(text, "small", spots, sheet.ink, bold=True)
 
     # The poster
+
+    @property
+    def track(self) -> Sequence[GroundPlace]:
+        return track(self.run, self.parameters)
 
     @property
     def sky(self) -> float:

@@ -3,11 +3,11 @@
 Models: gravity; drag and Magnus lift with coefficients by Reynolds number and spin ratio; wind, uniform or growing with
 height; spin decay; the strike of the club head, a collision with springs along and across the face, damped along it;
 bounces on turf that gives way (Penner 2002), sliding, rolling, slopes, water, and a cup with real walls, which a fast
-ball skips over.
+ball skips over; the drift of a flight with a tilted spin axis (hook, slice) or wind across, to its landing.
 
 Leaves out, with the effect on the carry of the default drive: the fading of lift below the drag crisis (2.6 m if half
 of it went), air that thins with height (0.2 m), buoyancy (0.1 m), the turning Earth (less than 0.05 m). And, not
-measured: everything sideways (hook, slice, the break of a green), the deformation of the ball, the flagstick, grain and
+measured: what goes sideways on the ground (the break of a green), the deformation of the ball, the flagstick, grain and
 moisture of the grass.
 """
 
@@ -16,7 +16,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from math import hypot, inf, radians
+from math import cos, hypot, inf, radians, sin
 from typing import Any, Literal
 
 from sandbox.kit import (
@@ -35,7 +35,6 @@ from sandbox.kit import (
     Goal,
     Group,
     Handle,
-    Launch,
     Moment,
     NoForce,
     OutdoorAir,
@@ -60,11 +59,13 @@ from sandbox.kit import (
 )
 from sandbox.physics.club import Head, book_strike, strike
 from sandbox.sport.flight import SlowedSphere
+from sandbox.sport.readings import whole_rpm
+from sandbox.sport.sideways import Crosswind, GroundPlace, SidewaysLaunch, ground_track, side
 
 from .course import FAR, Ground, Pin, surfaces
 
 
-class Swing(Launch):
+class Swing(SidewaysLaunch):
     """The ball as it leaves the club."""
 
     vx: float = quantity(..., "m/s", -340, 340, 'speed along x, if start is "components"')
@@ -101,6 +102,10 @@ class GolfBall(SlowedSphere, drag=GOLF_DRAG, lift=GOLF_LIFT):
     drag: DimpledDrag | NoForce = one_of(..., "drag of the air")
 
 
+class GolfAir(Crosswind, OutdoorAir):
+    """The air over the course."""
+
+
 class Parameters(Flight):
     """All numbers of a golf shot."""
 
@@ -109,7 +114,7 @@ class Parameters(Flight):
     )
     launch: Swing = group(..., "the ball as it is launched")
     club: Club = group(..., "the club head")
-    air: OutdoorAir = group(..., "the air")
+    air: GolfAir = group(..., "the air")
     ball: GolfBall = group(..., "the ball")
     ground: Ground = group(..., "the course")
     pin: Pin = group(..., "the flag and its cup")
@@ -156,7 +161,7 @@ def build(parameters: Parameters) -> Setup:
     highest = max(y for _, y in parameters.ground.line)
     ball = parameters.launched((0.0, height_on(course, parameters.ball.radius, above=highest)))
     if parameters.start == "club":
-        ball = struck(parameters.club, ball)
+        ball = parameters.launch.tilted(struck(parameters.club, ball))
     elif parameters.start == "components":
         ball = replace(ball, velocity=(parameters.launch.vx, parameters.launch.vy))
     water = Touches("water") if any(surface.name == "water" for surface in course) else None
@@ -245,12 +250,26 @@ def roll_back(run: Run, parameters: Parameters) -> float | None:
     return back if back > LEAST_BACK else None
 
 
+def track(run: Run, parameters: Parameters) -> list[GroundPlace]:
+    """The track of the ball over the ground up to where its carry ends, if it leaves the plane."""
+    return ground_track(run, parameters, landing(run, parameters))
+
+
+def distance_to_pin(run: Run, parameters: Parameters) -> float:
+    """In m, to where the ball ends; one that left the plane rolls on in the direction of its launch."""
+    end, landed, over = total(run, parameters), landing(run, parameters), track(run, parameters)
+    if landed is None or not over:
+        return abs(end - parameters.pin.distance)
+    direction = radians(parameters.launch.direction or 0.0)
+    return hypot(end * cos(direction) - parameters.pin.distance, over[-1].side + (end - landed.x) * sin(direction))
+
+
 def holed(run: Run, parameters: Parameters) -> bool:
     """True if the ball lies in the cup; or where it counts that it comes down at the flag, if it does."""
-    (x, y), pin = run.state("ball", run.duration)[:2], parameters.pin
+    away, y, pin = distance_to_pin(run, parameters), run.state("ball", run.duration)[1], parameters.pin
     if pin.reach > 0.0:
-        return run.ended == "until" and abs(x - pin.distance) <= pin.reach
-    return abs(x - pin.distance) < 0.5 * pin.cup_width and y < parameters.ground.height(pin.distance)
+        return run.ended == "until" and away <= pin.reach
+    return away < 0.5 * pin.cup_width and y < parameters.ground.height(pin.distance)
 
 
 def ended(run: Run, parameters: Parameters) -> str:
@@ -266,6 +285,7 @@ InFlight = partial(Fact, final_when="ball", where=flew)
 FACTS = (
     InFlight("carry", "carry", "m", fact_from(landing, "x"), also="yd"),
     Fact("total", "total", "m", total, also="yd"),
+    replace(side(track, "ball"), where=flew),
     InFlight("apex", "apex", "m", apex),
     InFlight("flight_time", "flight time", "s", fact_from(landing, "t")),
     *LAUNCH,
@@ -273,9 +293,9 @@ FACTS = (
     Fact("compared", "compared", "", compared_with_tour, "start"),
     InFlight("landing_angle", "landing", "deg", fact_from(landing, "descent")),
     InFlight("landing_speed", "landing speed", "m/s", fact_from(landing, "speed")),
-    InFlight("landing_spin", "landing spin", "rpm", fact_from(landing, "rpm"), sides=LAUNCH_SPIN.sides),
+    InFlight("landing_spin", "landing spin", "rpm", fact_from(landing, whole_rpm), sides=LAUNCH_SPIN.sides),
     Fact("comes_back", "comes back", "m", roll_back),
-    Fact("distance_to_pin", "", "m", lambda run, it: abs(total(run, it) - it.pin.distance)),
+    Fact("distance_to_pin", "", "m", distance_to_pin),
     Fact("holed", "", "", holed),
     Fact("ended", "", "", ended),
 )
@@ -285,10 +305,10 @@ def verdict(run: SceneRun, parameters: Parameters) -> str:
     """Return the outcome in a sentence."""
     result, pin = run.result, parameters.pin.distance
     carry, total = result["carry"], result["total"]
-    side = "short of" if (pin - total) * pin > 0.0 else "past"
+    where = "from" if result["side"] else "short of" if (pin - total) * pin > 0.0 else "past"
     if result["ended"] == "down":
-        where = f"{amount(result['distance_to_pin'], 'm', 1)} {side} the flag at {roughly(abs(pin))}"
-        return f"Meets the flag: down {where}" if result["holed"] else f"Comes down {where}"
+        down = f"{amount(result['distance_to_pin'], 'm', 1)} {where} the flag at {roughly(abs(pin))}"
+        return f"Meets the flag: down {down}" if result["holed"] else f"Comes down {down}"
     if result["holed"]:
         return f"Holed from {roughly(abs(pin))}"
     if carry is None:
@@ -300,6 +320,8 @@ def verdict(run: SceneRun, parameters: Parameters) -> str:
     else:
         story = f"Flies {roughly(-carry)} backwards" if carry < 0.0 else f"{roughly(carry)} carry"
         story += f", comes back {roughly(result['comes_back'])}" if result["comes_back"] else ""
+    if result["side"]:
+        story += f", {roughly(abs(result['side']))} to the {'right' if result['side'] > 0.0 else 'left'}"
     if result["ended"] == "water":
         return f"{story}, into the water"
-    return f"{story}, stops {roughly(result['distance_to_pin'])} {side} the pin"
+    return f"{story}, stops {roughly(result['distance_to_pin'])} {where} the pin"

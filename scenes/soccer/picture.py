@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cached_property
 from itertools import pairwise
 
@@ -27,8 +28,9 @@ from sandbox.kit import (
     scene_colours,
     turf,
 )
+from sandbox.sport.sideways import GroundPlace
 
-from .scene import Parameters, scored
+from .scene import Parameters, scored, track
 
 COLOURS = scene_colours(__file__)
 BALL, PITCH, BOARDS = COLOURS["ball"], COLOURS["pitch"], COLOURS["stands"]["boards"]
@@ -129,6 +131,10 @@ class Picture(SideView[Parameters]):
         goal, wall = self.parameters.goal, self.parameters.wall
         things = [("goal", goal.present, goal.distance), ("wall", wall.present, wall.distance)]
         return [Length(f"{name} {metres(far)}", 0.0, far) for name, present, far in things if present]
+
+    @property
+    def track(self) -> Sequence[GroundPlace]:
+        return track(self.run, self.parameters)
 
     def annotate(self, sheet: Sheet, camera: Camera) -> None:
         """Mark how far the ball passes over the heads and under or over the bar."""

@@ -2,8 +2,8 @@
 
 Models: gravity; drag with its crisis; Magnus lift and dip; loss of spin; a uniform wind; bouncing, sliding and rolling
 on grass; the wall of players, the crossbar and the net as things to hit.
-Leaves out: everything sideways (see the view from above); the wobble of a ball without spin; players who move; the
-deformation of grass, net and ball.
+Leaves out: everything sideways but the drift of a tilted spin axis (see the view from above); the wobble of a ball
+without spin; players who move; the deformation of grass, net and ball.
 """
 
 from __future__ import annotations
@@ -39,6 +39,7 @@ from sandbox.kit import (
     Surface,
     Vector,
     apex,
+    before,
     cached_per_run,
     check_apart,
     disc,
@@ -52,6 +53,7 @@ from sandbox.kit import (
     switch,
 )
 from sandbox.sport.flight import SlowedSphere
+from sandbox.sport.sideways import Crosswind, GroundPlace, SidewaysLaunch, ground_track, side
 
 SPREAD = (Spread("launch.speed", 0.02), Spread("launch.angle", minimum=1.0), Spread("launch.spin", 0.1))  # assumed
 
@@ -117,10 +119,15 @@ class Grass(Solid):
     rolling_resistance: float = quantity(..., "", 0, 10, "deceleration of a rolling ball over gravity")
 
 
+class PitchAir(Crosswind, OutdoorAir):
+    """The air over the pitch."""
+
+
 class Parameters(Flight):
     """All parameters of a kick."""
 
-    air: OutdoorAir = group(..., "the air")
+    launch: SidewaysLaunch = group(..., "the ball as it is launched")
+    air: PitchAir = group(..., "the air")
     ball: SoccerBall = group(..., "the ball")
     wall: HighWall = group(..., "the wall of players")
     goal: HighGoal = group(..., "the goal")
@@ -215,6 +222,15 @@ def carry(run: Run, parameters: Parameters) -> float | None:
     return touched.x if touched is not None and touched.partner == "ground" else None
 
 
+def track(run: Run, parameters: Parameters) -> list[GroundPlace]:
+    """The track over the ground of a ball that leaves the plane: to the goal line, or to what it touches first."""
+    touched, passed = first_touch(run), at_goal(run, parameters)
+    if passed is not None and (touched is None or passed.t <= touched.t):
+        return ground_track(run, parameters, passed, forward=True)
+    end = before(run, run.duration if touched is None else touched.t)
+    return ground_track(run, parameters, end, forward=touched is not None and touched.partner != "ground")
+
+
 def outcome(run: Run, parameters: Parameters) -> str:
     """goal; bar or wall, where that was touched and it is no goal; over; short, a ball that stops on the line included;
     past, where there is no goal to hit."""
@@ -246,6 +262,7 @@ FACTS = (
     Fact("under_bar", "under the bar", "m", fact_from(at_goal, under_bar)),
     Fact("height_at_wall", "height at wall", "m", fact_from(at_wall, "y"), where=lambda _, it: it.wall.present),
     Fact("over_wall", "over the wall", "m", fact_from(at_wall, over_wall)),
+    side(track),
     Fact("carry", "carry", "m", carry),
     Fact("apex", "apex", "m", lambda run, it: apex(run, it) - it.ball.radius),
     Fact("flight_time", "flight time", "s", flight_time),

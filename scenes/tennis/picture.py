@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import cached_property
 
@@ -28,8 +29,9 @@ from sandbox.kit import (
 )
 from sandbox.picture.places.things import pose_of
 from sandbox.sport.net_game import received_at
+from sandbox.sport.sideways import GroundPlace
 
-from .scene import Parameters
+from .scene import Parameters, track
 
 COLOURS = scene_colours(__file__)
 COURT, TABLE = COLOURS["court"], COLOURS["table"]
@@ -41,6 +43,10 @@ LOOKS = [Look(ball["colour"], seams(ball["seam"])) for ball in (COURT["ball"], T
 class Picture(NetView[Parameters]):
     TRACE, OTHER_TRACES = COLOURS["trace"], COLOURS["earlier"]
     LENGTH_ROWS, SECOND_UNIT, MEASURED_FROM = 0, "ft", "from the racket"
+
+    @property
+    def track(self) -> Sequence[GroundPlace]:
+        return track(self.run, self.parameters)
 
     @property
     def aims(self) -> list[Box]:

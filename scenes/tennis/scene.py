@@ -3,7 +3,8 @@
 Models: gravity; drag and Magnus lift; the strings of the racket; the net as a thing to hit; a bounce in which the ball
 slides, or grips and springs back along the court; hard, clay and grass by their pace rating and bounce. Table tennis is
 the same game, on a table.
-Leaves out: everything sideways; the sag of the net; how the contact point moves under a ball; the loss of spin in air.
+Leaves out: everything sideways but the drift of a tilted spin axis; the sag of the net; how the contact point moves
+under a ball; the loss of spin in air.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from sandbox.kit import (
     LAUNCH,
     TENNIS_DRAG,
     TENNIS_LIFT,
+    Air,
     Controls,
     Fact,
     Handle,
@@ -35,6 +37,7 @@ from sandbox.kit import (
 from sandbox.physics.court import court_pace, is_pace_test, pace_category
 from sandbox.physics.swing import RUBBER, STRINGS
 from sandbox.sport import net_game
+from sandbox.sport.sideways import Crosswind, GroundPlace, SidewaysLaunch, ground_track, side
 from sandbox.sport.swing import Swing, struck_by
 
 
@@ -62,8 +65,15 @@ class TennisCourt(net_game.HardCourt):
     table: float = quantity(..., "m", 0, 2, "height of the table above the floor; 0 for a court")
 
 
+class CourtAir(Crosswind, Air):
+    """The air over the court."""
+
+
 class Parameters(net_game.NetGame):
     """All parameters of a shot."""
+
+    launch: SidewaysLaunch = group(..., "the ball as it is launched")
+    air: CourtAir = group(..., "the air")
 
     start: Literal["launch", "racket"] = choice(..., "begin with the ball's launch, or with the racket")
     shot: Literal["serve", "rally"] = choice(..., "a serve must land before the service line")
@@ -95,7 +105,8 @@ def build(parameters: Parameters) -> Setup:
     court, ball, racket = parameters.court, parameters.ball, parameters.racket
     played = parameters.launched(parameters.release.of(ball))
     if parameters.start == "racket":
-        played = struck_by(racket, "racket", RUBBER if racket.face_of == "rubber" else STRINGS, played)
+        struck = struck_by(racket, "racket", RUBBER if racket.face_of == "rubber" else STRINGS, played)
+        played = parameters.launch.tilted(struck)
     bounce = net_game.CourtBounce(court)
     top = Segment((0.0, 0.0), (court.length, 0.0)) if court.table > 0.0 else level()
     surfaces = [Surface("court", top, bounce(1.0, 0.0).restitution, court.friction, law=bounce)]
@@ -113,8 +124,14 @@ def pace_rating(run: Run, parameters: Parameters) -> float | None:
     return court_pace((down.vx, down.vy), (up.vx, up.vy))
 
 
+def track(run: Run, parameters: Parameters) -> list[GroundPlace]:
+    """The track over the court of a ball that leaves the plane, until it comes down."""
+    return ground_track(run, parameters, net_game.landing(run, parameters))
+
+
 FACTS = (
     *net_game.FACTS,
+    side(track, net_game.is_down),
     Fact("pace_rating", "court pace", "", pace_rating, net_game.is_down),
     *net_game.BOUNCE_FACTS,
     *LAUNCH,
