@@ -53,7 +53,6 @@ from sandbox.physics.ice import CurlingIce, Glide
 from sandbox.physics.integrators import State
 from sandbox.physics.plane import Strips
 from sandbox.physics.slope import Slope
-from sandbox.renamed import raise_if_old
 from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.air import Air, ConstantDrag, NoForce, OutdoorAir, Weather, wind_in
 from sandbox.sport.amounts import amount, in_two_units, metres, roughly, round_number_above, signed
@@ -91,7 +90,6 @@ else:
         """Return a part of a picture, by name."""
         if name.startswith("__"):
             raise AttributeError(name)
-        raise_if_old(__name__, name)
         return getattr(import_module("sandbox.picture.views"), name)
 
 

@@ -33,7 +33,6 @@ from pydantic.fields import FieldInfo
 from sandbox import units
 from sandbox.errors import RequestError
 from sandbox.physics.integrators import INTEGRATORS
-from sandbox.renamed import name_old_names
 from sandbox.text import check_mapping, nearest
 from sandbox.toml import shown, toml_value
 
@@ -650,6 +649,3 @@ def _problem(error: Any) -> str:
             return "must be a group of keys, not a single value"
         case _:
             return re.sub(r"^\w+ should", "must", error["msg"])
-
-
-name_old_names(__name__)

@@ -7,16 +7,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from sandbox.renamed import name_old_modules
-
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
     from sandbox.engine.model.accuracy import Accuracy
     from sandbox.engine.model.setup import Setup
     from sandbox.engine.paths.run import Run
-
-name_old_modules()
 
 
 def simulate(setup: Setup, accuracy: Accuracy, progress: Callable[[float, float], None] | None = None) -> Run:

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import fields
+from functools import wraps
 from math import inf
 from numbers import Real
-from typing import Any
+from typing import Any, TypeVar, cast
 
 from sandbox.physics.elementwise import everywhere, finite
+
+T = TypeVar("T")
 
 #: Most characters of a value in a message.
 _LONGEST = 60
@@ -37,9 +41,9 @@ _RULES: dict[str, tuple[Callable[[Any], bool], str]] = {
 }
 
 
-def check(what: str, thing: Any, **fields: Sequence[str]) -> None:
+def check(what: str, thing: Any, **rules: Sequence[str]) -> None:
     """Raise ValueError unless the fields of a thing obey their rule: ``check("cloth", law, positive=["gravity"])``."""
-    for rule, names in fields.items():
+    for rule, names in rules.items():
         holds, words = _RULES[rule]
         for name in names:
             value = getattr(thing, name)
@@ -50,6 +54,25 @@ def check(what: str, thing: Any, **fields: Sequence[str]) -> None:
             if not right:
                 shown = value if isinstance(value, float | int) else short(value)
                 raise ValueError(f"{what}: {name} = {shown} {words}")
+
+
+def with_fields_named(cls: type[T]) -> type[T]:
+    """Return a dataclass whose TypeError for an unknown argument names the fields that it has."""
+    made, known = cls.__init__, [field.name for field in fields(cast(Any, cls)) if field.init]
+
+    @wraps(made)
+    def init(self: Any, *arguments: Any, **named: Any) -> None:
+        try:
+            made(self, *arguments, **named)
+        except TypeError:
+            wrong = next((name for name in named if name not in known), None)
+            if wrong is None:
+                raise
+            message = f"unexpected keyword argument {wrong!r}; it takes {', '.join(known)}"
+            raise TypeError(f"{cls.__name__}: {message}") from None
+
+    cls.__init__ = cast(Any, init)
+    return cls
 
 
 def short(value: Any) -> str:

@@ -7,8 +7,6 @@ from collections.abc import Callable, Sequence
 from functools import reduce
 from typing import Any
 
-from sandbox.renamed import name_old_names
-
 
 def _either(name: str) -> Callable[[Any], Any]:
     """Return the function of this name: that in math for a float, in numpy for an array."""
@@ -105,6 +103,3 @@ def where(condition: Any, yes: Any, no: Any) -> Any:
     import numpy as np
 
     return np.where(condition, yes, no) if condition.ndim else (yes if condition else no)
-
-
-name_old_names(__name__)

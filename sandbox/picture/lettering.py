@@ -12,7 +12,6 @@ import pygame
 
 from sandbox.picture.painter import scratch
 from sandbox.picture.palette import ASSETS, Colour
-from sandbox.renamed import name_old_names
 from sandbox.text import printable
 
 #: Height of the letters in px on a picture of 720 rows, and the least at which they can be read.
@@ -162,6 +161,3 @@ class Labels:
                 if hidden == 0:
                     break
         return best and self.take(best)
-
-
-name_old_names(__name__)

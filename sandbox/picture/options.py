@@ -17,14 +17,13 @@ import numpy as np
 import pygame
 
 from sandbox.engine.contact.touch import Outline
-from sandbox.errors import RequestError, RunError
+from sandbox.errors import RunError
 from sandbox.parameters import Group
 from sandbox.picture.ball import SMALLEST, Fall, Look, least_radius, seams
 from sandbox.picture.camera import Box, Camera
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.sheet import Entry, Sheet
-from sandbox.renamed import OPTIONS
 from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.amounts import amount, metres, signed
 from sandbox.text import shortened
@@ -268,11 +267,8 @@ class SceneOptions(Generic[P]):
         return setup.plane is not None and bool(setup.plane_of(name).rolls)
 
     def __init_subclass__(cls) -> None:
-        """Report a forgotten ``return`` where a user's own picture overrides what has a value, and names of before."""
+        """Report a forgotten ``return`` where a user's own picture overrides what has a value."""
         super().__init_subclass__()
-        for old, new in OPTIONS.items():
-            if old in vars(cls):
-                raise RequestError(f"{cls.__module__}: {cls.__qualname__}.{old} is now {new}")
         for name, member in list(vars(cls).items()):
             how, inherited = _function(member), _function(getattr(super(cls, cls), name, None))
             needed = str(getattr(inherited, "__annotations__", {}).get("return"))

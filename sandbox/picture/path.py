@@ -16,7 +16,6 @@ from sandbox.engine.model.event import Event
 from sandbox.engine.model.nearest import Pose, meeting_points, nearest
 from sandbox.engine.model.shapes import Shape
 from sandbox.engine.paths.run import Run
-from sandbox.renamed import name_old_names
 
 #: The path is sampled this often in s; of a long run, in so many pieces.
 SAMPLING, MOST_SAMPLES = 1 / 120, 5000
@@ -171,6 +170,3 @@ def time_after(way: float, track: np.ndarray) -> float:
 def moves(run: Run, ball: str) -> bool:
     """True if a ball moves at all."""
     return any(len(arc.x) > 1 or len(arc.y) > 1 for arc in run.arcs[ball])
-
-
-name_old_names(__name__)

@@ -40,7 +40,6 @@ from sandbox.picture.sheet import Entry, Sheet, SideRows
 from sandbox.picture.side import NetView, SideView
 from sandbox.picture.side_options import Length, Place
 from sandbox.picture.view import View
-from sandbox.renamed import name_old_names
 from sandbox.sport.amounts import round_number_above
 
 __all__ = [
@@ -102,5 +101,3 @@ __all__ = [
     "turf",
     "turned",
 ]
-
-name_old_names(__name__)

@@ -14,7 +14,6 @@ from sandbox.engine.model.accuracy import Accuracy, resolve
 from sandbox.engine.model.setup import ForceRegion, Setup
 from sandbox.engine.paths.run import Run
 from sandbox.errors import RequestError, RunError
-from sandbox.renamed import with_old_fields_named
 from sandbox.scene.scene import Scene, as_scene
 from sandbox.scene.scene_run import SceneRun
 from sandbox.text import shortened
@@ -115,7 +114,6 @@ def simulate_at(
     return SceneRun.of(run, scene, scene.result(run))
 
 
-@with_old_fields_named
 @dataclass(frozen=True)
 class Check:
     """The accuracy of a result, according to runs that should agree with it.

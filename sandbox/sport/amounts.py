@@ -11,7 +11,6 @@ from typing import NamedTuple
 
 from sandbox import units
 from sandbox.errors import RequestError
-from sandbox.renamed import name_old_names
 
 
 class Step(NamedTuple):
@@ -225,6 +224,3 @@ def round_number_above(value: float) -> float:
     """The smallest of 1, 2 and 5 times powers of ten that is at least this."""
     power = 10.0 ** floor(log10(value))
     return next(factor * power for factor in (1, 2, 5, 10) if factor * power >= value * 0.999)
-
-
-name_old_names(__name__)

@@ -12,7 +12,6 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from sandbox.parameters import Group, every_key
-from sandbox.renamed import with_old_fields_named
 from sandbox.text import nearest, no_such_result
 
 
@@ -24,7 +23,6 @@ class Spin:
     step: float
 
 
-@with_old_fields_named
 @dataclass(frozen=True)
 class Spread:
     """The precision of a practised player at a parameter: a standard deviation of ``share`` times its value, or at
@@ -44,7 +42,6 @@ class Spread:
         return max(self.share * abs(value), self.minimum)
 
 
-@with_old_fields_named
 @dataclass(frozen=True)
 class Handle:
     """A place to drag in the picture: ``Handle("hoop.distance", "hoop.height")`` is at (distance, height) in m.
@@ -90,7 +87,6 @@ class Held:
     name: str
 
 
-@with_old_fields_named
 @dataclass(frozen=True)
 class Controls:
     """The controls of a scene: most fields are keys of parameters."""

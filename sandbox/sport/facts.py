@@ -24,7 +24,6 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from weakref import ref
 
 from sandbox import units
-from sandbox.renamed import name_old_names, with_old_fields_named
 from sandbox.sport.amounts import amount, in_both, margin, metres
 
 if TYPE_CHECKING:
@@ -37,7 +36,6 @@ FinalWhen = str | Callable[[Any], "Until"]
 Value = TypeVar("Value")
 
 
-@with_old_fields_named
 @dataclass(frozen=True)
 class Fact:
     """One result of a run: a number with its unit, a word, true or false, or a list of words.
@@ -149,6 +147,3 @@ def fallback_verdict(run: Run, parameters: Any) -> str:
     """The verdict of a scene that defines none."""
     how = {"rest": "At rest", "duration": "Still moving"}.get(run.ended, "Over")
     return f"{how} after {run.duration:.2f} s, {metres(_travelled(run, parameters))} from the start"
-
-
-name_old_names(__name__)

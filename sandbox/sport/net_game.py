@@ -14,7 +14,6 @@ from sandbox.engine.model.surface import Bounce, Segment, Surface
 from sandbox.engine.paths.run import Event, Run
 from sandbox.parameters import Group, group, quantity
 from sandbox.physics.court import cross_restitution
-from sandbox.renamed import name_old_names
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Handle
 from sandbox.sport.facts import Fact, cached_per_run
@@ -187,6 +186,3 @@ def verdict(run: Run, parameters: Any) -> str:
     if word == "short":
         return f"Comes down on its own side, {roughly(abs(parameters.middle - landed.x))} from the net"
     return "Into the net"
-
-
-name_old_names(__name__)

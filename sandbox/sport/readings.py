@@ -11,7 +11,6 @@ from sandbox.engine.model.setup import Touches
 from sandbox.engine.model.shapes import Vector
 from sandbox.engine.motion.forces_on_ball import cause
 from sandbox.physics.elementwise import maximum, minimum
-from sandbox.renamed import name_old_names
 from sandbox.sport.amounts import amount
 from sandbox.sport.facts import Fact, cached_per_run
 from sandbox.sport.flight import RPM
@@ -203,6 +202,3 @@ DISTANCE = Fact("distance", "distance", "m", fact_from(landing, "x"), "ground", 
 APEX = Fact("apex", "apex", "m", apex, "ground", also="ft")
 FLIGHT_TIME = Fact("flight_time", "flight time", "s", fact_from(landing, "t"), "ground")
 LANDING_ANGLE = Fact("landing_angle", "comes down at", "deg", fact_from(landing, "descent"), "ground")
-
-
-name_old_names(__name__)

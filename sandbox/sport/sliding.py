@@ -12,7 +12,6 @@ from sandbox.engine.model.surface import Trap
 from sandbox.engine.motion.on_plane import slowest_hop
 from sandbox.errors import RequestError
 from sandbox.parameters import SceneParameters, group, quantity
-from sandbox.renamed import name_old_names
 from sandbox.sport.facts import Fact
 from sandbox.sport.flight import DEGREE, RPM, Directed
 from sandbox.sport.solids import Solid
@@ -153,6 +152,3 @@ def rest_time(run: Run, parameters: Any) -> float | None:
 
 
 REST_TIME = Fact("rest_time", "at rest after", "s", rest_time)
-
-
-name_old_names(__name__)

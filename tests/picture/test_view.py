@@ -16,7 +16,6 @@ from sandbox.picture.ball import Look
 from sandbox.picture.painter import Painter
 from sandbox.picture.places import Landscape, Person, Stands, Stripes
 from sandbox.picture.view import View
-from sandbox.renamed import OPTIONS
 from tests.scenes.play import run_of
 
 SIDE = ["golf", "golf/golf-game", "golf/putt", "soccer", "soccer/goal-kick-in-a-gale", "basketball/rattle"]
@@ -248,9 +247,3 @@ def test_a_ball_crosses_nobody(name: str):
         (left, top), (right, bottom) = points.min(axis=0), points.max(axis=0)
         inside = (path > (left, top)) & (path < (right, bottom))
         assert not inside.all(axis=1).any()
-
-
-@pytest.mark.parametrize(("old", "new"), [*OPTIONS.items()])
-def test_an_option_that_was_called_otherwise_is_named(old: str, new: str):
-    with pytest.raises(sandbox.RequestError, match=f"Mine.{old} is now {new}"):
-        type("Mine", (View,), {old: 1.0})

@@ -9,10 +9,9 @@ from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 from sandbox.engine.model.nearest import Pose, nearest
 from sandbox.engine.model.shapes import Shape, Vector, disc
 from sandbox.engine.model.tolerances import ROUNDING
-from sandbox.physics.checks import check, short
+from sandbox.physics.checks import check, short, with_fields_named
 from sandbox.physics.of_ball import on_ball
 from sandbox.physics.timing import Timing, timing_of
-from sandbox.renamed import with_old_fields_named
 
 if TYPE_CHECKING:
     from sandbox.physics.forces import MassLoss
@@ -53,7 +52,7 @@ class Torque(Protocol):
     def __call__(self, t: Any, position: Any, velocity: Any, spin: Any) -> Any: ...
 
 
-@with_old_fields_named
+@with_fields_named
 @dataclass(frozen=True)
 class Ball:
     """A ball, its state at the start, and the forces on it. Lengths in m, kg, s, rad; spin counter-clockwise.
@@ -105,7 +104,7 @@ class Ball:
         object.__setattr__(self, "timing", timing_of((*self.forces, *self.torques, self.loss)))
 
 
-@with_old_fields_named
+@with_fields_named
 @dataclass(frozen=True, kw_only=True)
 class Body(Ball):
     """Anything convex that moves and turns: ``Body("crate", position=(0.0, 1.0), shape=box(0.4, 0.3), mass=2.0)``.

@@ -11,10 +11,9 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 from sandbox.engine.model.ball import Ball
 from sandbox.engine.model.setup_errors import call_user_function
 from sandbox.engine.model.surface import ELASTIC, BounceLaw, Circle, Segment, Surface, Trap
-from sandbox.physics.checks import check, short
+from sandbox.physics.checks import check, short, with_fields_named
 from sandbox.physics.elementwise import maximum, minimum
 from sandbox.physics.hertz import PHENOLIC
-from sandbox.renamed import name_old_names, with_old_fields_named
 
 if TYPE_CHECKING:
     from sandbox.engine.model.event import Event
@@ -171,7 +170,7 @@ class Touches(Until):
         return event.kind not in ("leave", "rest") and self.what in (event.ball, event.partner)
 
 
-@with_old_fields_named
+@with_fields_named
 @dataclass(frozen=True)
 class Setup:
     """The initial state of a run. It ends when all balls rest, when ``until`` is met, or after ``duration`` s.
@@ -323,6 +322,3 @@ class Setup:
     def ends_with(self, events: Sequence[Event]) -> bool:
         """Return True if the run is over with the last of these events."""
         return is_over(self.until, events)
-
-
-name_old_names(__name__)

@@ -9,9 +9,8 @@ from typing import NamedTuple
 
 from sandbox.engine.model.motion import Motion, moved
 from sandbox.engine.model.shapes import Vector
-from sandbox.physics.checks import check, short
+from sandbox.physics.checks import check, short, with_fields_named
 from sandbox.physics.elementwise import everywhere
-from sandbox.renamed import with_old_fields_named
 
 
 def _check_shape(shape: Segment | Circle, *points: str) -> None:
@@ -78,7 +77,7 @@ class Bounce(NamedTuple):
 BounceLaw = Callable[[float, float], Bounce]
 
 
-@with_old_fields_named
+@with_fields_named
 @dataclass(frozen=True)
 class Surface:
     """A shape and its response: restitution and friction are those of the pair of ball and surface.
