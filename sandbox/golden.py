@@ -6,7 +6,8 @@
 The golden picture is ``golden/my_scene.png`` in the folder of the test or the nearest one above it; ``my_scene.json``
 records the run, so that a failure can say whether the physics or the drawing changed. A picture (a
 pygame surface or a Pillow image) can also be checked alone. ``pytest --golden-update`` makes and rewrites golden files
-and lists them for review; on CI, where the variable CI is set, nothing is ever written.
+and lists them for review; on CI, where the variable CI is set, nothing is ever written. It changes a record only where
+the run changed, and a fact that is new passes until it is recorded.
 
 Each check may have its own limits: ``size`` of the picture in px, ``tolerance`` of the run's numbers, and
 ``picture_only=True`` compares what is drawn and not the run. ``pytest --golden-unused`` lists golden files that no test
@@ -55,6 +56,7 @@ NEW = "new"
 WRITTEN, CHECKED, USED, FAILED = "golden file written", "golden name", "golden file", "golden failure"
 #: The part of an extension that writes failures as a page.
 PAGES = "pages of golden failures"
+UNRECORDED = "golden record without it"
 HOW_TO_ACCEPT = "if the change is intended: pytest --golden-update"
 FOLDER = "golden"
 REPORT = Path("out", "golden")
@@ -68,7 +70,8 @@ class Golden:
     def __init__(
         self, folder: Path, report: Path, update: bool, note: Callable[[str, str], None], with_page: bool = False
     ):
-        """``note`` adds a line of a kind to the test's report: WRITTEN, CHECKED, USED or, ``with_page``, FAILED."""
+        """``note`` adds a line of a kind to the test's report: WRITTEN, CHECKED, USED, UNRECORDED or, ``with_page``,
+        FAILED."""
         self.folder, self.report, self.update, self.note, self.with_page = folder, report, update, note, with_page
         self.checked: set[str] = set()
 
@@ -105,19 +108,21 @@ class Golden:
         expected = self._known(name, image, png, _read)
         drawing = _changed_drawing(expected, image)
         known = None if run is None else self._known(name, image, text, record.read)
-        actual = {} if run is None else record.record(run, until, (known or {}).get("duration"))
+        whole = {} if run is None else record.record(run, until, (known or {}).get("duration"))
+        actual, new = (whole, []) if known is None else record.known_part(known, whole)
         facts = {} if run is None else run.scene.facts
         physics = None if run is None else _changed_physics(known, actual, tolerance, facts)
         if self.update:
             written = {} if drawing is None else {png: (as_png(coarser(image)), drawing)}
             if run is not None and physics is not None:
-                written[text] = _recorded(name, run, until, tolerance), physics
-            elif known is not None and known.get("parameters") != actual["parameters"]:
-                cause = {key: actual[key] for key in ("parameters", "versions")}
-                written[text] = record.as_text({**known, **cause}).encode(), "the same run, with its parameters"
+                written[text] = _recorded(name, run, until, tolerance, known), physics
+            elif known is not None and (new or known.get("parameters") != actual["parameters"]):
+                change = "; ".join(f"{each} is new" for each in new) or "the same run, with its parameters"
+                written[text] = record.as_text(record.merged(known, whole, tolerance)).encode(), change
             self._write(written)
         elif drawing is None and physics is None:
-            return
+            for each in new:
+                self.note(UNRECORDED, f"{text}: {each}")
         elif expected is None or physics == NEW:
             what, path = ("picture", png) if expected is None else ("run", text)
             said = f"{name} has no golden {what} at {path}"
@@ -171,15 +176,17 @@ class Golden:
             yield f"expected, actual and difference, side by side: {path}"
 
 
-def _recorded(name: str, run: SceneRun, until: float | None, tolerance: float) -> bytes:
-    """The golden record of a run; fails for one that depends on rounding."""
+def _recorded(name: str, run: SceneRun, until: float | None, tolerance: float, known: Record | None) -> bytes:
+    """The golden record of a run, which changes one that is ``known`` where the run did; fails for one that depends on
+    rounding."""
     chaos = record.diverges(run, until, tolerance)
     if chaos is not None:
         _fail(
             f"{name} depends on rounding from t = {chaos:.3g} s on, so another processor would differ; "
             f"check only the part before that: golden.check({name!r}, run, until={0.8 * chaos:.2g})"
         )
-    return record.as_text(record.record(run, until)).encode()
+    recorded = record.record(run, until)
+    return record.as_text(recorded if known is None else record.merged(known, recorded, tolerance)).encode()
 
 
 def _check_request(name: str, until: float | None, size: tuple[int, int], tolerance: float) -> None:
@@ -417,6 +424,7 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: p
         terminalreporter.write_line(_write_page(config, Path(config.getoption("--golden-report"))))
     for title, lines in (
         ("golden files written: look at them", sorted(_noted(config, WRITTEN))),
+        ("new since these golden records: pytest --golden-update adds it", sorted(_noted(config, UNRECORDED))),
         ("golden names used twice", _used_twice(config)),
         ("golden files that no test has used", _unused(config) if config.getoption("--golden-unused") else []),
     ):

@@ -157,6 +157,42 @@ def changed_results(
     return found
 
 
+def known_part(known: Record, actual: Record) -> tuple[Record, list[str]]:
+    """Return a record without what an older one cannot have: facts, and kinds of events, that are new since; and the
+    names of those. An older record without any fact or event is not whole: to it, none is new."""
+    recorded, new = dict(actual), list[str]()
+    facts = known.get("result")
+    if facts and "result" in actual:
+        new += [name for name in actual["result"] if name not in facts]
+        recorded["result"] = {name: value for name, value in actual["result"].items() if name in facts}
+    kinds = {event[1] for event in known["events"]}
+    if kinds:
+        new += dict.fromkeys(f"event {event[1]}" for event in actual["events"] if event[1] not in kinds)
+        recorded["events"] = [event for event in actual["events"] if event[1] in kinds]
+    return recorded, new
+
+
+def merged(known: Record, actual: Record, tolerance: float = TOLERANCE) -> Record:
+    """Return a new record with each number of the older one that is still the same, so that a file changes only where
+    the run did: not in the last digits of another processor, nor by its versions if the motion is the same."""
+    kept = dict(_kept(known, actual, tolerance))
+    kept["parameters"] = actual["parameters"]  # exact
+    if first_change(known, known_part(known, actual)[0], tolerance) is None:
+        kept["versions"] = known.get("versions", actual["versions"])
+    return kept
+
+
+def _kept(known: Any, value: Any, tolerance: float) -> Any:
+    """A new value with the parts of the older one that are the same; rows are found wherever they stand."""
+    if _same(known, value, tolerance):
+        return known
+    if isinstance(known, dict) and isinstance(value, dict):
+        return {key: _kept(known.get(key), entry, tolerance) for key, entry in value.items()}
+    if isinstance(known, list) and isinstance(value, list):
+        return [next((row for row in known if _same(row, entry, tolerance)), entry) for entry in value]
+    return value
+
+
 def diverges(run: SceneRun, until: float | None = None, tolerance: float = TOLERANCE) -> float | None:
     """The time in s at which a run and one that begins ``NUDGE`` away differ; None if they never do."""
     from sandbox.engine import simulate

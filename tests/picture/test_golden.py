@@ -15,7 +15,7 @@ import sandbox
 from sandbox.picture.difference import LOWEST, NEIGHBOURHOOD, ROUNDING_LEVELS, coarser, compare
 from sandbox.picture.frames import to_image
 from sandbox.picture.painter import Painter, blank
-from sandbox.record import SAMPLES, TOLERANCE, as_text, changed_results, first_change, record
+from sandbox.record import SAMPLES, TOLERANCE, as_text, changed_results, first_change, known_part, merged, record
 from sandbox.sport.facts import Fact
 
 pytest_plugins = ["pytester"]
@@ -303,6 +303,29 @@ class TestRuns:
         scene.write_text(scene.read_text().replace("return sum(", "return 99 or sum("))
         again(scene_project).stdout.fnmatch_lines(["*same motion, different result; bounces is 99, was *"])
 
+    def test_a_new_fact_passes_and_is_one_more_line(self, scene_project):
+        """In a record of another machine, which has other versions and last digits."""
+        again(scene_project, "--golden-update")
+        file = scene_project.path / "golden" / "it.json"
+        other = json.loads(file.read_text())
+        other["versions"] = "Python 3.99"
+        other["states"]["ball"] = [[t, *(value * (1.0 + 2e-8) for value in row)] for t, *row in other["states"]["ball"]]
+        before = as_text(other)
+        file.write_text(before)
+        scene = scene_project.path / "drop" / "scene.py"
+        scene.write_text(
+            scene.read_text().replace("FACTS = (", 'FACTS = (Fact("twice", "", "", lambda *_: 2 * bounces(*_)),')
+        )
+        result = again(scene_project)
+        result.assert_outcomes(passed=1)
+        result.stdout.fnmatch_lines(["*new since these golden records: *", "*it.json: twice"])
+        assert file.read_text() == before
+        again(scene_project, "--golden-update").stdout.fnmatch_lines(["*it.json: twice is new"])
+        added = set(file.read_text().splitlines()) - set(before.splitlines())
+        assert [line.split(":")[0] for line in added] == ['  "twice"']
+        scene.write_text(scene.read_text().replace("2 * bounces", "3 * bounces"))
+        again(scene_project).stdout.fnmatch_lines(["*same motion, different result; twice is *, was *"])
+
     def test_a_picture_without_a_surface_is_said_in_a_line(self, scene_project):
         picture = scene_project.path / "drop" / "picture.py"
         picture.write_text(picture.read_text().replace("return self.frame(self.run.duration)", "self.frame(0.0)"))
@@ -446,6 +469,29 @@ class TestRecords:
         assert first_change(kept, gone)[1].endswith("ball rest green is gone")
         assert first_change(kept, new)[1].endswith("ball impact pin is new")
         assert "ball impact bunker, was ball impact fairway" in first_change(kept, other)[1]
+
+    def test_a_kind_of_event_that_is_new_leaves_a_record_valid(self):
+        """Other events are a change; and one of a kind that the record has, or that is gone."""
+        now = self.records()
+        known = {**now, "events": [event for event in now["events"] if event[1] != "rest"], "versions": "Python 3.99"}
+        part, new = known_part(known, now)
+        assert (first_change(known, part), new) == (None, ["event rest"])
+        assert merged(known, now) == {**now, "versions": "Python 3.99"}
+        for other in ({**known, "events": []}, {**known, "events": known["events"][:-1]}):
+            assert first_change(other, known_part(other, now)[0]) is not None
+        assert first_change(now, known_part(now, known)[0])[1].endswith("rest green is gone")
+
+    def test_a_record_is_changed_where_the_run_changed(self):
+        """Each number that is the same keeps its digits; a moved state has its own, and the versions are those now."""
+        known, now = self.records(), self.records()
+        now["versions"] = "Python 3.99"
+        now["states"]["ball"] = [[value * (1.0 + 1e-9) for value in row] for row in now["states"]["ball"]]
+        now["states"]["ball"][7][1] += 1.0
+        now["result"]["carry"] *= 1.0 + 1e-9
+        now["events"].insert(1, [0.5, "impact", "ball", "bird", 1.0])
+        changed = {*as_text(merged(known, now)).splitlines()} - {*as_text(known).splitlines()}
+        assert len(changed) == 3
+        assert as_text(merged(known, {**now, "states": known["states"]})).count("bird") == 1
 
     def test_results(self):
         kept = self.records()
