@@ -26,18 +26,18 @@ from sandbox.window.table import Table
 from sandbox.window.view import View
 from sandbox.window.worker import cost_and_errors, unpacked
 
-CARD = palette("card")
+_CARD = palette("card")
 #: How much larger than usual letters can be.
-TEXT_SIZES = (1.0, 1.15, 1.3, 1.5)
+_TEXT_SIZES = (1.0, 1.15, 1.3, 1.5)
 #: Earlier shots in the graphs over time.
-MOST_GRAPHS = 5
+_MOST_GRAPHS = 5
 #: One step enlarges the picture by this factor, or moves it by this many px.
-ZOOM, PAN = 1.25, 60.0
+_ZOOM, PAN = 1.25, 60.0
 #: One step moves the end of the tape by this many px.
 STEP = 12.0
 
 #: The group of the menu that has a tile for each scene.
-SPORTS = "sports"
+_SPORTS = "sports"
 
 
 # Play and watch
@@ -156,7 +156,7 @@ def find_shots(view: View, by: float) -> None:
             stage, places = view.stages.latest, [(q.name, q.at) for q in asked if q.at is not None]
             if stage is None:
                 return []
-            return [PictureChoice(name, np.array([stage.camera.pixel(*at)]), "", CARD["text"]) for name, at in places]
+            return [PictureChoice(name, np.array([stage.camera.pixel(*at)]), "", _CARD["text"]) for name, at in places]
 
         rows = [Row(name, name) for name in names]
         foot = view.screen.bar.places["see"]
@@ -205,11 +205,11 @@ def open_menu(view: View, by: float) -> None:
     own = [Row(item.name, item.name, "", item.about) for item in listings_in(Path())]
     opened = [known.get(source, Row(source, Path(source).name, "", source)) for source in game.memory.recent]
     sports = [Row(name, name, "", rows[0].about) for name, rows in groups.items()]
-    firsts = {SPORTS: sports, "recent": opened, "in this folder": own}
+    firsts = {_SPORTS: sports, "recent": opened, "in this folder": own}
     groups = {**{name: rows for name, rows in firsts.items() if rows}, **groups}
 
     now = game.session.source.partition("/")[0]
-    toggle(view, "menu", lambda: Menu("Choose a scene", groups, game.opening.open, now, view.thumbnails.of, SPORTS))
+    toggle(view, "menu", lambda: Menu("Choose a scene", groups, game.opening.open, now, view.thumbnails.of, _SPORTS))
 
 
 def open_front(view: View, by: float) -> None:
@@ -233,13 +233,13 @@ def open_graphs(view: View, by: float) -> None:
     """The graphs of the current shot with the earlier ones that began from the same place."""
     shot = view.game.shot
     earlier = view.game.shots.earlier(shot.start, but=shot) if shot is not None else []
-    others = {f"shot {other.number}": other.run for other in earlier[::-1][:MOST_GRAPHS] if other.number}
+    others = {f"shot {other.number}": other.run for other in earlier[::-1][:_MOST_GRAPHS] if other.number}
     _open_chart(view, "graphs", lambda shot, size: graph(shot.run, size, others))
 
 
 def zoom(view: View, by: float) -> None:
     """Zoom around the mouse, or the middle of the picture."""
-    view.viewpoint.zoom(ZOOM**by, view.targets.mouse if view.targets.on_picture else view.screen.area.center)
+    view.viewpoint.zoom(_ZOOM**by, view.targets.mouse if view.targets.on_picture else view.screen.area.center)
 
 
 def widen_fan(view: View, by: float) -> None:
@@ -319,5 +319,5 @@ def other_preset(view: View, by: float) -> None:
 def change_text_size(view: View, by: float) -> None:
     """Make letters larger, or smaller."""
     larger, contrast = view.game.memory.look
-    place = min(range(len(TEXT_SIZES)), key=lambda i: abs(TEXT_SIZES[i] - larger)) + int(by)
-    view.set_look(TEXT_SIZES[min(max(place, 0), len(TEXT_SIZES) - 1)], contrast)
+    place = min(range(len(_TEXT_SIZES)), key=lambda i: abs(_TEXT_SIZES[i] - larger)) + int(by)
+    view.set_look(_TEXT_SIZES[min(max(place, 0), len(_TEXT_SIZES) - 1)], contrast)

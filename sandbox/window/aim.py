@@ -12,25 +12,25 @@ from sandbox.window.session import Session
 
 #: The longest full pull, as a share of the stage's height; the shortest, in px, however near the window's edge is; and
 #: what it leaves free before that edge, in px.
-FULL, SHORTEST, BORDER = 0.42, 60.0, 4.0
+_FULL, _SHORTEST, _BORDER = 0.42, 60.0, 4.0
 #: A shorter pull in px is a click, not a shot.
 LEAST = 8.0
 #: A full pull gives this many times the scene's own speed, unless that is more than its ``full_pull_speed``.
-HARDEST = 2.0
+_HARDEST = 2.0
 #: At this share of a full pull the shot has the scene's own speed; near there a px changes the speed this many times as
 #: much as it would if the same px everywhere changed it by the same factor.
-OWN, EVENNESS = 0.6, 0.3
+_OWN, _EVENNESS = 0.6, 0.3
 #: A scene whose own speed is 0 is aimed with as if it were this share of its ``full_pull_speed``.
-FROM_REST = 0.1
+_FROM_REST = 0.1
 #: What one press of a key changes: the angle in deg, the speed as a share of a full pull; a tenth with Shift.
-TURN, PUSH = 1.0, 0.01
+_TURN, PUSH = 1.0, 0.01
 #: With Shift only this share of a move of the mouse counts: a px turns a shot by 0.04 deg instead of 0.4, and a stone
 #: must be aimed to 0.15.
-FINE = 0.1
+_FINE = 0.1
 
 
 class Speeds(NamedTuple):
-    """The speeds of pulls, in the speed's unit: the shortest, the one at ``OWN`` of a full one, and a full one."""
+    """The speeds of pulls, in the speed's unit: the shortest, the one at ``_OWN`` of a full one, and a full one."""
 
     lowest: float
     own: float
@@ -39,12 +39,12 @@ class Speeds(NamedTuple):
     def at(self, share: float) -> float:
         """The speed at this share of a full pull, from 0 to 1.
 
-        The logarithm of speed over the scene's own is quadratic in the distance from ``OWN`` on either side of it, so
+        The logarithm of speed over the scene's own is quadratic in the distance from ``_OWN`` on either side of it, so
         that a few px change little where the scene is played, and soft shots are still within reach.
         """
-        end, length = (self.lowest, OWN) if share < OWN else (self.highest, 1.0 - OWN)
-        away = abs(share - OWN) / length
-        return self.own * exp(log(end / self.own) * (EVENNESS * away + (1.0 - EVENNESS) * away**2))
+        end, length = (self.lowest, _OWN) if share < _OWN else (self.highest, 1.0 - _OWN)
+        away = abs(share - _OWN) / length
+        return self.own * exp(log(end / self.own) * (_EVENNESS * away + (1.0 - _EVENNESS) * away**2))
 
 
 def speeds(session: Session) -> Speeds:
@@ -57,10 +57,10 @@ def speeds(session: Session) -> Speeds:
 def pull_speeds(controls: Controls, parameters: Any, parameter: Parameter | None, base: Any) -> Speeds:
     """The speeds within reach of a pull in a scene with these controls and parameters, whose own speed is ``base``; all
     within the bounds of the speed's ``parameter``."""
-    own = base if isinstance(base, float) and base > 0 else FROM_REST * controls.full_pull_speed
+    own = base if isinstance(base, float) and base > 0 else _FROM_REST * controls.full_pull_speed
     limit = controls.speed_limit(parameters) if controls.speed_limit is not None else inf
-    own = min(own, OWN * limit)
-    low, high = controls.softest * own, min(controls.full_pull_speed, HARDEST * own, limit)
+    own = min(own, _OWN * limit)
+    low, high = controls.softest * own, min(controls.full_pull_speed, _HARDEST * own, limit)
     if parameter is not None:
         low, high = parameter.within(low), parameter.within(high)
     return Speeds(min(low, own), own, max(high, own))
@@ -81,8 +81,8 @@ class Pull:
         self._mouse = self.start
 
     def move(self, to: tuple[int, int], fine: bool) -> None:
-        """Pull on as the mouse moves to a place in px; where ``fine``, by the share ``FINE`` of that."""
-        share = FINE if fine else 1.0
+        """Pull on as the mouse moves to a place in px; where ``fine``, by the share ``_FINE`` of that."""
+        share = _FINE if fine else 1.0
         across, down = (share * (px - before) for px, before in zip(to, self._mouse, strict=True))
         self.vector, self._mouse = (self.vector[0] + across, self.vector[1] + down), to
 
@@ -97,8 +97,8 @@ class Pull:
         room = inf
         for at, by, end in zip(self.start, self.vector, self.window, strict=True):
             if by:
-                room = min(room, ((end - at if by > 0 else at) - BORDER) * self.length / abs(by))
-        return max(SHORTEST, min(FULL * self.height, room))
+                room = min(room, ((end - at if by > 0 else at) - _BORDER) * self.length / abs(by))
+        return max(_SHORTEST, min(_FULL * self.height, room))
 
     @property
     def drawn(self) -> tuple[float, float]:
@@ -136,7 +136,7 @@ def nudged(session: Session, turn: float = 0.0, push: float = 0.0) -> dict[str, 
     changes: dict[str, Any] = {}
     angle, speed = session.parameters.get(controls.angle), session.parameters.get(controls.speed)
     if turn and angle is not None:
-        changes[controls.angle] = _turned(angle, round(angle.value + turn * TURN, 3))
+        changes[controls.angle] = _turned(angle, round(angle.value + turn * _TURN, 3))
     if push and speed is not None:
         step = float(f"{PUSH * speeds(session).highest:.1g}")
         changes[controls.speed] = speed.within(round(speed.value + push * step, 6))

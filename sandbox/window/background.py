@@ -18,14 +18,14 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 if TYPE_CHECKING:
     from sandbox.workers import Processes
 
-T = TypeVar("T")
+_T = TypeVar("T")
 
 #: How long a frame waits for a run, in s: the rest of a frame is for drawing.
 PATIENCE = 0.005
 #: A fan or map that takes longer than this, in s, is taken for one that never ends once the aim has changed.
 HUNG = 10.0
 #: How often Python switches between threads, in s: its default of 5 ms would be a third of a frame.
-SWITCH_INTERVAL = 0.0005
+_SWITCH_INTERVAL = 0.0005
 
 
 @dataclass
@@ -48,7 +48,7 @@ class Background:
     """A thread that works through a queue while the window draws. The program may end before it is done."""
 
     def __init__(self) -> None:
-        sys.setswitchinterval(SWITCH_INTERVAL)
+        sys.setswitchinterval(_SWITCH_INTERVAL)
         self.queue: SimpleQueue[tuple[Future[Any], Callable[[], Any]] | None] = SimpleQueue()
         Thread(target=self._work, name="background", daemon=True).start()
 
@@ -73,17 +73,17 @@ class Background:
                 future.set_exception(error)
 
 
-class LatestJob(Generic[T]):
+class LatestJob(Generic[_T]):
     """The result of work that is done again whenever what it is done for changes, one after the other."""
 
-    def __init__(self, abandon: Callable[[Future[T]], object] | None = None, hung: float = inf) -> None:
+    def __init__(self, abandon: Callable[[Future[_T]], object] | None = None, hung: float = inf) -> None:
         """Work that takes longer than ``hung`` s is abandoned once it is wanted for something else; after each time the
         next may take twice as long, until some has ended: on a busy machine a new process needs that long to start."""
         self.abandon, self.hung, self.abandoned = abandon, hung, 0
         self.key: Any = None  # what the value is of
-        self.value: T | None = None  # None if there is none yet, or if the work failed
+        self.value: _T | None = None  # None if there is none yet, or if the work failed
         self.error: BaseException | None = None
-        self.work: Future[T] | None = None
+        self.work: Future[_T] | None = None
         self.work_for: Any = None
         self.began = 0.0  # perf_counter, in s
 
@@ -103,7 +103,7 @@ class LatestJob(Generic[T]):
             self.value, self.error = None, error
         return True
 
-    def follow(self, key: Any, submit: Callable[[Any], Future[T]]) -> None:
+    def follow(self, key: Any, submit: Callable[[Any], Future[_T]]) -> None:
         """Begin the work for ``key``, unless it is None or it was done for that, or other work has not ended yet."""
         if key != self.work_for and self.takes > self.hung * 2**self.abandoned:
             self.abandoned += 1

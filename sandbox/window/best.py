@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 from sandbox.files import atomic_write, data_folder, reason
 
-FORMAT, VERSION = "sandbox best list", 1
+_FORMAT, _VERSION = "sandbox best list", 1
 #: So many scores are kept of each task.
 MOST = 5
 #: How long another window is waited for, in s.
@@ -131,7 +131,7 @@ class BestList:
         try:
             self.file.parent.mkdir(parents=True, exist_ok=True)
             with atomic_write(self.file, kept=False) as file:
-                json.dump({"format": FORMAT, "version": VERSION, "tasks": tasks}, file, indent=1)
+                json.dump({"format": _FORMAT, "version": _VERSION, "tasks": tasks}, file, indent=1)
         except OSError as error:
             self.problem = f"{self.file}: the best list cannot be written: {reason(error)}"
         else:
@@ -140,7 +140,7 @@ class BestList:
 
 def _tasks_in(kept: Any) -> dict[str, list[Best]]:
     """The scores in what was read. Raises ValueError, TypeError, KeyError or AttributeError if it is no best list."""
-    if kept["format"] != FORMAT or kept["version"] != VERSION:
+    if kept["format"] != _FORMAT or kept["version"] != _VERSION:
         raise ValueError("another format")
     found = {}
     for name, scores in kept["tasks"].items():

@@ -11,7 +11,7 @@ from sandbox.picture.palette import Colour, mix, palette
 from sandbox.picture.sheet import Entry, Sheet
 from sandbox.window.layout import Form, Layout
 
-CARD = palette("card")
+_CARD = palette("card")
 
 
 class Canvas(Sheet):
@@ -35,13 +35,13 @@ class Canvas(Sheet):
 
     def board(self, rect: pygame.Rect) -> None:
         """A panel with a rim, for what lies over all else."""
-        self.painter.panel(rect.inflate(2, 2), mix(CARD["background"], CARD["quiet"], 0.5), 1.0, 10 * self.unit)
-        self.painter.panel(rect, CARD["background"], 1.0, 10 * self.unit)
+        self.painter.panel(rect.inflate(2, 2), mix(_CARD["background"], _CARD["quiet"], 0.5), 1.0, 10 * self.unit)
+        self.painter.panel(rect, _CARD["background"], 1.0, 10 * self.unit)
 
     def dim(self, opacity: int) -> None:
         """Dim what is drawn; the opacity is from 0 to 255."""
         dark = pygame.Surface(self.size, pygame.SRCALPHA)
-        dark.fill((*CARD["background"], opacity))
+        dark.fill((*_CARD["background"], opacity))
         self.surface.blit(dark, (0, 0))
 
     def item(
@@ -58,7 +58,7 @@ class Canvas(Sheet):
         """One line of text in the middle of ``place``, cut to what is between ``left`` and ``right`` px; on a pale
         panel of the opacity ``lit``, and before a triangle that points down or, with a ``mark`` of -1, up."""
         if lit:
-            self.painter.panel(place, CARD["quiet"], lit, 5 * self.unit)
+            self.painter.panel(place, _CARD["quiet"], lit, 5 * self.unit)
         left, right = place.left + self.gap if left is None else left, place.right if right is None else right
         text = self.lettering.cut(text, "small", right - left, bold)
         rect = self.lettering.write(self.surface, text, "small", (left, place.centery), colour, "midleft", bold)
@@ -76,13 +76,13 @@ class Canvas(Sheet):
         wide = max(least, max(letters.width(text, "small") for text, _ in lines) + max(values, default=0) + 4 * gap)
 
         def draw(rect: pygame.Rect) -> None:
-            self.painter.panel(rect, CARD["background"], 0.9, 8 * self.unit)
+            self.painter.panel(rect, _CARD["background"], 0.9, 8 * self.unit)
             for number, (text, value) in enumerate(lines):
                 left, right, top = rect.left + 2 * gap, rect.right - 2 * gap, rect.top + gap + number * row
                 is_value = isinstance(value, str)
-                letters.write(self.surface, text, "small", (left, top), CARD["quiet"] if is_value else value)
+                letters.write(self.surface, text, "small", (left, top), _CARD["quiet"] if is_value else value)
                 if is_value:
-                    letters.write(self.surface, value, "small", (right, top), CARD["text"], "topright", bold=True)
+                    letters.write(self.surface, value, "small", (right, top), _CARD["text"], "topright", bold=True)
 
         return Form((wide, len(lines) * row + 2 * gap - gap // 2 + below), draw)
 
@@ -123,11 +123,11 @@ class Canvas(Sheet):
 
     def _message(self, lines: Sequence[str], bad: bool) -> Form:
         """A card of text with a stripe that says whether it is bad."""
-        form = self.text([(line, CARD["text"]) for line in lines])
+        form = self.text([(line, _CARD["text"]) for line in lines])
 
         def draw(rect: pygame.Rect) -> None:
             form.draw(rect)
             stripe = pygame.Rect(rect.left, rect.top + self.gap, max(3, self.gap // 2), rect.height - 2 * self.gap)
-            self.surface.fill(CARD["bad" if bad else "good"], stripe)
+            self.surface.fill(_CARD["bad" if bad else "good"], stripe)
 
         return Form(form.size, draw)

@@ -29,7 +29,7 @@ from sandbox.window.stage import Stage, headline
 from sandbox.window.targets import Targets
 from sandbox.window.viewpoint import Viewpoint
 
-CARD = palette("card")
+_CARD = palette("card")
 
 
 class Cards:
@@ -58,12 +58,12 @@ class Cards:
     def draw_words(self, sheet: Canvas, layout: Layout, stage: Stage, shot: Shot, forces: Sequence[Entry]) -> None:
         """The headline, and the numbers along the bottom."""
         playback = self.game.watching.playback
-        text, colour = shot.verdict, CARD["good"] if shot.scored else CARD["text"]
+        text, colour = shot.verdict, _CARD["good"] if shot.scored else _CARD["text"]
         entries: Sequence[Entry] = shot.card
         if self.shown.hides_path:
-            text, colour, entries = "Where will it go?", CARD["text"], [("aimed", shot.aimed)]
+            text, colour, entries = "Where will it go?", _CARD["text"], [("aimed", shot.aimed)]
         if playback is not None and not playback.over:
-            text, colour, entries = f"{playback.t:.2f} s", CARD["text"], stage.picture_of(shot).live(playback.t)
+            text, colour, entries = f"{playback.t:.2f} s", _CARD["text"], stage.picture_of(shot).live(playback.t)
             forces = ()  # they are among them
         live = self.game.watching.live is not None
         if playback is not None and live:
@@ -73,9 +73,9 @@ class Cards:
         if contest is not None and referee.tells:
             text, said, colour = headline_of(referee, contest)
             notes = notes if self.game.grasp.holds else said
-            pulled = playback is None and self.game.session.may_change(aim_keys(shot))
+            pulled = playback is None and self.game.session.may_change(_aim_keys(shot))
             entries = [
-                (*entry, CARD["accent" if place == contest.marked else "text"])
+                (*entry, _CARD["accent" if place == contest.marked else "text"])
                 for place, entry in enumerate(contest.entries)
             ]
             entries, forces = [*entries, *([("aimed", shot.aimed)] if pulled else [])], ()
@@ -116,14 +116,14 @@ class Cards:
         if "fan" in shown.on and not shown.hides_path:
             found = self.fan.of(shot)
             share, spread = found.said if found is not None else (_why_none(self.fan.job, "the fan"), "")
-            colour = CARD["text" if self.fan.matches(shot) else "quiet"]
-            lines = [(share, colour), *[(spread, CARD["quiet"])] * bool(spread)]
+            colour = _CARD["text" if self.fan.matches(shot) else "quiet"]
+            lines = [(share, colour), *[(spread, _CARD["quiet"])] * bool(spread)]
             bars = found.bars if found is not None else None
             layout.put("fan", fan_forms(sheet, lines, bars), corner, "topright")
         if "map" in shown.on and not shown.hides_path:
             known = self.map.of(shot)
             if known is None:
-                note("map", (_why_none(self.map.job, "the map"), CARD["text"]))
+                note("map", (_why_none(self.map.job, "the map"), _CARD["text"]))
             else:
                 forms = map_forms(sheet, known, shot.aim, lambda cells: self.targets.cards.update({"map": cells}))
                 layout.put("map", forms, corner, "topright")
@@ -137,11 +137,11 @@ class Cards:
         if "cost" in shown.on:
             level = game.session.value("accuracy.level")
             text = f"frame {1e3 * self.screen.frame_cost:.1f} ms; run {1e3 * game.path.cost:.1f} ms, {level}"
-            note("cost", (text, CARD["accent"]))
+            note("cost", (text, _CARD["accent"]))
         contest = game.referee.contest
         if contest is not None and contest.table:
             layout.put("table", [sheet.text(contest.table)], corner, "topright")
-        hints = [] if contest is not None else [(text, CARD["accent"]) for text in game.memory.hints.values()]
+        hints = [] if contest is not None else [(text, _CARD["accent"]) for text in game.memory.hints.values()]
         if hints and game.grasp.pull is None:
             note("hints", *hints)
 
@@ -163,7 +163,7 @@ class Cards:
             draw_reading(sheet, layout, shot, read, entries)
 
 
-def aim_keys(shot: Shot) -> tuple[str, str]:
+def _aim_keys(shot: Shot) -> tuple[str, str]:
     """The keys of what a pull sets."""
     return shot.scene.controls.speed, shot.scene.controls.angle
 

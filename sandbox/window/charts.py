@@ -17,15 +17,15 @@ from sandbox.window.canvas import Canvas
 from sandbox.window.layout import Form
 from sandbox.window.shots import Shot
 
-CARD = palette("card")
+_CARD = palette("card")
 
 #: What is shown of what there is.
-SHOWN = ("speed", "height", "distance", "spin")
+_SHOWN = ("speed", "height", "distance", "spin")
 #: The card's share of the picture's width from the side and from above, unless its text is wider; height of a curve, px
 #: on 720 rows.
-SHARE, CURVE = (0.24, 0.15), 46
+_SHARE, _CURVE = (0.24, 0.15), 46
 #: Before the largest value of all, of either sign.
-PEAK = "peak "
+_PEAK = "peak "
 
 
 class Charts:
@@ -36,8 +36,8 @@ class Charts:
         self.hits = [event.t for event in hardest(shot.run, [shot.ball])]
         times, moves = motion(shot.run, picture)
         self.strips = [
-            Panel(name, unit, [Curve("", times, values, CARD["accent"])])
-            for name, (unit, values) in moves.items() if name in SHOWN
+            Panel(name, unit, [Curve("", times, values, _CARD["accent"])])
+            for name, (unit, values) in moves.items() if name in _SHOWN
         ]  # fmt: skip
 
     def forms(self, sheet: Canvas, t: float | None) -> list[Form]:
@@ -51,14 +51,14 @@ class Charts:
         """The first strips, their curves a share as high as usual."""
         unit, gap, letters, strips = sheet.unit, sheet.gap, sheet.lettering, self.strips[:count]
         row = letters.height("small")
-        tall = round(max(share * CURVE * unit, 2.2 * row)) + 2 * row + 4 * gap
+        tall = round(max(share * _CURVE * unit, 2.2 * row)) + 2 * row + 4 * gap
         longest = [f"{strip.title} ({strip.shown.unit})  {_said(strip, None)}" for strip in self.strips]
         written = max(letters.width(text, "small", bold=True) for text in longest) + 4 * gap
-        wide = max(round(SHARE[not self.shot.upright] * sheet.size[0]), written)
+        wide = max(round(_SHARE[not self.shot.upright] * sheet.size[0]), written)
         until = max(self.shot.run.duration, 1e-9)
 
         def draw(rect: pygame.Rect) -> None:
-            sheet.painter.panel(rect, CARD["background"], 0.85, 10 * unit)
+            sheet.painter.panel(rect, _CARD["background"], 0.85, 10 * unit)
             for i, strip in enumerate(strips):
                 place = pygame.Rect(rect.left + 2 * gap, rect.top + 2 * gap + i * tall, rect.width - 4 * gap, tall)
                 draw_panel(sheet, place, strip, until, t, self.hits, _said(strip, t))
@@ -71,4 +71,4 @@ def _said(strip: Panel, t: float | None) -> str:
     curve = strip.curves[0]
     if t is not None:
         return amount(float(np.interp(t, curve.times, curve.values)), strip.unit)
-    return PEAK + amount(float(curve.values[np.abs(curve.values).argmax()]), strip.unit)
+    return _PEAK + amount(float(curve.values[np.abs(curve.values).argmax()]), strip.unit)

@@ -24,7 +24,7 @@ from sandbox.tasks.games import game_names, game_of
 from sandbox.tasks.match import PLAYERS, Match
 
 #: What the player may set, by key: bounds, in the parameter's unit.
-Limits = Mapping[str, tuple[float, float]]
+_Limits = Mapping[str, tuple[float, float]]
 #: Labels and texts of a card.
 Entries = list[tuple[str, str]]
 
@@ -58,7 +58,7 @@ class Contest:
         raise NotImplementedError
 
     @property
-    def limits(self) -> Limits | None:
+    def limits(self) -> _Limits | None:
         """The parameters that the player may set, with their bounds; None for everything."""
         raise NotImplementedError
 
@@ -178,7 +178,7 @@ class AtTask(Contest):
         return self.session.scene
 
     @property
-    def limits(self) -> Limits:
+    def limits(self) -> _Limits:
         return {control.key: (control.low, control.high) for control in self.task.controls}
 
     def _values(self, scene: Scene) -> dict[str, float]:
@@ -292,7 +292,7 @@ class AtMatch(Contest):
         return self.base.changed(self.match.start, self.match.title)
 
     @property
-    def limits(self) -> Limits:
+    def limits(self) -> _Limits:
         controls, known = self.base.controls, {it.key: it for it in walk(self.scene.parameters, entries=True)}
         keys = [controls.speed, controls.angle, *(spin.key for spin in controls.spins), *self.match.free]
         found = {key: known[key].bounds for key in keys if key in known}

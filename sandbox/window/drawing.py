@@ -32,10 +32,10 @@ from sandbox.window.stages import Stages
 from sandbox.window.targets import Targets
 from sandbox.window.viewpoint import Viewpoint
 
-CARD = palette("card")
+_CARD = palette("card")
 
 #: Opacity (of 255) of what dims a picture without a path.
-DIMMED = 150
+_DIMMED = 150
 
 
 class Drawing:
@@ -64,7 +64,7 @@ class Drawing:
             self._draw()
         except Exception as error:  # a scene's own code
             sheet = self.screen.sheet
-            sheet.surface.fill(CARD["background"])
+            sheet.surface.fill(_CARD["background"])
             text = f"{self.game.session.title} cannot be drawn: {reason(error)}"
             sheet.messages(self._layout(sheet), [(text, True)])
 
@@ -133,11 +133,11 @@ class Drawing:
     def _draw_no_path(self, sheet: Canvas, stage: Stage) -> None:
         """The place, dark and without a path."""
         sheet.surface.blit(stage.backdrop, (0, 0))
-        sheet.dim(DIMMED)
+        sheet.dim(_DIMMED)
         if self.game.failure is not None:
-            head, note, colour = "No path", "the run failed with these parameters", CARD["bad"]
+            head, note, colour = "No path", "the run failed with these parameters", _CARD["bad"]
         else:
-            head, note, colour = "Computing ...", "the run of these parameters takes long", CARD["text"]
+            head, note, colour = "Computing ...", "the run of these parameters takes long", _CARD["text"]
         self.cards.draw_head(sheet, self.layout, head, [note], colour)
         self._keep(sheet)
 
@@ -149,15 +149,15 @@ class Drawing:
 
     def _draw_last(self, sheet: Canvas) -> None:
         """The last picture, or at first that the scene is loaded; dark if no other will come."""
-        sheet.surface.fill(CARD["background"])
+        sheet.surface.fill(_CARD["background"])
         if self._last is not None:
             larger = max(px / before for px, before in zip(sheet.size, self._last.get_size(), strict=True))
             sheet.surface.blit(pygame.transform.smoothscale_by(self._last, larger), (0, 0))
         elif not self.stages.complete:
             middle = sheet.surface.get_rect().center
-            sheet.write(f"loading {self.game.session.title} ...", "large", middle, CARD["quiet"], "center")
+            sheet.write(f"loading {self.game.session.title} ...", "large", middle, _CARD["quiet"], "center")
         if self.stages.undrawable is not None or self._no_path:
-            sheet.dim(DIMMED)
+            sheet.dim(_DIMMED)
 
     def _draw_messages(self, sheet: Canvas) -> None:
         """All that the player is told."""

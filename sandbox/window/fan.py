@@ -25,13 +25,13 @@ from sandbox.window.shots import Shot
 SHOTS = 100
 #: So many more are computed at least before a fan is shown, and no more after this time in s; and after this one by a
 #: process that may have to compute the path at once.
-FEWEST, QUICK, BRIEF = 8, 0.3, 0.05
+FEWEST, QUICK, _BRIEF = 8, 0.3, 0.05
 #: Opacity of one path; and how far from the picture, in px, a path is still followed.
-FAINT, FAR = 0.3, 2000
+_FAINT, _FAR = 0.3, 2000
 #: Size in px of the mark at the end of a path.
-END = 3
+_END = 3
 #: A point has so many parts: their sums are exact, in whatever order paths are added.
-PARTS = 1 << 16
+_PARTS = 1 << 16
 
 
 #: Parameters that differ, and their standard deviations.
@@ -64,7 +64,7 @@ def within(parameter: declared.Parameter, values: np.ndarray) -> np.ndarray:
     return np.clip(values, parameter.low, parameter.high)
 
 
-class Fan:
+class _Fan:
     """The shots of a fan, computed a few at a time; ``backwards`` from the last to the first. While the aim changes,
     and where they are computed one by one, as balls on a table are, they have the accuracy of pictures."""
 
@@ -115,18 +115,18 @@ class Fan:
             for rest in (False, True):
                 paths = [picture.spots(camera, shot.path, 0.0) for shot in new if shot.scored != rest]
                 if paths:
-                    sums[int(rest)] += density([np.clip(path, -FAR, max(size) + FAR) for path in paths], size)
+                    sums[int(rest)] += density([np.clip(path, -_FAR, max(size) + _FAR) for path in paths], size)
         return sums
 
 
 #: The fans that this process has begun, forwards and backwards.
-_begun: dict[bool, Fan] = {}
+_begun: dict[bool, _Fan] = {}
 
 
-def _fan(scene: Scene, spread: _Spread, asked: Sequence[str], quick: bool = False, backwards: bool = False) -> Fan:
+def _fan(scene: Scene, spread: _Spread, asked: Sequence[str], quick: bool = False, backwards: bool = False) -> _Fan:
     """The fan of a scene, with the shots that this process has computed so far."""
     if backwards not in _begun or not _begun[backwards].is_of(scene, spread, asked, quick):
-        _begun[backwards] = Fan(scene, spread, asked, quick, backwards)
+        _begun[backwards] = _Fan(scene, spread, asked, quick, backwards)
     return _begun[backwards]
 
 
@@ -145,7 +145,7 @@ def shots_from_end(scene: Scene, width: float, left: int) -> list[FanShot | None
     it was asked for more; none of a fan that is computed together."""
     fan = _fan(scene, players_spread(scene, width), _asked(scene), backwards=True)
     if not fan.together:
-        fan.go_on(left, 1, BRIEF)
+        fan.go_on(left, 1, _BRIEF)
     return fan.flown
 
 
@@ -182,7 +182,7 @@ def cloud(
     return Cloud(*_drawn(good, rest, colours), said, len(shots), scored, left, _bars(scene, asked, shots))
 
 
-class FanShots(NamedTuple):
+class _FanShots(NamedTuple):
     """The shots of a fan, and what is said of them."""
 
     shots: Sequence[FanShot]
@@ -191,15 +191,15 @@ class FanShots(NamedTuple):
     bars: Bars | None
 
 
-def fan_of(scene: Scene, seconds: float) -> FanShots | None:
+def fan_of(scene: Scene, seconds: float) -> _FanShots | None:
     """The fan of a scene, as many of its shots as are computed in so many s; None for a shot without spread."""
     spread, asked = players_spread(scene), _asked(scene)
     if not spread:
         return None
-    fan = Fan(scene, spread, asked, quick=False, backwards=False)
+    fan = _Fan(scene, spread, asked, quick=False, backwards=False)
     fan.go_on(fan.left, FEWEST, seconds)
     shots = [shot for shot in fan.flown if shot is not None]
-    return FanShots(shots, _said(scene, asked, shots), _by(spread), _bars(scene, asked, shots))
+    return _FanShots(shots, _said(scene, asked, shots), _by(spread), _bars(scene, asked, shots))
 
 
 def _by(spread: _Spread) -> str:
@@ -250,7 +250,7 @@ def density(lines: Sequence[np.ndarray], size: tuple[int, int]) -> np.ndarray:
     width, height = size
     if not lines:
         return np.zeros((height, width))
-    square = np.mgrid[:END, :END].reshape(2, -1).T - END // 2  # around each end
+    square = np.mgrid[:_END, :_END].reshape(2, -1).T - _END // 2  # around each end
     x, y = np.concatenate([part for line in lines for part in (_evenly(line), line[-1] + square)]).T - 0.5
     inside = (x >= 0) & (x < width - 1) & (y >= 0) & (y < height - 1)
     x, y = x[inside], y[inside]
@@ -259,7 +259,7 @@ def density(lines: Sequence[np.ndarray], size: tuple[int, int]) -> np.ndarray:
     at = row * width + column
     pixels = np.concatenate([at, at + 1, at + width, at + width + 1])
     shares = np.concatenate([(1 - right) * (1 - down), right * (1 - down), (1 - right) * down, right * down])
-    return np.bincount(pixels, np.rint(PARTS * shares), width * height).reshape(height, width) / PARTS
+    return np.bincount(pixels, np.rint(_PARTS * shares), width * height).reshape(height, width) / _PARTS
 
 
 def _evenly(line: np.ndarray) -> np.ndarray:
@@ -283,5 +283,5 @@ def _drawn(
     share = (good[on] / total[on])[:, None]
     pixels = np.zeros((*total.shape, 4), np.uint8)
     pixels[on, :3] = np.round(share * colours[0] + (1 - share) * colours[1])
-    pixels[on, 3] = np.round(-255 * np.expm1(log1p(-FAINT) * total[on]))
+    pixels[on, 3] = np.round(-255 * np.expm1(log1p(-_FAINT) * total[on]))
     return (int(columns[0]), int(rows[0])), (total.shape[1], total.shape[0]), pixels.tobytes()

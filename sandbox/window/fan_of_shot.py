@@ -18,7 +18,7 @@ from sandbox.window.shots import Shot
 from sandbox.window.shown import Shown
 from sandbox.window.stages import AT_REST, Stages
 
-CARD = palette("card")
+_CARD = palette("card")
 
 #: Opacity (of 255) of a fan that is still that of another aim.
 OUTDATED = 70
@@ -70,7 +70,7 @@ class FanOfShot:
 
     def _ask(self, key: FanKey) -> Future[Cloud]:
         """Have a fan computed."""
-        how, colours = (key.width, key.camera, key.quick), (CARD["good"], CARD["text"])
+        how, colours = (key.width, key.camera, key.quick), (_CARD["good"], _CARD["text"])
         submit, size = self.game.workers.helper.submit, self.screen.area.size
         return submit(cloud, key.shot.scene, *how, key.shot.early, size, colours, self._from_elsewhere(key))
 

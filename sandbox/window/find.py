@@ -20,13 +20,13 @@ from sandbox.window.worker import Packed, computed
 
 #: Where the scene says nothing else, all speeds of a pull are tried; and angles in deg: upwards, or so far to either
 #: side of the scene file's.
-FROM_SIDE, TO_A_SIDE = (2.0, 85.0), 25.0
+_FROM_SIDE, _TO_A_SIDE = (2.0, 85.0), 25.0
 #: By two parameters, so many solutions are searched around more finely, in this share of the ranges.
-REFINED, FINER = 2, 0.12
+REFINED, _FINER = 2, 0.12
 #: A region with more room than this share of the range is known well enough.
-ROOMY = 0.04
+_ROOMY = 0.04
 #: The most shots that are offered, and by what share they differ.
-MOST, APART = 5, 0.04
+_MOST, _APART = 5, 0.04
 
 
 class Found(NamedTuple):
@@ -72,9 +72,9 @@ def _usual(session: Session, upright: bool) -> dict[str, tuple[float, float]]:
     if speed is None or angle is None:
         return {}
     reach, own = speeds(session), session.base_value(controls.angle)
-    low, high = FROM_SIDE
+    low, high = _FROM_SIDE
     if not upright or own < low:  # such as a serve, downwards
-        low, high = own - TO_A_SIDE, own + TO_A_SIDE
+        low, high = own - _TO_A_SIDE, own + _TO_A_SIDE
     return {
         controls.speed: (min(reach.lowest, speed.value), max(reach.highest, speed.value)),
         controls.angle: (angle.within(low), angle.within(high)),
@@ -103,7 +103,7 @@ def find(scene: Scene, goals: list[Goal]) -> list[Found]:
     for each in sorted(found, key=lambda each: -each.margin):
         if all(_differ(each, other) for other in apart):
             apart.append(each)
-    return apart[:MOST]
+    return apart[:_MOST]
 
 
 def _solutions(scene: Scene, goal: Goal) -> list[Solution]:
@@ -115,12 +115,12 @@ def _solutions(scene: Scene, goal: Goal) -> list[Solution]:
         return coarse
     found = []
     for solution in coarse[:REFINED]:
-        if solution.region is not None and solution.region.room[spans[0].key] > ROOMY * (spans[0].high - spans[0].low):
+        if solution.region is not None and solution.region.room[spans[0].key] > _ROOMY * (spans[0].high - spans[0].low):
             found.append(solution)
             continue
         near = []
         for span in spans:
-            middle, half = solution.values[span.key], 0.5 * FINER * (span.high - span.low)
+            middle, half = solution.values[span.key], 0.5 * _FINER * (span.high - span.low)
             near.append(Span(span.key, max(span.low, middle - half), min(span.high, middle + half)))
         found += search(scene, near, wanted).solutions[:1]
     return found
@@ -129,7 +129,7 @@ def _solutions(scene: Scene, goal: Goal) -> list[Solution]:
 def _differ(one: Found, other: Found) -> bool:
     """True if two shots are more than a tenth apart in some parameter."""
     pairs = [(value, other.values.get(key)) for key, value in one.values.items() if isinstance(value, float)]
-    return any(there is None or abs(value - there) > APART * max(abs(value), abs(there)) for value, there in pairs)
+    return any(there is None or abs(value - there) > _APART * max(abs(value), abs(there)) for value, there in pairs)
 
 
 def _found(scene: Scene, solution: Solution) -> Found:

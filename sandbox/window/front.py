@@ -26,12 +26,12 @@ from sandbox.window.overlay import HOVERED, Overlay
 from sandbox.window.prediction import Prediction
 from sandbox.window.scoreboard import SMALL_STAR, star, stars
 
-CARD = palette("card")
+_CARD = palette("card")
 
 #: The size of the picture of a tile, in px.
 TILE = (320, 180)
 #: Width of a tile in px on 720 rows, at most.
-WIDEST = 240
+_WIDEST = 240
 START_HERE = "Start here"
 
 
@@ -46,7 +46,7 @@ class Entry(NamedTuple):
     about: str = ""
 
 
-class Sport(NamedTuple):
+class _Sport(NamedTuple):
     """A scene on the first screen."""
 
     name: str
@@ -71,15 +71,15 @@ def first_task() -> Task:
     return load(_order()[0])
 
 
-def sports() -> list[Sport]:
+def sports() -> list[_Sport]:
     """All installed scenes, in the order of their tiles."""
     folders, (_, order) = installed_folders(), _order()
     names = [*(name for name in order if name in folders), *sorted(folders.keys() - set(order))]
-    return [Sport(name, folders[name], [file.stem for file in (folders[name] / "tasks").glob("*.toml")])
+    return [_Sport(name, folders[name], [file.stem for file in (folders[name] / "tasks").glob("*.toml")])
             for name in names]  # fmt: skip
 
 
-def entries_of(sport: Sport) -> list[Entry]:
+def entries_of(sport: _Sport) -> list[Entry]:
     """All that can be played in a sport: its tasks in rising order, games for two, and the scene. A task or a game that
     is damaged says so instead of what it is about."""
     found = []
@@ -123,7 +123,7 @@ class Front(Overlay):
     def __init__(self, begin: Callable[[Entry], object], best: BestList) -> None:
         super().__init__()
         self.begin, self.best, self.all = begin, best, sports()
-        self.sport: Sport | None = None
+        self.sport: _Sport | None = None
         self.entries: list[Entry] = []
         self.across = 1  # tiles in a row
         first = _order()[0]
@@ -134,11 +134,11 @@ class Front(Overlay):
         self._images: dict[tuple[str, tuple[int, int]], pygame.Surface | None] = {}
 
     @property
-    def rows(self) -> Sequence[Sport | Entry]:
+    def rows(self) -> Sequence[_Sport | Entry]:
         return self.entries if self.sport is not None else self.all
 
-    def do(self, what: Sport | Entry | str) -> bool:
-        if isinstance(what, Sport):
+    def do(self, what: _Sport | Entry | str) -> bool:
+        if isinstance(what, _Sport):
             if what is self.first_sport:
                 self.begin(Entry("task", _order()[0]))
                 return False
@@ -169,7 +169,7 @@ class Front(Overlay):
         if self.sport is None:
             self.step(by)
 
-    def show(self, row: Sport | Entry) -> None:
+    def show(self, row: _Sport | Entry) -> None:
         line = self.rows.index(row) // self.across * self.across
         self.first = min(max(self.first, line - self.seen + self.across), line)
 
@@ -182,10 +182,10 @@ class Front(Overlay):
     def compose(self) -> None:
         sheet, gap = self.sheet, self.sheet.gap
         rect = sheet.surface.get_rect()
-        sheet.surface.fill(CARD["background"])
+        sheet.surface.fill(_CARD["background"])
         title = "Choose a sport" if self.sport is None else self.sport.title
         at = rect.left + 4 * gap, rect.top + 3 * gap
-        head = sheet.write(title, "medium", at, CARD["text"], bold=True)
+        head = sheet.write(title, "medium", at, _CARD["text"], bold=True)
         room = pygame.Rect(at[0], head.bottom + 2 * gap, rect.width - 8 * gap, 0)
         room.height = rect.bottom - 2 * gap - room.top
         if self.sport is None:
@@ -213,52 +213,52 @@ class Front(Overlay):
         """The number of tiles in a row, and the size of their pictures in px."""
         gap = self.sheet.gap
         for across in range(1, 12):
-            wide = min((room.width - gap + 2 * gap) // across - 2 * gap, round(WIDEST * self.sheet.unit))
+            wide = min((room.width - gap + 2 * gap) // across - 2 * gap, round(_WIDEST * self.sheet.unit))
             tall = wide * TILE[1] // TILE[0]
             lines = -(-len(self.all) // across)
             if lines * (tall + below + gap) <= room.height + gap or wide < 120:
                 break
         return across, (wide, tall)
 
-    def _tile(self, sport: Sport, place: pygame.Rect, below: int) -> None:
+    def _tile(self, sport: _Sport, place: pygame.Rect, below: int) -> None:
         sheet, gap, unit = self.sheet, self.sheet.gap, self.sheet.unit
         whole = pygame.Rect(place.left, place.top, place.width, place.height + below).inflate(gap, gap)
         self.part(whole, sport)
         self._picture(sport, place)
         here = whole.collidepoint(self.mouse) or (sport == self.chosen and self.hovered is None)
         if here:
-            pygame.draw.rect(sheet.surface, CARD["accent"], place.inflate(4, 4), 3, border_radius=round(5 * unit))
+            pygame.draw.rect(sheet.surface, _CARD["accent"], place.inflate(4, 4), 3, border_radius=round(5 * unit))
         y = place.bottom + below // 2
         got = sum(self.best.stars(task) for task in sport.tasks)
         right = place.right
         if sport.tasks:
             text = f"{got} of {3 * len(sport.tasks)}"
-            written = sheet.write(text, "small", (right, y), CARD["quiet"], "midright")
+            written = sheet.write(text, "small", (right, y), _CARD["quiet"], "midright")
             star(sheet, (written.left - 1.6 * SMALL_STAR * unit, y), SMALL_STAR * unit, got > 0)
             right = written.left - round(3 * SMALL_STAR * unit)
         name = sheet.lettering.cut(sport.title, "small", right - place.left, True)
-        sheet.write(name, "small", (place.left, y), CARD["text"], "midleft", bold=True)
+        sheet.write(name, "small", (place.left, y), _CARD["text"], "midleft", bold=True)
         if sport is self.first_sport:
             wide = sheet.lettering.width(START_HERE, "small", True) + 4 * gap
             badge = pygame.Rect(place.left, place.top, wide, below + gap)
-            sheet.painter.panel(badge, CARD["accent"], 1.0, 5 * unit)
-            sheet.write(START_HERE, "small", badge.center, CARD["background"], "center", bold=True)
+            sheet.painter.panel(badge, _CARD["accent"], 1.0, 5 * unit)
+            sheet.write(START_HERE, "small", badge.center, _CARD["background"], "center", bold=True)
 
-    def _picture(self, sport: Sport, place: pygame.Rect) -> None:
+    def _picture(self, sport: _Sport, place: pygame.Rect) -> None:
         """The picture of a sport, or a pale panel where it has none."""
         image = self._image(sport, place.size)
         if image is not None:
             self.sheet.surface.blit(image, place)
         else:
-            self.sheet.painter.panel(place, CARD["quiet"], 0.12, 4 * self.sheet.unit)
+            self.sheet.painter.panel(place, _CARD["quiet"], 0.12, 4 * self.sheet.unit)
 
-    def _image(self, sport: Sport, size: tuple[int, int]) -> pygame.Surface | None:
+    def _image(self, sport: _Sport, size: tuple[int, int]) -> pygame.Surface | None:
         key = sport.name, size
         if key not in self._images:
             self._images[key] = tile_of(sport.folder, size)
         return self._images[key]
 
-    def _page(self, sport: Sport, room: pygame.Rect) -> None:
+    def _page(self, sport: _Sport, room: pygame.Rect) -> None:
         """The page of a sport: its picture, and a row for each thing that can be played."""
         gap, letters = self.sheet.gap, self.sheet.lettering
         small = letters.height("small")
@@ -292,6 +292,6 @@ class Front(Overlay):
             stars(sheet, (x + SMALL_STAR * unit, row.centery), SMALL_STAR * unit, self.best.stars(entry.source))
         x += round(8 * SMALL_STAR * unit)
         y = row.centery - small - gap // 4
-        sheet.write(letters.cut(entry.title, "small", right - x, True), "small", (x, y), CARD["text"], bold=True)
+        sheet.write(letters.cut(entry.title, "small", right - x, True), "small", (x, y), _CARD["text"], bold=True)
         about = letters.cut(entry.about, "small", right - x - gap)
-        sheet.write(about, "small", (x, row.centery + gap // 4), CARD["quiet"])
+        sheet.write(about, "small", (x, row.centery + gap // 4), _CARD["quiet"])

@@ -17,18 +17,18 @@ from sandbox.window.handles import Grip
 from sandbox.window.layout import Layout
 from sandbox.window.stage import Stage
 
-CARD, FORCE = palette("card"), palette("force")
+_CARD, _FORCE = palette("card"), palette("force")
 
 #: The mouse takes hold of a handle from this distance, and sees those of a list from the second; px on 720 rows.
-NEAR, SEEN = 13.0, 70.0
+_NEAR, _SEEN = 13.0, 70.0
 #: A handle on the ball that is played lies so far to its lower left: a pull begins on the ball, unless it is in hand.
 #: Px on 720 rows.
-ASIDE = 26.0
+_ASIDE = 26.0
 #: The wind's handle is this far from its foot, in px on 720 rows per m/s; and its foot from the upper right corner.
-WIND, FOOT = 4.0, (42.0, 13.0)
+_WIND, _FOOT = 4.0, (42.0, 13.0)
 
 #: A drag that snaps goes in steps of at least so many px, and otherwise in steps of about so many.
-SNAPS, FINE = 12.0, 0.25
+_SNAPS, _FINE = 12.0, 0.25
 
 
 class ShownGrip(NamedTuple):
@@ -42,7 +42,7 @@ class ShownGrip(NamedTuple):
 
     def step(self, snap: bool) -> float:
         """The size of the steps in which it is dragged, in m or m/s."""
-        return round_number_above((SNAPS * self.unit if snap else FINE) / self.camera.scale)
+        return round_number_above((_SNAPS * self.unit if snap else _FINE) / self.camera.scale)
 
     def dragged(self, before: Point, to: Point) -> Point:
         """The place that it is dragged to, in m or m/s, by a drag between two places in px."""
@@ -53,13 +53,13 @@ class ShownGrip(NamedTuple):
 def shown_grips(grips: Sequence[Grip], stage: Stage, sheet: Canvas, in_hand: bool = False) -> list[ShownGrip]:
     """The places of the handles; that of the wind has a camera of its own. If the ball that is played is ``in_hand``, a
     drag of it moves it."""
-    ball, aside, unit = stage.ball_at(stage.shot), ASIDE * sheet.unit, sheet.unit
-    foot = sheet.frame.right - FOOT[0] * unit, sheet.frame.top + FOOT[1] * unit
+    ball, aside, unit = stage.ball_at(stage.shot), _ASIDE * sheet.unit, sheet.unit
+    foot = sheet.frame.right - _FOOT[0] * unit, sheet.frame.top + _FOOT[1] * unit
     found = []
     for grip in grips:
-        camera = Camera((0.0, 0.0), foot, WIND * unit) if grip.is_wind else stage.camera
+        camera = Camera((0.0, 0.0), foot, _WIND * unit) if grip.is_wind else stage.camera
         x, y = camera.pixel(*grip.place)
-        on_ball = dist((x, y), ball) < NEAR * unit and not grip.is_wind
+        on_ball = dist((x, y), ball) < _NEAR * unit and not grip.is_wind
         if on_ball and not in_hand:
             x, y = x - aside, y + aside
         found.append(ShownGrip(grip, (x, y), camera, unit, on_ball and in_hand))
@@ -69,7 +69,7 @@ def shown_grips(grips: Sequence[Grip], stage: Stage, sheet: Canvas, in_hand: boo
 def nearest(found: Sequence[ShownGrip], at: Point) -> ShownGrip | None:
     """The handle at a place in px."""
     near = min(found, key=lambda shown: dist(shown.at, at), default=None)
-    return near if near is not None and dist(near.at, at) <= NEAR * near.unit else None
+    return near if near is not None and dist(near.at, at) <= _NEAR * near.unit else None
 
 
 def draw_handles(
@@ -79,27 +79,27 @@ def draw_handles(
     with its numbers."""
     unit = sheet.unit
     for grip, at, _, _, in_hand in found:
-        seen = in_hand or (mouse is not None and (not grip.in_list or dist(at, mouse) < SEEN * unit))
+        seen = in_hand or (mouse is not None and (not grip.in_list or dist(at, mouse) < _SEEN * unit))
         if seen and (held is None or grip.keys != held.keys):
-            radius = NEAR if in_hand else 5.0
-            sheet.painter.ring(at, (radius + 1) * unit, 4 * unit, CARD["background"], 0.8)
-            sheet.painter.ring(at, radius * unit, 2.2 * unit, CARD["text"])
+            radius = _NEAR if in_hand else 5.0
+            sheet.painter.ring(at, (radius + 1) * unit, 4 * unit, _CARD["background"], 0.8)
+            sheet.painter.ring(at, radius * unit, 2.2 * unit, _CARD["text"])
     for grip, at, camera, _, in_hand in found:
         if held is not None and grip.keys == held.keys:
             if grip.is_wind and dist(camera.anchor, at) > 2:
-                sheet.painter.arrow(camera.anchor, at, 3.6 * unit, FORCE["wind"])
-            radius = NEAR if in_hand else 8.0
-            sheet.painter.ring(at, (radius + 1) * unit, 5 * unit, CARD["background"], 0.8)
-            sheet.painter.ring(at, radius * unit, 2.2 * unit, CARD["accent"])
-            label(
+                sheet.painter.arrow(camera.anchor, at, 3.6 * unit, _FORCE["wind"])
+            radius = _NEAR if in_hand else 8.0
+            sheet.painter.ring(at, (radius + 1) * unit, 5 * unit, _CARD["background"], 0.8)
+            sheet.painter.ring(at, radius * unit, 2.2 * unit, _CARD["accent"])
+            _label(
                 sheet, layout, text, at, below=at[1] > camera.pixel(*grip.place)[1]
             )  # beside a ball, which stays in sight
 
 
-def label(sheet: Canvas, layout: Layout, text: str, at: tuple[float, float], below: bool) -> None:
+def _label(sheet: Canvas, layout: Layout, text: str, at: tuple[float, float], below: bool) -> None:
     """A text on a card above or below a place in px."""
     room = sheet.frame.width - 4 * sheet.gap
-    forms = [sheet.text([(sheet.shortened(text, "small", share * room), CARD["text"])]) for share in (1.0, 0.5, 0.3)]
+    forms = [sheet.text([(sheet.shortened(text, "small", share * room), _CARD["text"])]) for share in (1.0, 0.5, 0.3)]
     away, anchor = (20 * sheet.unit, "midtop") if below else (-20 * sheet.unit, "midbottom")
     layout.put("hand", forms, (at[0], at[1] + away), anchor)
 
@@ -113,8 +113,8 @@ def draw_pull(sheet: Canvas, layout: Layout, start: tuple[float, float], pull: t
     across = -pull[1] / length * 6 * sheet.unit, pull[0] / length * 6 * sheet.unit
     for side in (-1, 1):
         foot = start[0] + side * across[0], start[1] + side * across[1]
-        pygame.draw.aaline(sheet.surface, CARD["shadow"], foot, hand, max(3, round(4.5 * sheet.unit)))
-        pygame.draw.aaline(sheet.surface, CARD["accent"], foot, hand, max(2, round(2.5 * sheet.unit)))
-    sheet.painter.disc(hand, 8.5 * sheet.unit, CARD["shadow"], 0.8)
-    sheet.painter.disc(hand, 6.5 * sheet.unit, CARD["accent"])
-    label(sheet, layout, text, hand, below=pull[1] >= 0)
+        pygame.draw.aaline(sheet.surface, _CARD["shadow"], foot, hand, max(3, round(4.5 * sheet.unit)))
+        pygame.draw.aaline(sheet.surface, _CARD["accent"], foot, hand, max(2, round(2.5 * sheet.unit)))
+    sheet.painter.disc(hand, 8.5 * sheet.unit, _CARD["shadow"], 0.8)
+    sheet.painter.disc(hand, 6.5 * sheet.unit, _CARD["accent"])
+    _label(sheet, layout, text, hand, below=pull[1] >= 0)

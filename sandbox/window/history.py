@@ -21,7 +21,7 @@ class Changes(NamedTuple):
         return self.source, {key: self.values.get(key) for key in self.positions}
 
 
-class Step(NamedTuple):
+class _Step(NamedTuple):
     """The parameters after something was done."""
 
     changes: Changes
@@ -33,7 +33,7 @@ class History:
     """The parameters so far, and which of them are current."""
 
     def __init__(self, changes: Changes) -> None:
-        self.steps = [Step(changes, None, 0)]
+        self.steps = [_Step(changes, None, 0)]
         self.now = 0
 
     def add(self, changes: Changes, what: object = None, shot: int = 0) -> None:
@@ -44,7 +44,7 @@ class History:
         del self.steps[self.now + 1 :]
         if what is not None and what == current.what:
             self.steps.pop()
-        self.steps.append(Step(changes, what, shot))
+        self.steps.append(_Step(changes, what, shot))
         del self.steps[:-DEPTH]
         self.now = len(self.steps) - 1
 

@@ -10,7 +10,7 @@ from sandbox.window.background import Workers
 from sandbox.window.messages import Messages
 
 
-class Job(NamedTuple):
+class _Job(NamedTuple):
     """Work under way."""
 
     work: Future[Any]
@@ -23,11 +23,11 @@ class Jobs:
 
     def __init__(self, workers: Workers, messages: Messages) -> None:
         self.workers, self.messages = workers, messages
-        self.waiting: list[Job] = []
+        self.waiting: list[_Job] = []
 
     def ask(self, work: Future[Any], then: Callable[[Any], object], said: str = "") -> None:
         """Do something with a result once it is there; until then the player is told what is being done."""
-        self.waiting.append(Job(work, then, said))
+        self.waiting.append(_Job(work, then, said))
 
     def stop(self) -> bool:
         """Stop what the player is told is being done; returns whether there was anything."""

@@ -12,16 +12,16 @@ from sandbox.window.history import Changes
 from sandbox.window.shots import LONGEST_FRAME, STEP, Playback, Shot
 
 #: So much of the path is drawn behind the ball, in s, at so many points.
-TRAIL, POINTS = 0.25, 16
+_TRAIL, _POINTS = 0.25, 16
 
 
-class LiveShot(Shot):
+class _LiveShot(Shot):
     """A shot so far."""
 
     def track(self, ball: str) -> np.ndarray:
         """Points of the last part of a ball's path."""
         end = self.run.duration
-        times = np.linspace(max(0.0, end - TRAIL), end, POINTS)
+        times = np.linspace(max(0.0, end - _TRAIL), end, _POINTS)
         return np.column_stack([times, self.run.states(ball, times)[:, :2]])
 
 
@@ -41,7 +41,7 @@ class Live(Playback):
         run = self._world.run()
         assert isinstance(run, SceneRun)
         times = {key: [list(pair) for pair in held] for key, held in self._held.items()}
-        return LiveShot(run.scene, run, self._changes._replace(values={**self._changes.values, **times}))
+        return _LiveShot(run.scene, run, self._changes._replace(values={**self._changes.values, **times}))
 
     @property
     def whole(self) -> Shot:

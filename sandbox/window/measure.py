@@ -17,14 +17,14 @@ from sandbox.window.canvas import Canvas
 from sandbox.window.layout import Layout
 from sandbox.window.shots import Shot
 
-CARD = palette("card")
+_CARD = palette("card")
 
 #: The mouse reads a trace from this distance, in px on 720 rows.
 NEAR = 11.0
 
 
 @dataclass(frozen=True)
-class Reading:
+class _Reading:
     """A ball at one time of its path, and where that is in px."""
 
     ball: str
@@ -38,10 +38,10 @@ def reading(
     mouse: tuple[int, int],
     near: float,
     until: float | None,
-) -> Reading | None:
+) -> _Reading | None:
     """The point of a trace nearest to the mouse, no farther than ``near`` px; up to the time ``until`` in s. ``pixels``
     gives the places in px of points in m, both of shape (n, 2)."""
-    best: Reading | None = None
+    best: _Reading | None = None
     for ball in shot.movers:
         track = shot.track(ball)
         if until is not None:
@@ -52,7 +52,7 @@ def reading(
         if away <= near:
             t = float(track[i, 0] + share * (track[i + 1, 0] - track[i, 0]))
             ((x, y),) = pixels(np.array([shot.run.state(ball, t)[:2]])).tolist()
-            near, best = away, Reading(ball, t, (x, y))
+            near, best = away, _Reading(ball, t, (x, y))
     return best
 
 
@@ -67,18 +67,18 @@ def away_from(line: np.ndarray, at: tuple[float, float]) -> tuple[float, int, fl
     return float(away[i]), i, float(share[i])
 
 
-def draw_reading(sheet: Canvas, layout: Layout, shot: Shot, read: Reading, entries: Sequence[Entry]) -> None:
+def draw_reading(sheet: Canvas, layout: Layout, shot: Shot, read: _Reading, entries: Sequence[Entry]) -> None:
     """A mark on the trace, and next to it the ball's state there."""
     unit = sheet.unit
-    sheet.painter.disc(read.at, 7 * unit, CARD["background"], 0.9)
-    sheet.painter.disc(read.at, 5 * unit, CARD["text"])
+    sheet.painter.disc(read.at, 7 * unit, _CARD["background"], 0.9)
+    sheet.painter.disc(read.at, 5 * unit, _CARD["text"])
     rows = [("time", f"{read.t:.3f} s"), *((e[0], e[1]) for e in entries if e[0] != "time")]
     if len(shot.movers) > 1:
         rows.insert(0, ("ball", read.ball))
-    beside(sheet, layout, "reading", rows, read.at)
+    _beside(sheet, layout, "reading", rows, read.at)
 
 
-def beside(sheet: Canvas, layout: Layout, name: str, rows: Sequence[tuple[str, str]], at: tuple[float, float]) -> None:
+def _beside(sheet: Canvas, layout: Layout, name: str, rows: Sequence[tuple[str, str]], at: tuple[float, float]) -> None:
     """A card of labels and values next to a place in px, on the side where there is room; the last rows go first."""
     middle, away = sheet.surface.get_rect().center, 16 * sheet.unit
     right, below = at[0] > 1.3 * middle[0], at[1] < middle[1]
@@ -105,12 +105,12 @@ class Tape:
         a, b = camera.pixel(*self.start), camera.pixel(*self.end)
         unit = sheet.unit
         if hypot(b[0] - a[0], b[1] - a[1]) > 1:
-            sheet.painter.line([a, b], 4.5 * unit, CARD["background"], 0.75)
-            sheet.painter.dashes([a, b], 2.2 * unit, CARD["text"], 9 * unit, 5 * unit)
+            sheet.painter.line([a, b], 4.5 * unit, _CARD["background"], 0.75)
+            sheet.painter.dashes([a, b], 2.2 * unit, _CARD["text"], 9 * unit, 5 * unit)
         for at in (a, b):
-            sheet.painter.disc(at, 5.5 * unit, CARD["background"], 0.9)
-            sheet.painter.disc(at, 3.6 * unit, CARD["accent"])
+            sheet.painter.disc(at, 5.5 * unit, _CARD["background"], 0.9)
+            sheet.painter.disc(at, 3.6 * unit, _CARD["accent"])
         along, across = self.end[0] - self.start[0], self.end[1] - self.start[1]
         names = ("along", "up") if upright else ("x", "y")
         lengths = [("tape", self.length), (names[0], along), (names[1], across)]
-        beside(sheet, layout, "tape", [(name, metres(length, 2)) for name, length in lengths], b)
+        _beside(sheet, layout, "tape", [(name, metres(length, 2)) for name, length in lengths], b)

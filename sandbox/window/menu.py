@@ -16,12 +16,12 @@ from sandbox.window.canvas import Canvas
 from sandbox.window.overlay import HOVERED, Overlay, Row
 from sandbox.workers import Processes
 
-CARD = palette("card")
+_CARD = palette("card")
 
 #: Size of a thumbnail in px, and width of the column of groups in px on 720 rows.
-THUMBNAIL, COLUMN = (160, 90), 170
+THUMBNAIL, _COLUMN = (160, 90), 170
 #: The picture of a scene in its folder; and its opacity (of 255) in place of a thumbnail that is still made.
-TILE_FILE, UNTIL_THEN = "tile.jpg", 90
+TILE_FILE, _UNTIL_THEN = "tile.jpg", 90
 
 
 def tile_of(folder: Path | None, size: tuple[int, int]) -> pygame.Surface | None:
@@ -124,8 +124,8 @@ class Menu(Overlay):
         sheet.board(rect)
         small, top = letters.height("small"), rect.top + letters.height("medium") + 3 * gap
         at, title = (rect.left + 3 * gap, rect.top + 2 * gap), letters.cut(self.title, "medium", rect.width, bold=True)
-        sheet.write(title, "medium", at, CARD["text"], bold=True)
-        wide = max(round(COLUMN * unit), max(letters.width(name, "small", True) for name in self.groups) + 4 * gap)
+        sheet.write(title, "medium", at, _CARD["text"], bold=True)
+        wide = max(round(_COLUMN * unit), max(letters.width(name, "small", True) for name in self.groups) + 4 * gap)
         wide = min(wide, rect.width // 3)
         tall = min(small + gap, (rect.bottom - top - gap) // len(self.groups))
         for number, name in enumerate(self.groups):
@@ -150,13 +150,13 @@ class Menu(Overlay):
             frame.midleft = place.left + gap, place.centery
             self._picture(self.picture_of, row.action, frame)
             x, y, wide = frame.right + 2 * gap, place.top + gap, place.right - frame.right - 3 * gap
-            colour = CARD["accent" if row.action in self.on else "text"]
+            colour = _CARD["accent" if row.action in self.on else "text"]
             sheet.write(letters.cut(row.text, "small", wide, True), "small", (x, y), colour, bold=True)
             lines, most = letters.wrapped(row.about, "small", wide), max(1, (place.height - gap) // small - 1)
             if len(lines) > most:
                 lines = [*lines[: most - 1], letters.cut(" ".join(lines[most - 1 :]), "small", wide)]
             for line, text in enumerate(lines, 1):
-                sheet.write(text, "small", (x, y + line * small), CARD["quiet"])
+                sheet.write(text, "small", (x, y + line * small), _CARD["quiet"])
 
     def _tiles(self, picture_of: Callable[[str], Future[bytes]], room: pygame.Rect, frame: pygame.Rect) -> None:
         """The rows as pictures with their names below, as many in a row as there is room for."""
@@ -173,7 +173,7 @@ class Menu(Overlay):
             self.part(place, row)
             frame.midtop = place.centerx, place.top + gap
             self._picture(picture_of, row.action, frame)
-            colour = CARD["accent" if row.action in self.on else "text"]
+            colour = _CARD["accent" if row.action in self.on else "text"]
             name = letters.cut(row.text, "small", frame.width, True)
             sheet.write(name, "small", (place.centerx, frame.bottom + gap), colour, "midtop", bold=True)
 
@@ -187,8 +187,8 @@ class Menu(Overlay):
             image = pygame.image.frombuffer(pixels, THUMBNAIL, "RGB")
             self.sheet.surface.blit(pygame.transform.smoothscale(image, frame.size), frame)
             return
-        self.sheet.painter.panel(frame, CARD["quiet"], 0.12, 4 * self.sheet.unit)
+        self.sheet.painter.panel(frame, _CARD["quiet"], 0.12, 4 * self.sheet.unit)
         tile = None if picture.done() else tile_of(folder_of(source), frame.size)
         if tile is not None:
-            tile.set_alpha(UNTIL_THEN)
+            tile.set_alpha(_UNTIL_THEN)
             self.sheet.surface.blit(tile, frame)

@@ -9,10 +9,10 @@ from sandbox.tracebacks import one_line_error
 from sandbox.workers import WorkerLost
 
 #: How long a message stays, in s.
-MESSAGE = 6.0
+_MESSAGE = 6.0
 
 
-class Message(NamedTuple):
+class _Message(NamedTuple):
     """A line for the player."""
 
     text: str
@@ -31,12 +31,12 @@ class Messages:
     """Holds the message of the moment, and what is wrong with files that were saved."""
 
     def __init__(self) -> None:
-        self.message: Message | None = None
+        self.message: _Message | None = None
         self.unreadable: str | None = None  # what is wrong with the files as last saved
 
     def tell(self, text: str, bad: bool = False) -> None:
         """Say something for a while."""
-        self.message = Message(text, bad, MESSAGE)
+        self.message = _Message(text, bad, _MESSAGE)
 
     def tell_error(self, error: BaseException) -> None:
         """Say for a while what went wrong."""
@@ -64,4 +64,4 @@ class Messages:
         """``dt`` s have passed."""
         if self.message is not None:
             text, bad, left = self.message
-            self.message = Message(text, bad, left - dt) if left > dt else None
+            self.message = _Message(text, bad, left - dt) if left > dt else None

@@ -21,15 +21,15 @@ from sandbox.window.worker import checked, checked_replay
 
 #: Loading a scene that takes longer than this, in s, is given up; one that came with the sandbox ends, and is slow only
 #: where the machine is.
-LOADING, LOADING_INSTALLED = 10.0, 120.0
+LOADING, _LOADING_INSTALLED = 10.0, 120.0
 
 
 def limit_of(folder: Path | None) -> float:
     """The time in s after which loading a scene is given up."""
-    return LOADING_INSTALLED if folder is not None and is_installed(folder) else LOADING
+    return _LOADING_INSTALLED if folder is not None and is_installed(folder) else LOADING
 
 
-class Loading(NamedTuple):
+class _Loading(NamedTuple):
     """A scene on its way: the worker loads and builds it first."""
 
     work: Future[None]
@@ -53,7 +53,7 @@ class Opening:
         """``opened`` is called when a replay has been opened."""
         self.aiming, self.workers, self.messages, self.opened = aiming, workers, messages, opened
         self.session, self.path, self.watching = aiming.session, aiming.path, aiming.watching
-        self.loading: Loading | None = None
+        self.loading: _Loading | None = None
 
     def open(self, source: str) -> None:
         """Play another scene or preset, or watch a replay."""
@@ -119,7 +119,7 @@ class Opening:
         """Do something with a scene once the worker has loaded it; or say why it could not be."""
         if self.loading is not None:  # of what is no longer wanted
             self.workers.path.abandon(self.loading.work)
-        self.loading = Loading(work, then, failed, f"loading {what}", perf_counter(), limit, again)
+        self.loading = _Loading(work, then, failed, f"loading {what}", perf_counter(), limit, again)
         self.take(self.workers.patience)
 
     def take(self, patience: float | None) -> None:

@@ -16,14 +16,14 @@ from sandbox.window.layout import Layout
 from sandbox.window.measure import away_from
 from sandbox.window.stage import draw_line
 
-CARD, TRACE = palette("card"), palette("trace")
+_CARD, _TRACE = palette("card"), palette("trace")
 
 #: Opacity of the pale panel under what is chosen, or under the mouse.
 HOVERED = 0.27
 #: From this distance in px on 720 rows a mark or a path is clicked.
-NEAR = 16.0
+_NEAR = 16.0
 #: What keys do, in columns and rows.
-STEPS = {
+_STEPS = {
     pygame.K_LEFT: (-1, 0), pygame.K_RIGHT: (1, 0), pygame.K_UP: (0, -1), pygame.K_DOWN: (0, 1),
     pygame.K_PAGEUP: (0, -10), pygame.K_PAGEDOWN: (0, 10),
 }  # fmt: skip
@@ -76,11 +76,11 @@ class Overlay:
 
     def key(self, key: int) -> bool | None:
         """Do what a key does; returns whether the overlay stays, or None if the key does nothing here."""
-        if not self.rows or (key not in STEPS and key != pygame.K_RETURN):
+        if not self.rows or (key not in _STEPS and key != pygame.K_RETURN):
             return None
         if key == pygame.K_RETURN:
             return self.chosen is None or self.do(self.chosen)
-        across, down = STEPS[key]
+        across, down = _STEPS[key]
         if across:
             self.turn(across)
         else:
@@ -139,7 +139,7 @@ class Overlay:
         self.places.append((place, what))
         here = place.collidepoint(self.mouse) or (what == self.chosen and self.hovered is None)
         colour = "text" if here and colour == "quiet" else colour
-        self.sheet.item(place, text, CARD[colour], max(how.pop("lit", 0.0), HOVERED * here), **how)
+        self.sheet.item(place, text, _CARD[colour], max(how.pop("lit", 0.0), HOVERED * here), **how)
 
     def listed(self, room: pygame.Rect, tall: int) -> list[tuple[Any, pygame.Rect]]:
         """The rows for which a room has space, each with its place, ``tall`` px high; a bar at the right shows which
@@ -157,9 +157,9 @@ class Overlay:
         if count <= self.seen:
             return 0
         bar = pygame.Rect(room.right - gap // 2, room.top, max(2, gap // 2), tall)
-        self.sheet.surface.fill(mix(CARD["background"], CARD["quiet"], 0.2), bar)
+        self.sheet.surface.fill(mix(_CARD["background"], _CARD["quiet"], 0.2), bar)
         bar.top, bar.height = bar.top + tall * self.first // count, tall * min(self.seen, count - self.first) // count
-        self.sheet.surface.fill(CARD["quiet"], bar)
+        self.sheet.surface.fill(_CARD["quiet"], bar)
         return gap
 
     def width_of_words(self, sheet: Canvas) -> int:
@@ -173,9 +173,9 @@ class Overlay:
         sheet, gap, on, right = self.sheet, self.sheet.gap, row.action in self.on, place.right - 2 * self.sheet.gap
         end = right - sheet.lettering.width(row.key, "small", bold=True) - 2 * gap if row.key else right
         self.part(place, row, row.text, "accent" if on else "quiet", left=place.left + 2 * gap, right=end)
-        sheet.write(row.key, "small", (right, place.centery), CARD["text"], "midright", bold=True)
+        sheet.write(row.key, "small", (right, place.centery), _CARD["text"], "midright", bold=True)
         if on:
-            sheet.painter.disc((place.left + gap, place.centery), 3.5 * sheet.unit, CARD["accent"])
+            sheet.painter.disc((place.left + gap, place.centery), 3.5 * sheet.unit, _CARD["accent"])
 
 
 class Chart(Overlay):
@@ -234,7 +234,7 @@ class Board(Overlay):
         sheet.board(rect)
         if self.title:
             place = pygame.Rect(rect.left + gap, rect.top + gap, rect.width - 2 * gap, tall)
-            sheet.item(place, self.title, CARD["accent"], bold=True, left=place.left + 2 * gap)
+            sheet.item(place, self.title, _CARD["accent"], bold=True, left=place.left + 2 * gap)
         room = pygame.Rect(rect.left + gap, rect.top + gap + head, rect.width - 2 * gap, rect.height - head - 2 * gap)
         for row, place in self.listed(room, tall):
             self.words(row, place)
@@ -261,7 +261,7 @@ class Choice(Board):
         marks: Callable[[], Sequence[PictureChoice]],
     ) -> None:
         super().__init__(rows, choose, foot, title, now=rows[0].action)
-        self.marks, self.near = marks, NEAR
+        self.marks, self.near = marks, _NEAR
 
     def at(self, position: tuple[int, int]) -> Row | None:
         found: Row | None = super().at(position)
@@ -272,16 +272,16 @@ class Choice(Board):
 
     def compose(self) -> None:
         sheet, unit, painter = self.sheet, self.sheet.unit, self.sheet.painter
-        self.near = NEAR * unit
+        self.near = _NEAR * unit
         hovered = self.at(self.mouse) or self.chosen
         for mark in sorted(self.marks(), key=lambda mark: mark.action == hovered.action):
             here, middle = mark.action == hovered.action, tuple(mark.line[len(mark.line) // 2])
-            colour = mark.colour if here else mix(mark.colour, CARD["background"], 0.25)
+            colour = mark.colour if here else mix(mark.colour, _CARD["background"], 0.25)
             if len(mark.line) > 1:
                 width = (4.0 if here else 2.5) * unit
-                draw_line(sheet.surface, mark.line, width + 2, TRACE["rim"])
+                draw_line(sheet.surface, mark.line, width + 2, _TRACE["rim"])
                 draw_line(sheet.surface, mark.line, width, colour)
-            painter.disc(middle, 12 * unit, CARD["background"], 0.85)
-            painter.ring(middle, 11 * unit, 2.2 * unit, CARD["accent"] if here else colour)
-            sheet.lettering.write(sheet.surface, mark.name, "small", middle, CARD["text"], "center", bold=True)
+            painter.disc(middle, 12 * unit, _CARD["background"], 0.85)
+            painter.ring(middle, 11 * unit, 2.2 * unit, _CARD["accent"] if here else colour)
+            sheet.lettering.write(sheet.surface, mark.name, "small", middle, _CARD["text"], "center", bold=True)
         super().compose()

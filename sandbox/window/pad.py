@@ -13,12 +13,12 @@ from sandbox.sport.amounts import amount
 from sandbox.window.canvas import Canvas
 from sandbox.window.session import Session
 
-CARD = palette("card")
+_CARD = palette("card")
 
 #: Radius of the ball in px on 720 rows.
-RADIUS = 36.0
+_RADIUS = 36.0
 #: A spin that has a unit reaches so many times its value in the file, or so many notches of the wheel.
-TIMES, NOTCHES = 2.0, 20
+_TIMES, _NOTCHES = 2.0, 20
 
 
 class Pad:
@@ -32,7 +32,7 @@ class Pad:
         self.reaches = [self._reach(p, spin.step) for p, spin in zip(self.spins, spins, strict=False)]
         #: The tip of a cue: both in radii of the ball, so it slips off beyond a circle.
         self.is_tip = len(self.spins) == 2 and all(p.unit == "" for p in self.spins)
-        self.radius, row = share * RADIUS * self.unit, sheet.lettering.height("small")
+        self.radius, row = share * _RADIUS * self.unit, sheet.lettering.height("small")
         self.texts = self._texts()
         width = max(2 * self.radius, *(sheet.lettering.width(text, "small") for text in self.texts))
         tall = 2 * self.radius + len(self.texts) * row + 4 * sheet.gap
@@ -49,7 +49,7 @@ class Pad:
         if parameter.unit == "":
             return 1.0
         base = self.session.base_value(parameter.key)
-        return max(TIMES * abs(base if isinstance(base, float) else 0.0), NOTCHES * step)
+        return max(_TIMES * abs(base if isinstance(base, float) else 0.0), _NOTCHES * step)
 
     def _texts(self) -> list[str]:
         if self.is_tip:
@@ -83,29 +83,29 @@ class Pad:
         """On a card: the ball, the circle of the tip, or how far it turns in a moment."""
         self.rect, sheet = rect, self.sheet
         unit, (x, y), radius = self.unit, self.centre, self.radius
-        sheet.painter.panel(self.rect, CARD["background"], 0.85, 8 * unit)
-        sheet.painter.disc((x, y), radius, CARD["text"], 0.92)
+        sheet.painter.panel(self.rect, _CARD["background"], 0.85, 8 * unit)
+        sheet.painter.disc((x, y), radius, _CARD["text"], 0.92)
         shares = [p.value / reach for p, reach in zip(self.spins, self.reaches, strict=True)]
         across, up = (shares[1], shares[0]) if self.is_tip else (shares[0], shares[1] if len(shares) > 1 else 0.0)
         across, up = (min(max(share, -1.0), 1.0) for share in (across, up))
         for dx, dy in ((1, 0), (0, 1)):
             ends = [(x - dx * radius, y - dy * radius), (x + dx * radius, y + dy * radius)]
-            sheet.painter.line(ends, unit, CARD["quiet"], 0.7)
+            sheet.painter.line(ends, unit, _CARD["quiet"], 0.7)
         if self.is_tip:
-            sheet.painter.ring((x, y), self.most * radius, 1.5 * unit, CARD["bad"])
+            sheet.painter.ring((x, y), self.most * radius, 1.5 * unit, _CARD["bad"])
         elif across:  # an arc around the ball, from the top to where a point of it gets; counter-clockwise
             turn = across * pi
             arc = [(x - 0.8 * radius * sin(a), y - 0.8 * radius * cos(a)) for a in
                    (turn * i / 24 for i in range(25))]  # fmt: skip
-            sheet.painter.line(arc, 3 * unit, CARD["accent"])
+            sheet.painter.line(arc, 3 * unit, _CARD["accent"])
             way = atan2(arc[-1][1] - arc[-2][1], arc[-1][0] - arc[-2][0])
             tip = arc[-1][0] + 6 * unit * cos(way), arc[-1][1] + 6 * unit * sin(way)
-            sheet.painter.arrow(arc[-2], tip, 3 * unit, CARD["accent"])
+            sheet.painter.arrow(arc[-2], tip, 3 * unit, _CARD["accent"])
         at = x + across * radius, y - up * radius
-        sheet.painter.disc(at, 6.5 * unit, CARD["background"])
-        sheet.painter.disc(at, 5 * unit, CARD["accent"])
+        sheet.painter.disc(at, 6.5 * unit, _CARD["background"])
+        sheet.painter.disc(at, 5 * unit, _CARD["accent"])
         row = sheet.lettering.height("small")
         for number, text in enumerate(self.texts):
             place = self.rect.left + 2 * sheet.gap, y + radius + sheet.gap + number * row
-            colour = CARD["text"] if number == 0 else CARD["quiet"]
+            colour = _CARD["text"] if number == 0 else _CARD["quiet"]
             sheet.lettering.write(sheet.surface, text, "small", place, colour)

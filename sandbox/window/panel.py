@@ -16,15 +16,15 @@ from sandbox.window.canvas import Canvas
 from sandbox.window.game import Game
 from sandbox.window.overlay import Board, Overlay, Row
 
-CARD = palette("card")
+_CARD = palette("card")
 
-WIDTH, NARROWEST = 320, 280  # px on 720 rows; px
+_WIDTH, _NARROWEST = 320, 280  # px on 720 rows; px
 #: A slider reaches this many times the value in the file to either side, and at least this share of the bounds.
-REACH, LEAST_REACH = 1.5, 0.02
+_REACH, _LEAST_REACH = 1.5, 0.02
 #: Opacity of the pale panel under a field or a button.
-FIELD_LIT = 0.16
+_FIELD_LIT = 0.16
 #: Width of the field of a number in px where a line has 24, and radius of a slider's knob in px on 720 rows.
-FIELD, KNOB = 84, 7
+_FIELD, _KNOB = 84, 7
 FAVOURITES, RESET_ALL = "this shot", "reset all"
 #: Parts of a row.
 FIELD_OF, SLIDER_OF, RESET_OF = "field", "slider", "reset"
@@ -69,7 +69,7 @@ class Setting:
             return None
         low, high = self.parameter.low, self.parameter.high
         value = self.value if self.base is None else self.base
-        reach = max(REACH * abs(value), LEAST_REACH * (high - low) * (value == 0 or low < 0))
+        reach = max(_REACH * abs(value), _LEAST_REACH * (high - low) * (value == 0 or low < 0))
         if high - low <= 4 * reach:
             return low, high
         return max(low, value - reach), min(high, value + reach)
@@ -273,18 +273,18 @@ class Panel(Overlay):
 
     def lay_out(self, sheet: Canvas, height: int) -> None:
         """Its place at the right of the window."""
-        wide = min(max(NARROWEST, round(WIDTH * sheet.unit)), sheet.size[0] // 2)
+        wide = min(max(_NARROWEST, round(_WIDTH * sheet.unit)), sheet.size[0] // 2)
         self.rect = pygame.Rect(sheet.size[0] - wide, 0, wide, height)
 
     def compose(self) -> None:
-        sheet, gap, self.knob = self.sheet, self.sheet.gap, round(KNOB * self.sheet.unit)
+        sheet, gap, self.knob = self.sheet, self.sheet.gap, round(_KNOB * self.sheet.unit)
         line = sheet.lettering.height("small") + gap
-        sheet.surface.fill(CARD["background"], self.rect)
+        sheet.surface.fill(_CARD["background"], self.rect)
         inner = self.rect.inflate(-4 * gap, -3 * gap)
         half = (inner.width - gap) * 6 // 10
-        self.part(pygame.Rect(inner.topleft, (half, line)), FAVOURITES, self.group, lit=FIELD_LIT, mark=1)
+        self.part(pygame.Rect(inner.topleft, (half, line)), FAVOURITES, self.group, lit=_FIELD_LIT, mark=1)
         place = pygame.Rect(inner.left + half + gap, inner.top, inner.width - half - gap, line)
-        self.part(place, RESET_ALL, RESET_ALL, lit=FIELD_LIT)
+        self.part(place, RESET_ALL, RESET_ALL, lit=_FIELD_LIT)
         top = inner.top + line + 2 * gap
         listed = self.listed(pygame.Rect(inner.left, top, inner.width, inner.bottom - top), 2 * line + gap // 2)
         for row, place in listed:
@@ -298,28 +298,28 @@ class Panel(Overlay):
         top = pygame.Rect(place.topleft, (place.width, line))
         below = top.move(0, line)
         reset = pygame.Rect(top.right - line, top.top, line, line)
-        field = pygame.Rect(reset.left - gap // 2 - FIELD * line // 24, top.top, FIELD * line // 24, line)
+        field = pygame.Rect(reset.left - gap // 2 - _FIELD * line // 24, top.top, _FIELD * line // 24, line)
         right = (reset.left if words else field.left) - gap
-        colour = CARD["accent" if row == self.chosen else "text"]
+        colour = _CARD["accent" if row == self.chosen else "text"]
         sheet.item(top, self._name(row, right - top.left), colour, left=top.left, right=right)
         if row.value != row.base:
-            self.part(reset, (row, RESET_OF), "×", lit=FIELD_LIT)
+            self.part(reset, (row, RESET_OF), "×", lit=_FIELD_LIT)
         typed = row == self.typing
         text = self._typed(field.width - 2 * gap) if typed else row.written
-        self.part(below if words else field, (row, FIELD_OF), text, lit=FIELD_LIT, mark=words)
+        self.part(below if words else field, (row, FIELD_OF), text, lit=_FIELD_LIT, mark=words)
         if typed:
-            pygame.draw.rect(sheet.surface, CARD["accent"], field, 1, border_radius=gap)
+            pygame.draw.rect(sheet.surface, _CARD["accent"], field, 1, border_radius=gap)
             if self.whole:
                 selected = sheet.lettering.rect(text, "small", (field.left + gap, field.centery), "midleft")
-                sheet.surface.fill(mix(CARD["background"], CARD["accent"], 0.4), selected)
-                sheet.item(field, text, CARD["text"])
+                sheet.surface.fill(mix(_CARD["background"], _CARD["accent"], 0.4), selected)
+                sheet.item(field, text, _CARD["text"])
         if row.span is not None:
             low, high = row.span
             self.places.append((below, (row, SLIDER_OF)))
             groove = pygame.Rect(below.left + self.knob, below.centery - 2, below.width - 2 * self.knob, 4)
-            sheet.surface.fill(mix(CARD["background"], CARD["quiet"], 0.35), groove)
+            sheet.surface.fill(mix(_CARD["background"], _CARD["quiet"], 0.35), groove)
             share = min(max((row.value - low) / ((high - low) or 1.0), 0.0), 1.0)
-            sheet.painter.disc((groove.left + share * groove.width, groove.centery), self.knob, CARD["accent"])
+            sheet.painter.disc((groove.left + share * groove.width, groove.centery), self.knob, _CARD["accent"])
 
     def _typed(self, room: int) -> str:
         """The text that is typed with its caret, from so far left that the caret is seen in ``room`` px."""
@@ -344,4 +344,4 @@ class Panel(Overlay):
         if parameter.low is not None and parameter.high is not None:
             text += f"; from {parameter.low:g} to {parameter.high:g} {parameter.unit}".rstrip()
         lines, left = self.sheet.lettering.wrapped(text, "small", self.rect.width), self.rect.left - self.sheet.gap
-        self.sheet.card([(each, CARD["text"]) for each in lines], "topright", (left, row))
+        self.sheet.card([(each, _CARD["text"]) for each in lines], "topright", (left, row))

@@ -14,7 +14,7 @@ from sandbox.window.measure import Tape
 from sandbox.window.scoreboard import CHOICES
 from sandbox.window.view import View
 
-Pixel = tuple[int, int]  # px
+_Pixel = tuple[int, int]  # px
 
 #: One notch of the wheel enlarges the picture by this factor.
 NOTCH = 1.15
@@ -25,7 +25,7 @@ class Pointer:
 
     def __init__(self, view: View) -> None:
         self.view = view
-        self.drag: Callable[[Pixel], object] | None = None  # what the next place of a drag does
+        self.drag: Callable[[_Pixel], object] | None = None  # what the next place of a drag does
         self.fingers: dict[int, tuple[float, float]] = {}  # on a touch screen, px
 
     def handle(self, event: pygame.event.Event) -> None:
@@ -87,7 +87,7 @@ class Pointer:
             other = bool(held & pygame.KMOD_SHIFT) or event.x != 0
             view.game.aiming.nudge(aim.spun(view.game.session, int(other), event.y or event.x))
 
-    def _pressed(self, at: Pixel) -> Callable[[Pixel], object] | None:
+    def _pressed(self, at: _Pixel) -> Callable[[_Pixel], object] | None:
         """Do what a press does; returns what dragging from there does."""
         view, game = self.view, self.view.game
         button = view.screen.bar.command_at(at)
@@ -106,7 +106,7 @@ class Pointer:
             return self._on_picture(at)
         return None
 
-    def _on_picture(self, at: Pixel) -> Callable[[Pixel], object] | None:
+    def _on_picture(self, at: _Pixel) -> Callable[[_Pixel], object] | None:
         view, game = self.view, self.view.game
         if not view.stages.ready:
             game.messages.tell("the scene is still loading")
@@ -144,12 +144,12 @@ class Pointer:
         return None
 
     @staticmethod
-    def _begun(drag: Callable[[Pixel], object], at: Pixel) -> Callable[[Pixel], object]:
+    def _begun(drag: Callable[[_Pixel], object], at: _Pixel) -> Callable[[_Pixel], object]:
         """A drag that does something at once."""
         drag(at)
         return drag
 
-    def _aim_on_map(self, to: Pixel) -> None:
+    def _aim_on_map(self, to: _Pixel) -> None:
         """Aim with the speed and the angle at a place of the map."""
         view, known = self.view, self.view.map.job.value
         rect = view.targets.cards.get("map")
@@ -158,40 +158,40 @@ class Pointer:
             across, up = (min(max(share, 0.0), 1.0) for share in shares)
             view.game.aiming.nudge(aim.aimed(view.game.session, *known.aim(across, up)))
 
-    def _pan(self, to: Pixel) -> None:
+    def _pan(self, to: _Pixel) -> None:
         self.view.viewpoint.pan(to[0] - self.view.targets.mouse[0], to[1] - self.view.targets.mouse[1])
 
-    def _scrub(self, to: Pixel) -> None:
+    def _scrub(self, to: _Pixel) -> None:
         playback = self.view.game.watching.playback
         if playback is not None:
             playback.seek(self.view.screen.bar.share(to) * playback.duration)
             self.view.changed = True
 
-    def _drag_handle(self, shown: ShownGrip, start: Pixel, to: Pixel) -> None:
+    def _drag_handle(self, shown: ShownGrip, start: _Pixel, to: _Pixel) -> None:
         if self.view.game.grasp.grip is not None:
             step = shown.step(snap=bool(pygame.key.get_mods() & pygame.KMOD_SHIFT))
             self.view.game.grasp.drag_to(shown.dragged(start, to), step)
 
-    def _pull(self, at: Pixel) -> Callable[[Pixel], object]:
+    def _pull(self, at: _Pixel) -> Callable[[_Pixel], object]:
         view = self.view
         stretch = view.stages.latest.camera.stretch if view.stages.latest is not None else 1.0
         view.game.grasp.begin_pull(at, view.screen.canvas.get_size(), view.screen.area.height, stretch)
         return lambda to: view.game.grasp.pull_to(to, fine=bool(pygame.key.get_mods() & pygame.KMOD_SHIFT))
 
-    def _perhaps_pull(self, start: Pixel, to: Pixel) -> None:
+    def _perhaps_pull(self, start: _Pixel, to: _Pixel) -> None:
         """A pull ends the watching of a shot that is over; a click does not."""
         if abs(to[0] - start[0]) + abs(to[1] - start[1]) >= aim.LEAST:
             self.view.game.aiming.again(from_rest=True)
             self.drag = self._pull(start)
             self.drag(to)
 
-    def _lay(self, at: Pixel) -> Callable[[Pixel], object] | None:
+    def _lay(self, at: _Pixel) -> Callable[[_Pixel], object] | None:
         view = self.view
         if view.viewpoint.camera is None or not view.screen.area.collidepoint(at):
             return None
         start = view.viewpoint.camera.world(*at)
 
-        def lay(to: Pixel) -> None:
+        def lay(to: _Pixel) -> None:
             if view.viewpoint.camera is not None:
                 view.shown.tape = Tape(start, view.viewpoint.camera.world(*to))
 

@@ -13,9 +13,9 @@ from sandbox.window.contest import Contest, Entries
 from sandbox.window.shots import Shot
 
 #: A prediction is good if it is off by no more than this share of the way.
-GOOD = 0.05
+_GOOD = 0.05
 #: So many of the last errors are shown.
-SHOWN = 8
+_SHOWN = 8
 
 
 class Prediction(Contest):
@@ -59,19 +59,19 @@ class Prediction(Contest):
     def _off(self, run: SceneRun) -> tuple[float, float]:
         """The distance in m of a landing beyond its mark, or from above away from it; and that of the whole shot."""
         shot, mark = Shot(run.scene, run), self.mark or (0.0, 0.0)
-        (x0, y0), (_, x, y) = run.state(shot.ball, 0.0)[:2], landing(shot)
+        (x0, y0), (_, x, y) = run.state(shot.ball, 0.0)[:2], _landing(shot)
         return (x - mark[0], abs(x - x0)) if shot.upright else (dist((x, y), mark), dist((x, y), (x0, y0)))
 
     def decided_at(self, run: SceneRun) -> float:
-        return landing(Shot(run.scene, run))[0]
+        return _landing(Shot(run.scene, run))[0]
 
     def would_score(self, run: SceneRun) -> bool:
         off, way = self._off(run)
-        return abs(off) <= GOOD * way
+        return abs(off) <= _GOOD * way
 
     def record(self, run: SceneRun) -> None:
         shot, (off, _) = Shot(run.scene, run), self._off(run)
-        self.good, self.landed, self.fresh = self.would_score(run), landing(shot)[1:], False
+        self.good, self.landed, self.fresh = self.would_score(run), _landing(shot)[1:], False
         if shot.upright and self.mark is not None:
             self.mark = self.mark[0], self.landed[1]  # on the ground, as far as it was
         self.errors.append(abs(off))
@@ -95,11 +95,11 @@ class Prediction(Contest):
 
     @property
     def table(self) -> Entries:
-        first = max(0, len(self.errors) - SHOWN)
+        first = max(0, len(self.errors) - _SHOWN)
         return [(f"prediction {number}", metres(error)) for number, error in enumerate(self.errors, 1)][first:]
 
 
-def landing(shot: Shot) -> tuple[float, float, float]:
+def _landing(shot: Shot) -> tuple[float, float, float]:
     """The time in s and the place in m at which a shot lands: from the side where the ball first touches something,
     from above where it stops or is caught."""
     run, ball = shot.run, shot.ball

@@ -21,11 +21,11 @@ from sandbox.window.shots import STEP, Shot
 from sandbox.window.worker import computed, unpacked
 
 #: What decided a shot is shown again from so long before it, in s, this much slower, until so long after it.
-BEFORE, SLOWER, AFTER = 0.5, 0.25, 0.2
+_BEFORE, _SLOWER, AFTER = 0.5, 0.25, 0.2
 #: How long a success glows, in s, and how long the end of each of the best shots stays.
-GLOW, PAUSE = 1.6, 1.2
+GLOW, _PAUSE = 1.6, 1.2
 #: Among so many events the one that decides is looked for.
-MOST = 100
+_MOST = 100
 
 
 class Referee:
@@ -194,8 +194,8 @@ class Referee:
             return
         if contest.good and playback is not None and playback.shot is shot and self.watching.live is None:
             self.again = "slow"
-            playback.seek(self.decided - BEFORE)
-            playback.rate, playback.playing = SLOWER * min(1.0, playback.rate), True
+            playback.seek(self.decided - _BEFORE)
+            playback.rate, playback.playing = _SLOWER * min(1.0, playback.rate), True
         if contest.over:
             self._rested, self._next_best = 0.0, 0
             self.ended(contest)
@@ -207,7 +207,7 @@ class Referee:
         if playback is None or playback.playing or self._next_best >= len(best):
             return
         self._rested += dt
-        if self._rested >= PAUSE:
+        if self._rested >= _PAUSE:
             self._rested = 0.0
             self.watching.watch(self.shots[best[::-1][self._next_best]])
             self._next_best, self.again = self._next_best + 1, "best"
@@ -230,7 +230,7 @@ def decided_at(shot: Shot) -> float:
         times = np.linspace(0.0, run.duration, max(2, round(run.duration / STEP)))
         states = [tuple(state) for state in run.states(shot.ball, times)]
         found += [t for t, a, b in zip(times[1:], states, states[1:], strict=False) if condition.passed(a, b)][:1]
-        found += [e.t for i, e in enumerate(run.events[:MOST], 1) if condition.over(run.events[:i])][:1]
+        found += [e.t for i, e in enumerate(run.events[:_MOST], 1) if condition.over(run.events[:i])][:1]
     if found:
         return float(min(found))
     caught = [event for event in run.events if event.kind == "caught"]

@@ -33,9 +33,9 @@ from sandbox.scene.scene_run import SceneRun
 from sandbox.window.session import Session
 from sandbox.window.shots import Shot
 
-FORMAT, VERSION = "sandbox replay", 2
+_FORMAT, _VERSION = "sandbox replay", 2
 #: Most bytes of a replay: that of an hour with all its arcs has less.
-LARGEST = 200_000_000
+_LARGEST = 200_000_000
 SUFFIX = ".replay.json"
 
 
@@ -47,7 +47,7 @@ def save(shot: Shot, path: Path) -> None:
         "parameters": shot.scene.parameters.model_dump(mode="json"),
         "run": _through_json(data_of(shot.run)),
     }
-    record = {"format": FORMAT, "version": VERSION, "check": checksum(body), "body": body}
+    record = {"format": _FORMAT, "version": _VERSION, "check": checksum(body), "body": body}
     with writing("", path), atomic_write(path) as file:
         json.dump(record, file)
 
@@ -69,13 +69,13 @@ def read(path: Path, scene: str | None = None, running: Path | None = None) -> S
     be in the folder ``running``, whose code runs already.
     """
     try:
-        record = json.loads(read_given(path, LARGEST))
+        record = json.loads(read_given(path, _LARGEST))
     except (ValueError, RecursionError):
         raise RequestError(f"{path}: damaged: not complete JSON") from None
-    if not isinstance(record, dict) or record.get("format") != FORMAT:
+    if not isinstance(record, dict) or record.get("format") != _FORMAT:
         raise RequestError(f"{path}: not a replay")
-    if record.get("version") != VERSION:
-        raise RequestError(f"{path}: a replay of version {record.get('version')}, but this program reads {VERSION}")
+    if record.get("version") != _VERSION:
+        raise RequestError(f"{path}: a replay of version {record.get('version')}, but this program reads {_VERSION}")
     body = record.get("body")
     if not isinstance(body, dict) or checksum(body) != record.get("check"):
         raise RequestError(f"{path}: damaged: its contents do not match its checksum")

@@ -21,20 +21,20 @@ from sandbox.window.canvas import Canvas
 from sandbox.window.fan import within
 from sandbox.window.layout import Form
 
-CARD = palette("card")
+_CARD = palette("card")
 
 #: Half of each side, in standard deviations of what a player hits.
-REACH = 15.0
+_REACH = 15.0
 #: Cells along speed and angle: at first, and three times as many, if the first took less than this time in s. Odd, so
 #: that the shot itself is the middle of a cell.
 COARSE, FINER, QUICK = (13, 9), 3, 0.5
 #: Size of the map's cells together, in px on 720 rows.
-MAP = (210, 150)
+_MAP = (210, 150)
 #: What is said of a map on which nothing scores: where to look.
-NOTHING = "none scores; / looks farther"
+_NOTHING = "none scores; / looks farther"
 #: What is not in the picture, such as the direction to the side, has so many values at each cell, on one side, since
 #: left and right are alike: each stands for as many shots.
-ASIDE = 5
+_ASIDE = 5
 
 
 class ScoreMap(NamedTuple):
@@ -69,7 +69,7 @@ class ScoreMap(NamedTuple):
     @property
     def said(self) -> str:
         """The share for people; where nothing scores, what to do."""
-        return f"{100 * self.share:.0f} % of these score" if self.share else NOTHING
+        return f"{100 * self.share:.0f} % of these score" if self.share else _NOTHING
 
 
 def score_map(scene: Scene, finer: int = 1) -> ScoreMap:
@@ -85,7 +85,7 @@ def score_map(scene: Scene, finer: int = 1) -> ScoreMap:
     ends, middles = [], []
     for key, other, count in zip(keys, usual, COARSE, strict=True):
         parameter = known[key]
-        reach = REACH * spread.get(key, other).sigma(parameter.value)
+        reach = _REACH * spread.get(key, other).sigma(parameter.value)
         low, high = within(parameter, np.array([parameter.value - reach, parameter.value + reach])).tolist()
         ends.append((low, max(high, low + 1e-9)))
         shares = (np.arange(finer * count) + 0.5) / (finer * count)
@@ -112,7 +112,7 @@ def _unseen(scene: Scene) -> np.ndarray:
     scatter = [players_spread(scene)[key] for key in _hidden(scene)]
     if not scatter:
         return np.empty((1, 0))
-    sizes = [NormalDist().inv_cdf(0.5 + 0.5 * (place + 0.5) / ASIDE) for place in range(ASIDE)]
+    sizes = [NormalDist().inv_cdf(0.5 + 0.5 * (place + 0.5) / _ASIDE) for place in range(_ASIDE)]
     return np.array([[parameter.value + sd * size for parameter, sd in scatter] for size in sizes])
 
 
@@ -129,14 +129,14 @@ def map_forms(
     """The map on a card with a ring at the aim, smaller ones, and at last the share that scores alone; ``drawn`` is
     told where the cells are."""
     maps = [_map_form(sheet, found, aim, drawn, share) for share in (1.0, 0.75, 0.55)]
-    return [*maps, sheet.text([(found.said, CARD["text"])])._replace(whole=False)]
+    return [*maps, sheet.text([(found.said, _CARD["text"])])._replace(whole=False)]
 
 
 def _coloured(cells: np.ndarray) -> np.ndarray:
     """The colours of cells, shape (speeds, angles, 3): greener the more shots score."""
-    missed, failed = np.array(mix(CARD["background"], CARD["quiet"], 0.3)), np.array(CARD["bad"])
+    missed, failed = np.array(mix(_CARD["background"], _CARD["quiet"], 0.3)), np.array(_CARD["bad"])
     share = np.nan_to_num(cells)[..., None]
-    colours = missed + share * (np.array(CARD["good"]) - missed)
+    colours = missed + share * (np.array(_CARD["good"]) - missed)
     return np.where(np.isnan(cells)[..., None], failed, colours).round().astype(np.uint8)
 
 
@@ -144,27 +144,27 @@ def _map_form(
     sheet: Canvas, found: ScoreMap, aim: tuple[float, float], drawn: Callable[[pygame.Rect], object], share: float
 ) -> Form:
     letters, gap, unit = sheet.lettering, sheet.gap, sheet.unit
-    row, (wide, tall) = letters.height("small"), (round(share * length * unit) for length in MAP)
+    row, (wide, tall) = letters.height("small"), (round(share * length * unit) for length in _MAP)
     (slow, fast), (low, high) = found.speeds, found.angles
     below = f"{slow:.3g}  {found.units[0]}  {fast:.3g}"
     wide = max(wide, letters.width(below, "small"))
     up = max(letters.width(f"{angle:.3g}", "small") for angle in (low, high))
     whole = max(wide + up + 2 * gap, letters.width(found.said, "small")) + 4 * gap
 
-    def write(text: str, at: tuple[float, float], anchor: str, colour: Colour = CARD["quiet"]) -> None:
+    def write(text: str, at: tuple[float, float], anchor: str, colour: Colour = _CARD["quiet"]) -> None:
         letters.write(sheet.surface, text, "small", at, colour, anchor)
 
     def draw(card: pygame.Rect) -> None:
-        sheet.painter.panel(card, CARD["background"], 0.9, 8 * unit)
+        sheet.painter.panel(card, _CARD["background"], 0.9, 8 * unit)
         cells = pygame.Rect(card.right - 2 * gap - wide, card.top + row + 2 * gap, wide, tall)
         image = pygame.surfarray.make_surface(_coloured(found.cells[:, ::-1]))
         sheet.surface.blit(pygame.transform.scale(image, cells.size), cells)
         across, along = found.place(*aim)
         if 0 <= across <= 1 and 0 <= along <= 1:
             at = cells.left + across * wide, cells.bottom - along * tall
-            for radius, colour in ((6.5, CARD["background"]), (5.0, CARD["accent"])):
+            for radius, colour in ((6.5, _CARD["background"]), (5.0, _CARD["accent"])):
                 sheet.painter.ring(at, radius * unit, 2.5 * unit, colour)
-        write(found.said, (card.left + 2 * gap, card.top + gap), "topleft", CARD["text"])
+        write(found.said, (card.left + 2 * gap, card.top + gap), "topleft", _CARD["text"])
         speed, angle = found.units
         foot = cells.bottom + gap // 2
         write(f"{slow:.3g}", (cells.left, foot), "topleft")

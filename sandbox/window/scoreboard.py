@@ -16,14 +16,14 @@ from sandbox.window.contest import AtTask, Contest
 from sandbox.window.layout import Form
 from sandbox.window.referee import GLOW, Referee
 
-CARD = palette("card")
+_CARD = palette("card")
 
 #: Places of buttons in px, by command.
-Buttons = dict[str, pygame.Rect]
+_Buttons = dict[str, pygame.Rect]
 #: Radius of a star on the card at the end, and of a small one in a list; px on 720 rows.
-STAR, SMALL_STAR = 30.0, 8.0
+_STAR, SMALL_STAR = 30.0, 8.0
 #: Radius of a glow at its end, in px on 720 rows, and how many rays it has.
-RADIUS, RAYS = 110.0, 12
+_RADIUS, _RAYS = 110.0, 12
 
 #: What can be done at the end, by the command that does it: its key and what it is called.
 CHOICES = {"again": ("Enter", "play again"), "next_preset": ("PgDn", "next: "), "front": ("1", "all tasks and games")}
@@ -35,12 +35,12 @@ def headline_of(referee: Referee, contest: Contest) -> tuple[str, list[str], Col
         where = "elsewhere" if contest.in_hand else "anywhere"
         how = "set the sliders and press Space" if contest.aimed_by_panel else f"pull back {where} and let go"
         notes = [contest.stand] if contest.takes_marks else [contest.stand, how]
-        return contest.headline, notes, CARD["text"]
+        return contest.headline, notes, _CARD["text"]
     if contest.over:
-        return referee.said, ["the best shots, the best last"] if referee.again == "best" else [], CARD["text"]
+        return referee.said, ["the best shots, the best last"] if referee.again == "best" else [], _CARD["text"]
     notes = [contest.counts] if contest.counts else []
     notes += ["Enter or click: the next shot", "R: see it again"]
-    return referee.said, notes, CARD["good" if contest.good else "text"]
+    return referee.said, notes, _CARD["good" if contest.good else "text"]
 
 
 def star(sheet: Canvas, centre: tuple[float, float], radius: float, lit: bool) -> None:
@@ -51,7 +51,7 @@ def star(sheet: Canvas, centre: tuple[float, float], radius: float, lit: bool) -
          y - (radius if i % 2 == 0 else 0.42 * radius) * cos(i * pi / 5))
         for i in range(10)
     ]  # fmt: skip
-    sheet.painter.polygon(points, CARD["accent"] if lit else mix(CARD["background"], CARD["quiet"], 0.5))
+    sheet.painter.polygon(points, _CARD["accent"] if lit else mix(_CARD["background"], _CARD["quiet"], 0.5))
 
 
 def stars(sheet: Canvas, at: tuple[float, float], radius: float, lit: int) -> None:
@@ -63,14 +63,14 @@ def stars(sheet: Canvas, at: tuple[float, float], radius: float, lit: int) -> No
 def draw_glow(sheet: Canvas, at: tuple[float, float], left: float) -> None:
     """The light of a success around a place in px, ``left`` s before it is gone."""
     share = 1.0 - left / GLOW
-    far = RADIUS * sheet.unit * (0.25 + 0.75 * share**0.5)
+    far = _RADIUS * sheet.unit * (0.25 + 0.75 * share**0.5)
     fade = max(0.0, 1.0 - share)
-    sheet.painter.disc(at, 0.8 * far, CARD["accent"], 0.22 * fade)
-    sheet.painter.ring(at, far, 5 * sheet.unit, CARD["accent"], 0.9 * fade)
-    for ray in range(RAYS):
-        turn = 2.0 * pi * (ray + 0.5) / RAYS
+    sheet.painter.disc(at, 0.8 * far, _CARD["accent"], 0.22 * fade)
+    sheet.painter.ring(at, far, 5 * sheet.unit, _CARD["accent"], 0.9 * fade)
+    for ray in range(_RAYS):
+        turn = 2.0 * pi * (ray + 0.5) / _RAYS
         ends = [(at[0] + length * far * cos(turn), at[1] - length * far * sin(turn)) for length in (0.55, 0.85)]
-        sheet.painter.line(ends, 4 * sheet.unit, CARD["accent"], 0.9 * fade)
+        sheet.painter.line(ends, 4 * sheet.unit, _CARD["accent"], 0.9 * fade)
 
 
 def draw_mark(sheet: Canvas, spots: Sequence[tuple[float, float]], upright: bool) -> None:
@@ -78,13 +78,13 @@ def draw_mark(sheet: Canvas, spots: Sequence[tuple[float, float]], upright: bool
     places in px."""
     unit, (x, y) = sheet.unit, spots[0]
     for other in spots[1:]:
-        sheet.painter.line([(x, y), other], 3 * unit, CARD["accent"], 0.9)
-        sheet.painter.ring(other, 9 * unit, 3 * unit, CARD["accent"])
-    for colour, wider in ((CARD["background"], 3.0), (CARD["accent"], 0.0)):
+        sheet.painter.line([(x, y), other], 3 * unit, _CARD["accent"], 0.9)
+        sheet.painter.ring(other, 9 * unit, 3 * unit, _CARD["accent"])
+    for colour, wider in ((_CARD["background"], 3.0), (_CARD["accent"], 0.0)):
         if upright:
             sheet.painter.line([(x, y), (x, y - 44 * unit)], (3 + wider) * unit, colour)
             flag = [(x, y - 44 * unit), (x + 22 * unit, y - 36 * unit), (x, y - 28 * unit)]
-            sheet.painter.polygon(flag, CARD["accent"])
+            sheet.painter.polygon(flag, _CARD["accent"])
             continue
         for across in (-1, 1):
             ends = [(x - 9 * unit, y - across * 9 * unit), (x + 9 * unit, y + across * 9 * unit)]
@@ -92,7 +92,7 @@ def draw_mark(sheet: Canvas, spots: Sequence[tuple[float, float]], upright: bool
 
 
 def end_forms(
-    sheet: Canvas, contest: Contest, best: BestList, place: int, mouse: tuple[int, int], found: Buttons
+    sheet: Canvas, contest: Contest, best: BestList, place: int, mouse: tuple[int, int], found: _Buttons
 ) -> list[Form]:
     """The card at the end of a contest: its choices side by side, or one below the other. ``place`` is that in the best
     list, 0 for none; the places of its buttons, by command, go into ``found`` once it is drawn."""
@@ -110,11 +110,11 @@ def _end_form(
     lines: Sequence[tuple[str, str, str]],
     choices: Mapping[str, str],
     mouse: tuple[int, int],
-    found: Buttons,
+    found: _Buttons,
     across: bool,
 ) -> Form:
     """The card with ``lit`` stars, lines of text with their size and colour, and choices side by side if ``across``."""
-    letters, gap, radius = sheet.lettering, sheet.gap, STAR * sheet.unit
+    letters, gap, radius = sheet.lettering, sheet.gap, _STAR * sheet.unit
     row, count = letters.height("small") + 2 * gap, len(choices)
     widths = {name: letters.width(text, "small") + 4 * gap for name, text in choices.items()}
     side = sum(widths.values()) + (count - 1) * gap if across else max(widths.values())
@@ -125,19 +125,19 @@ def _end_form(
     tall += row if across else count * (row + gap) - gap
 
     def draw(rect: pygame.Rect) -> None:
-        sheet.painter.panel(rect, CARD["background"], 0.94, 12 * sheet.unit)
+        sheet.painter.panel(rect, _CARD["background"], 0.94, 12 * sheet.unit)
         if lit is not None:
             stars(sheet, (rect.centerx - 2.4 * radius, rect.top + 2 * gap + 1.2 * radius), radius, lit)
         y = rect.top + 2 * gap + head
         for text, size, colour in lines:
             text = letters.cut(text, size, rect.width - 4 * gap, size == "medium")
-            sheet.write(text, size, (rect.centerx, y), CARD[colour], "midtop", bold=size == "medium")
+            sheet.write(text, size, (rect.centerx, y), _CARD[colour], "midtop", bold=size == "medium")
             y += letters.height(size) + gap
         left, y = rect.centerx - side // 2, y + gap
         for name, text in choices.items():
             button = found[name] = pygame.Rect(left, y, widths[name] if across else side, row)
             shade = 0.35 if button.collidepoint(mouse) else 0.16
-            sheet.item(button, text, CARD["accent"], shade, left=button.left + 2 * gap, right=button.right)
+            sheet.item(button, text, _CARD["accent"], shade, left=button.left + 2 * gap, right=button.right)
             left, y = (left + widths[name] + gap, y) if across else (left, y + row + gap)
 
     return Form((wide, tall), draw)

@@ -9,10 +9,10 @@ from sandbox.window.bar import HEIGHT, Bar
 from sandbox.window.canvas import Canvas
 from sandbox.window.panel import Panel
 
-SIZE = (1280, 720)
+_SIZE = (1280, 720)
 #: A window takes this share of the desktop's width and height, or SIZE if that is more, and leaves so many px of them,
 #: for its title and what else lies along the edges of a desktop.
-SHARE, EDGES = 2 / 3, (16, 80)
+_SHARE, _EDGES = 2 / 3, (16, 80)
 #: Everything is drawn at least this large, and shrunk for a smaller window.
 SMALLEST = (480, 400)
 
@@ -20,8 +20,8 @@ SMALLEST = (480, 400)
 def size_for(desktop: tuple[int, int]) -> tuple[int, int]:
     """The size of a new window on a desktop, both in px."""
     width, height = (
-        max(1, min(max(usual, round(SHARE * room)), room - edges))
-        for usual, room, edges in zip(SIZE, desktop, EDGES, strict=True)
+        max(1, min(max(usual, round(_SHARE * room)), room - edges))
+        for usual, room, edges in zip(_SIZE, desktop, _EDGES, strict=True)
     )
     return width, height
 

@@ -17,10 +17,10 @@ from sandbox.window.history import Changes
 from sandbox.window.shots import Shot, scene_without_controls
 
 #: Files are checked so often, in s.
-EVERY = 0.2
+_EVERY = 0.2
 
 
-class Watch:
+class _Watch:
     """Checks the time and size of files at intervals; a file that is missing for a moment is being saved."""
 
     def __init__(self, files: Sequence[Path]) -> None:
@@ -30,7 +30,7 @@ class Watch:
     def saved(self, dt: float) -> list[Path]:
         """The files that changed since the last call, ``dt`` s ago."""
         self.waited += dt
-        if self.waited < EVERY:
+        if self.waited < _EVERY:
             return []
         self.waited = 0.0
         changed = []
@@ -71,13 +71,13 @@ class Session:
         scene = base.changed(changes, "--set") if changes else base
         self.base, self.scene = base, scene
         self.changes = Changes(source, dict(changes or {}))
-        self.watch, self.limits = Watch(self.files), None
+        self.watch, self.limits = _Watch(self.files), None
 
     def show(self, scene: Scene, source: str, limits: Mapping[str, tuple[float, float]] | None) -> None:
         """Begin with a scene as it stands, of which no more than this may be changed, each within its bounds (None: all
         may); its files are no longer watched."""
         self.base = self.scene = scene
-        self.changes, self.watch, self.limits = Changes(source, {}), Watch([]), limits
+        self.changes, self.watch, self.limits = Changes(source, {}), _Watch([]), limits
 
     @property
     def source(self) -> str:
@@ -203,7 +203,7 @@ class Session:
             self.base = before
             raise
         if [*self.watch.seen] != self.files:  # it begins from other files now
-            self.watch = Watch(self.files)
+            self.watch = _Watch(self.files)
 
     def command(self) -> str:
         """The command line that runs this."""

@@ -25,11 +25,11 @@ if TYPE_CHECKING:
     from sandbox.scene.scene_run import SceneRun
 
 #: So many paths are kept, apart from those that are pinned; and so many shots without their paths.
-PATHS, MOST = 20, 5000
+PATHS, _MOST = 20, 5000
 #: Of a standard normal: 95 % lie within.
-Z = 1.96
+_Z = 1.96
 #: How fast a shot is watched.
-RATES = (1 / 16, 1 / 8, 1 / 4, 1 / 2, 1.0, 2.0, 4.0, 8.0)
+_RATES = (1 / 16, 1 / 8, 1 / 4, 1 / 2, 1.0, 2.0, 4.0, 8.0)
 #: So many earlier shots are drawn, apart from those that are pinned.
 SHOWN = 5
 STEP = 1 / 60  # s of the shot, for one step by hand
@@ -37,7 +37,7 @@ STEP = 1 / 60  # s of the shot, for one step by hand
 LONGEST_FRAME = 1 / 30
 
 
-def without(scene: Scene, keys: Iterable[str]) -> tuple[Any, ...]:
+def _without(scene: Scene, keys: Iterable[str]) -> tuple[Any, ...]:
     """A scene without the parameters at some keys: equal for two scenes, of the same code, that differ only there."""
     values = scene.parameters.model_dump()
     for key in keys:
@@ -52,7 +52,7 @@ def without(scene: Scene, keys: Iterable[str]) -> tuple[Any, ...]:
 def scene_without_controls(scene: Scene) -> tuple[Any, ...]:
     """A scene without what a player aims with: speed, angle, spins, how the shot begins, which keys are held."""
     controls = scene.controls
-    return without(
+    return _without(
         scene,
         {
             controls.speed,
@@ -87,7 +87,7 @@ class Shot:
     @cached_property
     def scene_without_aim(self) -> tuple[Any, ...]:
         """The scene without the speed and the angle of the shot."""
-        return without(self.scene, (self.scene.controls.speed, self.scene.controls.angle))
+        return _without(self.scene, (self.scene.controls.speed, self.scene.controls.angle))
 
     @cached_property
     def aim(self) -> tuple[float, float]:
@@ -191,8 +191,8 @@ class Playback:
         self.t = min(max(t, 0.0), self.duration)
 
     def change_rate(self, by: int) -> None:
-        index = RATES.index(self.rate) + by
-        self.rate = self.chosen = RATES[min(max(index, 0), len(RATES) - 1)]
+        index = _RATES.index(self.rate) + by
+        self.rate = self.chosen = _RATES[min(max(index, 0), len(_RATES) - 1)]
 
     @property
     def slowed(self) -> bool:
@@ -236,7 +236,7 @@ class Shots:
         self.count += 1
         shot = replace(shot, number=self.count)
         self.rows.append(Played(shot, title))
-        del self.rows[:-MOST]
+        del self.rows[:-_MOST]
         self._drop_paths()
         return shot
 
@@ -268,8 +268,8 @@ class Shots:
 def interval(scored: int, n: int) -> tuple[float, float]:
     """The 95 % interval of the true share of shots, of n of which so many scored: lower and upper end (Wilson 1927)."""
     p = scored / n
-    middle, half = p + Z**2 / (2 * n), Z * sqrt(p * (1 - p) / n + Z**2 / (4 * n**2))
-    low, high = ((middle + sign * half) / (1 + Z**2 / n) for sign in (-1, 1))
+    middle, half = p + _Z**2 / (2 * n), _Z * sqrt(p * (1 - p) / n + _Z**2 / (4 * n**2))
+    low, high = ((middle + sign * half) / (1 + _Z**2 / n) for sign in (-1, 1))
     return max(0.0, low), min(1.0, high)
 
 

@@ -13,9 +13,9 @@ from sandbox.window.shots import Shot
 
 #: How much of the path is shown while aiming; and how tasks call it.
 AHEAD = ("all", "to the first contact", "the first metre", "nothing")
-OF_TASKS = dict(zip(SHOWN, AHEAD, strict=True))
+_OF_TASKS = dict(zip(SHOWN, AHEAD, strict=True))
 #: The fan can be made this many times wider or narrower.
-WIDEST = 16.0
+_WIDEST = 16.0
 
 
 class Shown:
@@ -33,7 +33,7 @@ class Shown:
     def ahead(self) -> str:
         """The part of the path that is shown while aiming: the player's choice, or that of the contest."""
         contest = self.game.referee.contest
-        return self._ahead if contest is None else OF_TASKS[contest.shown]
+        return self._ahead if contest is None else _OF_TASKS[contest.shown]
 
     @property
     def seen(self) -> tuple[Any, ...]:
@@ -61,7 +61,7 @@ class Shown:
 
     def widen_fan(self, factor: float) -> None:
         """Show the fan with a spread so many times as wide."""
-        self.fan_width = min(max(self.fan_width * factor, 1 / WIDEST), WIDEST)
+        self.fan_width = min(max(self.fan_width * factor, 1 / _WIDEST), _WIDEST)
         self.on.add("fan")
 
     def show_more_ahead(self) -> None:

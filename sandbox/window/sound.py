@@ -10,19 +10,19 @@ from contextlib import contextmanager
 import numpy as np
 import pygame
 
-RATE = 44100  # samples per second
-LONGEST = 0.16  # s
+_RATE = 44100  # samples per second
+_LONGEST = 0.16  # s
 #: Speed in m/s of the loudest knock, and one so slow that it is not heard.
-LOUD, QUIET = 20.0, 0.15
+_LOUD, _QUIET = 20.0, 0.15
 #: Pitch in Hz of a knock against a fixed thing, and against a ball.
-DULL, BRIGHT = 210.0, 1250.0
+DULL, _BRIGHT = 210.0, 1250.0
 #: The notes of a success in Hz (C, E and G), how far apart they begin, in s, and how long they sound.
-NOTES, APART, CHIME = (523.25, 659.25, 783.99), 0.09, 0.9
+_NOTES, _APART, _CHIME = (523.25, 659.25, 783.99), 0.09, 0.9
 
 
 def knock(pitch: float) -> np.ndarray:
     """A struck body: two partials that die away under a click of noise; 16 bit, shape (samples, 2)."""
-    t = np.arange(round(RATE * LONGEST)) / RATE
+    t = np.arange(round(_RATE * _LONGEST)) / _RATE
     noise = np.random.default_rng(1).standard_normal(len(t))
     wave = np.sin(2 * np.pi * pitch * t) * np.exp(-t * 38) + 0.5 * np.sin(2 * np.pi * 2.76 * pitch * t) * np.exp(
         -t * 70
@@ -33,12 +33,12 @@ def knock(pitch: float) -> np.ndarray:
     return np.ascontiguousarray(np.column_stack([samples, samples]))
 
 
-def chime() -> np.ndarray:
+def _chime() -> np.ndarray:
     """Three notes of a major chord, one after the other, each a bell that dies away; 16 bit, shape (samples, 2)."""
-    t = np.arange(round(RATE * CHIME)) / RATE
+    t = np.arange(round(_RATE * _CHIME)) / _RATE
     wave = np.zeros_like(t)
-    for number, pitch in enumerate(NOTES):
-        after = np.maximum(t - number * APART, 0.0)
+    for number, pitch in enumerate(_NOTES):
+        after = np.maximum(t - number * _APART, 0.0)
         note = np.sin(2 * np.pi * pitch * after) + 0.3 * np.sin(4 * np.pi * pitch * after)
         wave += note * np.exp(-after * 6) * (1 - np.exp(-after * 800))
     samples = np.round(wave / np.abs(wave).max() * 0.5 * 32767).astype(np.int16)
@@ -70,9 +70,9 @@ class Sound:
         self.chime: pygame.mixer.Sound | None = None
         try:
             with _no_stderr():
-                pygame.mixer.init(RATE, -16, 2, 512)
-            self.knocks = [pygame.sndarray.make_sound(knock(pitch)) for pitch in (DULL, BRIGHT)]
-            self.chime = pygame.sndarray.make_sound(chime())
+                pygame.mixer.init(_RATE, -16, 2, 512)
+            self.knocks = [pygame.sndarray.make_sound(knock(pitch)) for pitch in (DULL, _BRIGHT)]
+            self.chime = pygame.sndarray.make_sound(_chime())
         except (pygame.error, NotImplementedError, ImportError):
             pass
         self.there = bool(self.knocks)  # whether there is a device
@@ -80,10 +80,10 @@ class Sound:
 
     def impact(self, speed: float, of_balls: bool) -> None:
         """An impact at a normal speed in m/s."""
-        if not self.on or not self.knocks or speed < QUIET:
+        if not self.on or not self.knocks or speed < _QUIET:
             return
         knock = self.knocks[of_balls]
-        knock.set_volume(min(1.0, (speed / LOUD) ** 0.7))
+        knock.set_volume(min(1.0, (speed / _LOUD) ** 0.7))
         knock.play()
 
     def success(self) -> None:

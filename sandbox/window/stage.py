@@ -20,34 +20,34 @@ from sandbox.window.canvas import Canvas
 from sandbox.window.layout import Form, Layout
 from sandbox.window.shots import Shot
 
-CARD, TRACE = palette("card"), palette("trace")
-WHITE, BLACK = (255, 255, 255), (0, 0, 0)
+_CARD, _TRACE = palette("card"), palette("trace")
+_WHITE, _BLACK = (255, 255, 255), (0, 0, 0)
 
 #: The parts of a picture that are the same for all shots from one place, and take long to make.
-GROUND = ("place", "plan")
+_GROUND = ("place", "plan")
 #: A path closer than this to an edge of the stage, as a share of its size, makes it be composed anew.
-EDGE = 0.02
+_EDGE = 0.02
 #: Where a line bends by more than this, in rad, it has a round joint.
-JOINT = 0.2
+_JOINT = 0.2
 #: Distance in px from the edge of a line to its second smooth line, and to the end of its filling with rough edges.
-INSIDE, FILLED = 1.2, 0.9
+_INSIDE, _FILLED = 1.2, 0.9
 #: Up to this width, in px, the smooth lines fill a line between them.
-NARROW = 3.0
+_NARROW = 3.0
 #: Overlap in px of the pieces of a line; without it a gap would show where they meet.
-OVERLAP = 0.35
+_OVERLAP = 0.35
 #: The camera zooms in once the shot could be shown this many times larger.
-NEARER = 1.35
+_NEARER = 1.35
 #: Opacity of earlier shots (of 255), how much lighter a label is than its line, and how many places
 #: on its line are tried for a label.
-EARLIER, LIGHTER, PLACES = 215, 0.45, 9
+_EARLIER, _LIGHTER, _PLACES = 215, 0.45, 9
 #: Towards which colour, and how far, those of the earlier shots are mixed once all of them are taken.
-SHADES = ((WHITE, 0.0), (WHITE, 0.5), (BLACK, 0.4), (WHITE, 0.75))
+_SHADES = ((_WHITE, 0.0), (_WHITE, 0.5), (_BLACK, 0.4), (_WHITE, 0.75))
 #: So many squares along a path are left free where there is room.
-SQUARES = 50
+_SQUARES = 50
 #: What a headline leaves free for the wind at the right, in px on 720 rows.
-WIND = 100
+_WIND = 100
 #: Contacts closer together than this, in px, are marked once; and the largest number of marks.
-NEAR, MOST_CONTACTS = 14, 24
+_NEAR, _MOST_CONTACTS = 14, 24
 
 
 class Stage:
@@ -61,7 +61,7 @@ class Stage:
         """
         self.shot, self.size, self.chosen = shot, size, chosen
         self.picture = shot.run.scene.picture(shot.run, size)
-        vars(self.picture)["story_end"] = self.story = story_of(shot, self.picture.story_end)
+        vars(self.picture)["story_end"] = self.story = _story_of(shot, self.picture.story_end)
         self.whole = self.picture.camera
         vars(self.picture)["camera"] = chosen or self._camera_of(before) or self.whole
         self.camera = self.picture.camera
@@ -80,7 +80,7 @@ class Stage:
             return None
         if not before.is_place_of(self.shot):
             return None
-        near = self.whole.scale <= NEARER * before.camera.scale and before.camera.stretch == self.whole.stretch
+        near = self.whole.scale <= _NEARER * before.camera.scale and before.camera.stretch == self.whole.stretch
         return before.camera if near and before.holds(self.shot) else None
 
     def shows(self, shot: Shot, chosen: Camera | None) -> bool:
@@ -94,7 +94,7 @@ class Stage:
     def holds(self, shot: Shot) -> bool:
         """True if the path of another shot stays in sight."""
         shares = self.pixels(shot.track(shot.ball)[:, 1:]) / self.size
-        return shot.run is self.shot.run or bool((shares >= EDGE).all() and (shares <= 1 - EDGE).all())
+        return shot.run is self.shot.run or bool((shares >= _EDGE).all() and (shares <= 1 - _EDGE).all())
 
     def ball_at(self, shot: Shot, t: float = 0.0, ball: str = "") -> tuple[float, float]:
         """The place of a ball, by default the one that is played, in px."""
@@ -126,9 +126,9 @@ class Stage:
         layer = blank(self.size, transparent=True)
         for shot in shown:
             line = self.line(shot)
-            draw_line(layer, line, 4, TRACE["rim"])
+            draw_line(layer, line, 4, _TRACE["rim"])
             draw_line(layer, line, 2, self.colour_of(shot.number))
-        layer.set_alpha(EARLIER)
+        layer.set_alpha(_EARLIER)
         return layer
 
     def label_ghosts(self, sheet: Canvas, ghosts: Sequence[Shot], around: Shot, layout: Layout) -> None:
@@ -150,10 +150,10 @@ class Stage:
             name = str(shot.number) if shot.number else "before saving"
             text = sheet.shortened(f"{name}:  {shot.verdict}", "small", 0.3 * sheet.size[0])
             line = self.line(shot)
-            places = line[np.linspace(len(line) - 1, 0, PLACES).round().astype(int)]
+            places = line[np.linspace(len(line) - 1, 0, _PLACES).round().astype(int)]
             beyond = ((1.0, -1.0), (-1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
             spots = [(x + 9 * a, y + 9 * d, a, d) for x, y in places.tolist() for a, d in beyond]
-            labels.chip(text, spots, mix(self.colour_of(shot.number), CARD["text"], LIGHTER))
+            labels.chip(text, spots, mix(self.colour_of(shot.number), _CARD["text"], _LIGHTER))
         return labels
 
     def kept_clear(self, shot: Shot, t: float) -> list[pygame.Rect]:
@@ -169,16 +169,16 @@ class Stage:
         """Squares along the path of a shot, in px: cards leave it free where they can."""
         line = self.line(shot)
         far = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))])
-        every = np.linspace(0.0, far[-1], SQUARES)
+        every = np.linspace(0.0, far[-1], _SQUARES)
         points = np.column_stack([np.interp(every, far, axis) for axis in line.T])
         return [pygame.Rect(round(x) - 6, round(y) - 6, 12, 12) for x, y in points.tolist()]
 
     def colour_of(self, number: int) -> Colour:
         """The colour of an earlier shot, which stays the same; those whose paths are kept differ."""
-        own, usual = self.picture.OTHER_TRACES, [each for each in TRACE["colours"] if each != self.picture.TRACE]
+        own, usual = self.picture.OTHER_TRACES, [each for each in _TRACE["colours"] if each != self.picture.TRACE]
         colours = list(dict.fromkeys([*own, *usual]))
         round_, place = divmod(number - 1, len(colours))
-        towards, share = SHADES[round_ % len(SHADES)]
+        towards, share = _SHADES[round_ % len(_SHADES)]
         return mix(colours[place], towards, share)
 
     def draw_path(self, sheet: Canvas, shot: Shot, until: float | None = None) -> None:
@@ -188,7 +188,7 @@ class Stage:
         for ball in shot.movers[:-1]:
             draw_line(sheet.surface, self.line(shot, ball, until), thin, colour_of(ball))
         width, line = max(3, round(3.6 * sheet.unit)), self.line(shot, shot.ball, until)
-        draw_line(sheet.surface, line, width + 2, TRACE["rim"])
+        draw_line(sheet.surface, line, width + 2, _TRACE["rim"])
         draw_line(sheet.surface, line, width, colour_of(shot.ball))
         self._contacts(sheet, shot, until)
 
@@ -204,7 +204,7 @@ class Stage:
         picture: Picture[Any] = self._once("picture", shot, lambda: shot.run.scene.picture(shot.run, self.size))
         composed = {
             "camera": self.camera,
-            **{name: vars(self.picture)[name] for name in GROUND if name in vars(self.picture)},
+            **{name: vars(self.picture)[name] for name in _GROUND if name in vars(self.picture)},
         }
         vars(picture).update(composed)
         return picture
@@ -231,14 +231,14 @@ class Stage:
             if event.t < begins:
                 continue
             x, y = self.pixels(np.array([[event.x, event.y]]))[0].tolist()
-            if all(dist((x, y), other) >= NEAR * sheet.unit for other in marked):
+            if all(dist((x, y), other) >= _NEAR * sheet.unit for other in marked):
                 marked.append((x, y))
-        for at in marked[:MOST_CONTACTS]:
-            sheet.painter.disc(at, 5.0 * sheet.unit, TRACE["rim"], 0.7)
-            sheet.painter.disc(at, 3.6 * sheet.unit, CARD["accent"])
+        for at in marked[:_MOST_CONTACTS]:
+            sheet.painter.disc(at, 5.0 * sheet.unit, _TRACE["rim"], 0.7)
+            sheet.painter.disc(at, 3.6 * sheet.unit, _CARD["accent"])
 
 
-def story_of(shot: Shot, told: float) -> float:
+def _story_of(shot: Shot, told: float) -> float:
     """The time in s at which a shot's story ends in the window: with the next impact of the ball that is played after
     the verdict is in, at the time ``told``."""
     impacts = (e.t for e in shot.run.events if e.kind == "impact" and e.ball == shot.ball and e.t > told)
@@ -257,13 +257,13 @@ def draw_line(surface: pygame.Surface, points: np.ndarray, width: float, colour:
     lengths = np.maximum(np.hypot(*steps.T), 1e-9)
     along = steps / lengths[:, None]
     across = np.column_stack([-along[:, 1], along[:, 0]])
-    bends = np.hypot(*np.diff(across, axis=0).T) > JOINT
+    bends = np.hypot(*np.diff(across, axis=0).T) > _JOINT
     for point in points[1:-1][bends]:
         pygame.draw.aacircle(surface, colour, point, width / 2)
-    sides = np.array([width / 2 - 0.5, width / 2 - INSIDE, INSIDE - width / 2, 0.5 - width / 2])[:, None, None]
-    starts, ends = points[:-1] - OVERLAP * along, points[1:] + OVERLAP * along
-    if width > NARROW:
-        half = (width / 2 - FILLED) * across
+    sides = np.array([width / 2 - 0.5, width / 2 - _INSIDE, _INSIDE - width / 2, 0.5 - width / 2])[:, None, None]
+    starts, ends = points[:-1] - _OVERLAP * along, points[1:] + _OVERLAP * along
+    if width > _NARROW:
+        half = (width / 2 - _FILLED) * across
         begin, end = starts + 0.5, ends + 0.5  # pygame cuts the corners of a polygon off to whole px
         for quad in np.stack([begin + half, end + half, end - half, begin - half], axis=1).tolist():
             pygame.draw.polygon(surface, colour, quad)
@@ -275,7 +275,7 @@ def draw_line(surface: pygame.Surface, points: np.ndarray, width: float, colour:
 def headline(sheet: Canvas, text: str, notes: Sequence[str], colour: Colour) -> list[Form]:
     """The headline, large on a dark card, and a line below it with as many notes as there is room for; then smaller,
     and with fewer notes."""
-    room = sheet.frame.width - 4 * sheet.gap - WIND * sheet.unit
+    room = sheet.frame.width - 4 * sheet.gap - _WIND * sheet.unit
     rooms = [("large", 0.66 * sheet.size[0]), ("medium", room), ("small", room), ("small", 0.5 * room)]
     width = sheet.lettering.width
     forms = [_headline(sheet, text, notes, colour, size, room) for size, most in rooms
@@ -296,8 +296,8 @@ def _headline(sheet: Canvas, text: str, notes: Sequence[str], colour: Colour, si
     height = letters.height(size) + (letters.height("small") + sheet.gap) * bool(note)
 
     def draw(rect: pygame.Rect) -> None:
-        sheet.painter.panel(rect, CARD["background"], CARD["opacity"], 10 * sheet.unit)
+        sheet.painter.panel(rect, _CARD["background"], _CARD["opacity"], 10 * sheet.unit)
         at = sheet.write(text, size, (rect.left + inset, rect.top + sheet.gap), colour, bold=True)
-        sheet.write(note, "small", (at.left, at.bottom + sheet.gap), CARD["quiet"])
+        sheet.write(note, "small", (at.left, at.bottom + sheet.gap), _CARD["quiet"])
 
     return Form((width + 2 * inset, height + inset), draw)

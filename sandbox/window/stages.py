@@ -13,7 +13,7 @@ from sandbox.window.shots import Shot
 from sandbox.window.stage import Stage
 
 #: While an aim changes, the stage is composed anew at most this often, in s: the place must not jitter.
-STEADY = 0.3
+_STEADY = 0.3
 #: An aim that has not changed for this time, in s, gets a stage and a map of its own.
 AT_REST = 0.15
 
@@ -115,7 +115,7 @@ class Stages:
         if game.watching.live is not None:
             return True
         moving = game.grasp.pull is not None or not game.path.settled or game.still < AT_REST
-        return moving and (stage.holds(shot) or self._age < STEADY)
+        return moving and (stage.holds(shot) or self._age < _STEADY)
 
     def _take(self) -> bool:
         """Switch to a stage that was composed; returns whether there is one."""

@@ -13,19 +13,19 @@ from sandbox.window.canvas import Canvas
 from sandbox.window.overlay import HOVERED, Overlay
 from sandbox.window.shots import Played, interval
 
-CARD = palette("card")
+_CARD = palette("card")
 
 #: What is done with the chosen shot, or with all of them: its key, and how that is written.
-ACTIONS = {
+_ACTIONS = {
     "aim as it": (pygame.K_RETURN, "Enter  aim as it"),
     "pin": (pygame.K_p, "P  pin"),
     "delete": (pygame.K_DELETE, "Del  delete"),
     "csv": (pygame.K_c, "C  CSV file"),
 }
-FEWEST = 3  # rows that are seen
+_FEWEST = 3  # rows that are seen
 #: Share of the picture that it takes at most; width of a column, and height of the histogram, in px on 720 rows.
-SHARE, COLUMN, TALL = (0.92, 0.86), 104, 74
-BINS = 24
+_SHARE, _COLUMN, _TALL = (0.92, 0.86), 104, 74
+_BINS = 24
 
 
 class Table(Overlay):
@@ -57,7 +57,7 @@ class Table(Overlay):
     # Choosing
 
     def key(self, key: int) -> bool | None:
-        action = next((action for action, (named, _) in ACTIONS.items() if named == key), None)
+        action = next((action for action, (named, _) in _ACTIONS.items() if named == key), None)
         return self.do(action) if action is not None else super().key(key)
 
     def turn(self, by: int) -> None:
@@ -77,7 +77,7 @@ class Table(Overlay):
             self.chosen = what
         elif what.startswith("="):
             self.sort(what[1:])
-        elif what in ACTIONS and row is not None:
+        elif what in _ACTIONS and row is not None:
             if what == "delete":
                 place = rows.index(row)
                 self.chosen = next(iter([*rows[place + 1 :], *rows[:place][-1:]]), None)
@@ -89,10 +89,10 @@ class Table(Overlay):
     def place(self, sheet: Canvas) -> pygame.Rect:
         """In the middle, or with fewer rows seen where balls and what is aimed at stay in sight."""
         row = sheet.lettering.height("small") + sheet.gap
-        wide, most = (round(share * side) for share, side in zip(SHARE, sheet.size, strict=True))
-        rest = sheet.lettering.height("medium") + row + round(TALL * sheet.unit) + 7 * sheet.gap
+        wide, most = (round(share * side) for share, side in zip(_SHARE, sheet.size, strict=True))
+        rest = sheet.lettering.height("medium") + row + round(_TALL * sheet.unit) + 7 * sheet.gap
         full = min(rest + len(self.rows) * row, most)
-        sizes = [(wide, tall) for tall in range(full, min(full, rest + FEWEST * row) - 1, -row)]
+        sizes = [(wide, tall) for tall in range(full, min(full, rest + _FEWEST * row) - 1, -row)]
         rects = [pygame.Rect((0, 0), size) for size in sizes]
         for rect in rects:
             rect.center = sheet.surface.get_rect().center
@@ -105,15 +105,15 @@ class Table(Overlay):
         sheet.board(rect)
         inner = rect.inflate(-4 * gap, -3 * gap)
         title = f"{len(rows)} shots" if len(rows) != 1 else "1 shot"
-        sheet.write(title, "medium", inner.topleft, CARD["text"], bold=True)
+        sheet.write(title, "medium", inner.topleft, _CARD["text"], bold=True)
         right = inner.right
-        for action, (_, text) in reversed(ACTIONS.items()):
+        for action, (_, text) in reversed(_ACTIONS.items()):
             place = letters.rect(text, "small", (right, inner.top), "topright", bold=True).inflate(2 * gap, gap)
             self.part(place, action, text, "quiet", bold=True)
             right = place.left - 2 * gap
         top = inner.top + letters.height("medium") + gap
         columns: dict[str, tuple[int, int]] = {}  # left end and width of each
-        left, usual = inner.left, round(COLUMN * unit)
+        left, usual = inner.left, round(_COLUMN * unit)
         for key in self.columns:
             label = self._label(key, rows)
             wide = max(usual if key else round(0.7 * usual), letters.width(label, "small", bold=True) + 4 * gap)
@@ -124,7 +124,7 @@ class Table(Overlay):
             colour = "accent" if mark else "quiet"
             self.part(pygame.Rect(left, top, wide, row), f"={key}", label, colour, bold=True, mark=mark)
             left += wide
-        foot = inner.bottom - round(TALL * unit) - 2 * gap
+        foot = inner.bottom - round(_TALL * unit) - 2 * gap
         for played, place in self.listed(pygame.Rect(inner.left, top + row, inner.width, foot - top - row), row):
             self._row(played, place, columns)
         self.places.append((rect, ""))  # a click beside them does nothing
@@ -145,7 +145,7 @@ class Table(Overlay):
             value = played.numbers.get(key)
             text = str(played.number) if not key else "" if value is None else self._amount(key, [played], value)
             cell = pygame.Rect(left, place.top, wide, place.height)
-            sheet.item(cell, text, CARD["text"], left=left + (gap if key else 4 * gap))
+            sheet.item(cell, text, _CARD["text"], left=left + (gap if key else 4 * gap))
 
     def _statistics(self, rows: Sequence[Played], room: pygame.Rect) -> None:
         """Mean and standard deviation of the column that the table is sorted by, its histogram, and who scores."""
@@ -164,19 +164,19 @@ class Table(Overlay):
             lines.append(f"{self._label(self.by, rows)}: mean {mean}, standard deviation {spread}")
         for number, text in enumerate(lines):
             at = room.left, room.top + number * (small + sheet.gap)
-            sheet.write(letters.cut(text, "small", 0.62 * room.width), "small", at, CARD["text"])
+            sheet.write(letters.cut(text, "small", 0.62 * room.width), "small", at, _CARD["text"])
         if len(values) < 2:
             return
-        counts, ends = np.histogram(values, BINS)
+        counts, ends = np.histogram(values, _BINS)
         plot = pygame.Rect(0, room.top, round(0.32 * room.width), room.height - small)
-        plot.right, wide = room.right, plot.width / BINS
+        plot.right, wide = room.right, plot.width / _BINS
         for number, count in enumerate(counts):
             bar = pygame.Rect(0, 0, max(1, round(wide - unit)), round(plot.height * count / counts.max()))
             bar.bottomleft = round(plot.left + number * wide), plot.bottom
-            sheet.surface.fill(CARD["accent"], bar)
+            sheet.surface.fill(_CARD["accent"], bar)
         for value, anchor, x in ((ends[0], "topleft", plot.left), (ends[-1], "topright", plot.right)):
             text = self._amount(self.by, rows, float(value))
-            sheet.write(text, "small", (x, plot.bottom), CARD["quiet"], anchor)
+            sheet.write(text, "small", (x, plot.bottom), _CARD["quiet"], anchor)
 
     @staticmethod
     def _label(key: str, rows: Sequence[Played]) -> str:

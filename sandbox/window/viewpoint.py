@@ -15,13 +15,13 @@ from sandbox.window.shown import Shown
 from sandbox.window.stages import Stages
 
 #: Largest and smallest zoom, compared with a view of the whole shot.
-NEAREST, FARTHEST = 60.0, 0.2
+_NEAREST, _FARTHEST = 60.0, 0.2
 #: No ball becomes larger by zooming than with this radius, as a share of the picture's height.
-LARGEST_BALL = 0.12
+_LARGEST_BALL = 0.12
 #: A view that follows the ball can be so many times nearer or farther.
-NEARER = 8.0
+_NEARER = 8.0
 #: The ground is never higher than this, as a share of the picture's height.
-HIGHEST = 0.3
+_HIGHEST = 0.3
 
 
 class Viewpoint:
@@ -59,12 +59,12 @@ class Viewpoint:
         """Zoom by ``factor`` around a place (px), or around the ball that the view follows."""
         stage = self.stages.latest
         if self.shown.follows:
-            self.nearer = min(max(self.nearer * factor, 1 / NEARER), NEARER)
+            self.nearer = min(max(self.nearer * factor, 1 / _NEARER), _NEARER)
         elif stage is not None:
             camera, whole = self.stages.chosen or stage.camera, stage.whole.scale
             largest = max(ball.radius for ball in stage.shot.run.setup.balls)
-            nearest = max(whole, min(NEAREST * whole, LARGEST_BALL * self.screen.area.height / largest))
-            scale = min(max(camera.scale * factor, FARTHEST * whole), nearest)
+            nearest = max(whole, min(_NEAREST * whole, _LARGEST_BALL * self.screen.area.height / largest))
+            scale = min(max(camera.scale * factor, _FARTHEST * whole), nearest)
             self.look(_scaled(camera, scale / camera.scale, at))
 
     def pan(self, across: float, down: float) -> None:
@@ -82,7 +82,7 @@ class Viewpoint:
         shot = self.game.shot
         if camera is not None and shot is not None and shot.upright:
             across, down = camera.anchor
-            camera = replace(camera, anchor=(across, max(down, HIGHEST * self.screen.area.height)))
+            camera = replace(camera, anchor=(across, max(down, _HIGHEST * self.screen.area.height)))
         self.stages.choose(camera)
         self.nearer, self._holds = 1.0, False
 
