@@ -21,14 +21,14 @@ from sandbox.picture.sheet import Sheet
 from sandbox.picture.view import P, View
 from sandbox.sport.amounts import times
 
-CARD = palette("card")
+_CARD = palette("card")
 
 #: Balls are lit from the left above, so their shadows lie to the right below; in radii.
-SHADOW = (0.4, 0.5)
+_SHADOW = (0.4, 0.5)
 #: The picture shows at least so many radii of the ball.
-LEAST = 10
+_LEAST = 10
 #: The camera of frames keeps the ball in so much of the picture's middle.
-MIDDLE = 0.72
+_MIDDLE = 0.72
 
 
 class AboveView(View[P]):
@@ -60,7 +60,7 @@ class AboveView(View[P]):
     def camera(self) -> Camera:
         """Shows all that must be seen in the middle of its area."""
         low, high, area = self.seen.min(axis=0), self.seen.max(axis=0), self.area
-        wide, tall = np.maximum(high - low, LEAST * self.radius)
+        wide, tall = np.maximum(high - low, _LEAST * self.radius)
         scale = min((area.right - area.left) / wide, (area.bottom - area.top) / tall)
         x, y = (low + high) / 2
         return Camera((float(x), float(y)), area.middle, float(scale))
@@ -70,7 +70,7 @@ class AboveView(View[P]):
         """Goes with the ball, near enough to see it."""
         home, width, area = self.camera, self.size[0], self.area
         x, y = (float(round(middle)) for middle in area.middle)
-        aside, up = MIDDLE / 2 * width, MIDDLE / 2 * (area.bottom - area.top)
+        aside, up = _MIDDLE / 2 * width, _MIDDLE / 2 * (area.bottom - area.top)
         near = Camera(home.at, (x, y), max(home.scale, width / (self.FRAME_WIDTH or inf)))
         return Chase(self.run, self.ball, near, Area(x - aside, y - up, x + aside, y + up))
 
@@ -89,8 +89,8 @@ class AboveView(View[P]):
     def shadow(self, painter: Painter, camera: Camera, name: str, t: float, at: Point, radius: float) -> None:
         """On the ground, to the right below a ball; a flat body lies on it."""
         if not isinstance(self.looks[name], Flat):
-            below = at[0] + SHADOW[0] * radius, at[1] + SHADOW[1] * radius
-            painter.shadow(below, 1.05 * radius, 0.95 * radius, CARD["shadow"], 0.55)
+            below = at[0] + _SHADOW[0] * radius, at[1] + _SHADOW[1] * radius
+            painter.shadow(below, 1.05 * radius, 0.95 * radius, _CARD["shadow"], 0.55)
 
     @property
     def people(self) -> list[Person]:

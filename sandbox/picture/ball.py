@@ -17,17 +17,17 @@ import pygame
 from sandbox.picture.painter import Painter, Point, blank
 from sandbox.picture.palette import Colour, palette
 
-CARD, TRACE = palette("card"), palette("trace")
+_CARD, _TRACE = palette("card"), palette("trace")
 
 #: A smaller ball is drawn this large, in px across on 360 rows and in proportion on more.
 SMALLEST = 7.0
 #: The balls along a path are so much smaller than the one at its end, where they are all drawn too large.
-MARK = 0.62
+_MARK = 0.62
 
 #: The surface is looked up at so many places along each side of a pixel, in a skin of so many places along each side.
-FINER, FACE = 3, 128
+_FINER, FACE = 3, 128
 #: Balls are placed to this share of a px.
-PHASE = 1 / 4
+_PHASE = 1 / 4
 #: Direction of the light: over the left shoulder.
 LIGHT = np.array([-0.42, 0.50, 0.76])
 #: Share of its colour that a ball shows where no light falls, and where its surface turns away.
@@ -35,9 +35,9 @@ DARK, EDGE = 0.55, 0.7
 #: Opacity of the thin dark rim around balls and bodies.
 RIM = 0.65
 #: Width of the darker edge of a flat body, as a share of its radius.
-BEVEL = 0.07
+_BEVEL = 0.07
 #: s over which a spin whose axis turns is taken as even.
-STEP = 1 / 60
+_STEP = 1 / 60
 
 
 def least_radius(rows: int) -> float:
@@ -47,7 +47,7 @@ def least_radius(rows: int) -> float:
 
 def mark_radius(rows: int) -> float:
     """Least radius in px of the balls along a path."""
-    return max(SMALLEST / 2, MARK * least_radius(rows))
+    return max(SMALLEST / 2, _MARK * least_radius(rows))
 
 
 class Mark(NamedTuple):
@@ -72,14 +72,14 @@ class Look:
         self, painter: Painter, centre: Point, radius: float, turn: np.ndarray, unit: float, enlarged: bool = False
     ) -> None:
         """Draw it, turned by a matrix; the ring says that it is enlarged."""
-        painter.disc(centre, radius + max(0.7, 0.8 * unit), TRACE["rim"], RIM)
-        x, y = (round(value / PHASE) * PHASE for value in centre)
+        painter.disc(centre, radius + max(0.7, 0.8 * unit), _TRACE["rim"], RIM)
+        x, y = (round(value / _PHASE) * _PHASE for value in centre)
         column, row = floor(x), floor(y)
         phase = x - column - 0.5, y - row - 0.5
         sprite = _sprite(self, round(radius * 8) / 8, phase, np.round(turn, 3).astype(np.float32).tobytes())
         painter.surface.blit(sprite, (column - sprite.get_width() // 2, row - sprite.get_height() // 2))
         if enlarged:
-            painter.ring(centre, radius + 4.5 * unit, max(1.2, 1.7 * unit), CARD["accent"])
+            painter.ring(centre, radius + 4.5 * unit, max(1.2, 1.7 * unit), _CARD["accent"])
 
     def _skin(self, shown: int) -> np.ndarray:
         """Colours (0 to 255) of the halves around its +z and its -z, with so many marks, shape (2, FACE, FACE, 3)."""
@@ -113,12 +113,12 @@ class Silhouette(Look):
         ]
         if self.rimmed:
             outline = shapes[0][0]
-            painter.line([*outline, outline[0]], 2 * max(0.7, 0.8 * unit), TRACE["rim"], RIM)
+            painter.line([*outline, outline[0]], 2 * max(0.7, 0.8 * unit), _TRACE["rim"], RIM)
         for corners, colour in shapes:
             painter.polygon(corners, colour)
         if enlarged:
             reach = max(hypot(*corner) for corners, _ in self.shapes for corner in corners)
-            painter.ring(centre, reach * radius + 2.0 * unit, max(1.2, 1.7 * unit), CARD["accent"])
+            painter.ring(centre, reach * radius + 2.0 * unit, max(1.2, 1.7 * unit), _CARD["accent"])
 
 
 class Flat(Silhouette):
@@ -131,7 +131,7 @@ class Flat(Silhouette):
         corners = np.asarray(rim)
         sides = np.roll(corners, -1, axis=0) - corners
         self.solid = float(np.min(abs(corners[:, 0] * sides[:, 1] - corners[:, 1] * sides[:, 0]) / np.hypot(*sides.T)))
-        inner = corners * (1.0 - BEVEL * np.abs(corners).max() / np.maximum(np.hypot(*corners.T), BEVEL))[:, None]
+        inner = corners * (1.0 - _BEVEL * np.abs(corners).max() / np.maximum(np.hypot(*corners.T), _BEVEL))[:, None]
         arm, thick = 0.16 * np.hypot(*corners.T).min(), 0.05 * np.hypot(*corners.T).min()
         bars = [[(-x, -y), (x, -y), (x, y), (-x, y)] for x, y in ((arm, thick), (thick, arm))]
         super().__init__(colour, (corners, edge), (inner, colour), *((bar, mark) for bar in bars))  # type: ignore[arg-type]
@@ -200,7 +200,7 @@ class Orientation:
         for a, b in zip(times, [*times[1:], times[-1]], strict=True):
             one, other = spin(a + (b - a) / 3), spin(b - (b - a) / 3)
             straight = np.linalg.norm(np.cross(one, other)) <= 1e-9 * hypot(*one) * hypot(*other)  # along one line
-            pieces = 1 if straight else ceil((b - a) / STEP)
+            pieces = 1 if straight else ceil((b - a) / _STEP)
             for i in range(pieces):
                 t, until = a + (b - a) * i / pieces, a + (b - a) * (i + 1) / pieces
                 self.times.append(t)
@@ -227,7 +227,7 @@ def _sprite(look: Look, radius: float, phase: Point, turn: bytes) -> pygame.Surf
     side = len(coverage)
     own = normals @ np.frombuffer(turn, np.float32).reshape(3, 3)  # directions in the ball's own axes
     column, row = (np.minimum((own[:, i] + 1) * (0.5 * FACE), FACE - 1).astype(np.intp) for i in (0, 1))
-    found = np.zeros((side * FINER, side * FINER, 3), np.float32)
+    found = np.zeros((side * _FINER, side * _FINER, 3), np.float32)
     skin = look.skin(sum(radius >= mark.least for mark in look.marks))
     found[seen] = skin[(own[:, 2] < 0).astype(np.intp), column, row]
     sprite = blank((side, side), transparent=True)
@@ -239,8 +239,8 @@ def _sprite(look: Look, radius: float, phase: Point, turn: bytes) -> pygame.Surf
 
 def _sums(values: np.ndarray) -> np.ndarray:
     """Over the places in each pixel."""
-    side = len(values) // FINER
-    return values.reshape(side, FINER, side, FINER, -1).sum(axis=(1, 3))
+    side = len(values) // _FINER
+    return values.reshape(side, _FINER, side, _FINER, -1).sum(axis=(1, 3))
 
 
 @lru_cache(maxsize=64)
@@ -250,7 +250,7 @@ def _grid(radius: float, phase: Point) -> tuple[np.ndarray, ...]:
     covered (0 to 255)."""
     reach = ceil(radius + 1)
     side = 2 * reach + 1
-    places = ((np.arange(side * FINER) + 0.5) / FINER - reach - 0.5)[None] - np.array(phase)[:, None]
+    places = ((np.arange(side * _FINER) + 0.5) / _FINER - reach - 0.5)[None] - np.array(phase)[:, None]
     x, y = np.meshgrid(places[0] / radius, -places[1] / radius, indexing="ij")
     away = np.hypot(x, y)
     seen = away < 1 + 1 / radius  # a px that is covered by a sliver shows what is on the edge

@@ -12,11 +12,11 @@ from sandbox.picture.camera import Area, Camera
 from sandbox.picture.path import MOST_SAMPLES
 
 #: The camera moves smoothly over so long, in s; with a fast ball, over so much of the width in which it keeps the ball.
-SETTLE, SETTLE_WIDTH = 0.25, 0.07
+_SETTLE, _SETTLE_WIDTH = 0.25, 0.07
 #: In sight is a ball that is so far outside the area in which the camera keeps it, as a share of that.
-SLACK = 0.1
+_SLACK = 0.1
 #: From the side the highest ball is so far up, as a share of the room over the ground.
-HIGHEST = 0.8
+_HIGHEST = 0.8
 
 
 class Chase:
@@ -38,11 +38,11 @@ class Chase:
         scales = np.full(len(x), home.scale)
         if ground is not None:
             under = ground(x)
-            scales = np.minimum(scales, HIGHEST * self.reach[1][1] / np.maximum(y + self.radius - under, 1e-9))
+            scales = np.minimum(scales, _HIGHEST * self.reach[1][1] / np.maximum(y + self.radius - under, 1e-9))
         at = [np.clip(home.at[0], *self._bounds(0, x, scales))]
         at.append(np.clip(home.at[1], *self._bounds(1, y, scales)) if ground is None else under)
         width, fastest = (area.right - area.left) / home.scale, max(float(np.hypot(*velocity).max()), 1e-9)
-        spread = min(SETTLE, SETTLE_WIDTH * width / fastest) / (self.times[1] or 1.0)
+        spread = min(_SETTLE, _SETTLE_WIDTH * width / fastest) / (self.times[1] or 1.0)
         # the scale in its logarithm: so a zoom looks even
         self.paths = [_smooth(path, spread) for path in (*at, np.log(scales))]
 
@@ -60,7 +60,7 @@ class Chase:
             at[1] = round(at[1] * scale) / scale
             scale = float(f"{min(scale, self.reach[1][1] / max(place[1] + self.radius - at[1], 1e-9)):.4g}")
         for axis in (0,) if self.upright else (0, 1):
-            low, high = self._bounds(axis, place[axis], scale, SLACK)
+            low, high = self._bounds(axis, place[axis], scale, _SLACK)
             at[axis] = round(min(max(at[axis], low), high) * scale) / scale
         return Camera((at[0], at[1]), self.anchor, scale)
 

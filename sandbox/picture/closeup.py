@@ -10,11 +10,11 @@ import pygame
 from sandbox.picture.camera import Box, Camera
 
 #: A close-up is so many times as large as the picture at least and at most, and at least so high, in px on 720 rows.
-LEAST_FACTOR, LARGEST_FACTOR, LEAST_HEIGHT = 1.7, 5.0, 96.0
+LEAST_FACTOR, LARGEST_FACTOR, _LEAST_HEIGHT = 1.7, 5.0, 96.0
 #: The widest of them, width over height.
-WIDEST = 3.0
+_WIDEST = 3.0
 #: Between two of them, px on 720 rows.
-GAP = 16.0
+_GAP = 16.0
 
 
 @dataclass(frozen=True)
@@ -39,11 +39,11 @@ def arranged(boxes: Sequence[Box], free: pygame.Rect, camera: Camera, unit: floa
     """Close-ups of parts of the world (m), side by side in a free part of the picture (px), all at one scale and each
     over what it shows as nearly as there is room; none where they would hardly be larger than in the picture."""
     boxes = sorted(boxes)
-    gap, high = round(GAP * unit), free.height
-    if not boxes or high < LEAST_HEIGHT * unit:
+    gap, high = round(_GAP * unit), free.height
+    if not boxes or high < _LEAST_HEIGHT * unit:
         return []
     room = (free.width - gap * (len(boxes) - 1)) / len(boxes)
-    wide = min(room, WIDEST * high)
+    wide = min(room, _WIDEST * high)
     scale = min(min(wide / (box.right - box.left), high / (box.top - box.bottom)) for box in boxes)
     if scale < LEAST_FACTOR * camera.scale:
         return []

@@ -22,22 +22,22 @@ if TYPE_CHECKING:
 #: Size of the golden picture of a run, in px: its PNG takes less than 60 kB.
 SIZE = (480, 270)
 #: Bits per colour channel in a golden picture; a stored level stands for the levels from LOWEST to HIGHEST around it.
-COLOUR_BITS = 6
-LOWEST, HIGHEST = -(1 << (7 - COLOUR_BITS)), (1 << (7 - COLOUR_BITS)) - 1
+_COLOUR_BITS = 6
+LOWEST, _HIGHEST = -(1 << (7 - _COLOUR_BITS)), (1 << (7 - _COLOUR_BITS)) - 1
 #: Levels, of 255, by which another machine's rounding may move a pixel; a ball moved by a quarter of a pixel moves it
 #: by 20 and more.
 ROUNDING_LEVELS = 2
 #: Most changed pixels allowed within NEIGHBOURHOOD px of each other, and the most levels by which they may have
 #: changed: an edge pixel or two rounded the other way, by a quarter of a pixel, as shapes are drawn four times larger
 #: and scaled down. A ball of 7 px that is moved by half a pixel changes a dozen.
-STRAY_PIXELS, STRAY_LEVELS = 3, 64
+_STRAY_PIXELS, _STRAY_LEVELS = 3, 64
 NEIGHBOURHOOD = 9
 #: Largest share of pixels that may have changed, spread over the picture.
-STRAY_SHARE = 0.0005
+_STRAY_SHARE = 0.0005
 
 
 @dataclass(frozen=True)
-class Difference:
+class _Difference:
     """The difference between a picture and the golden one."""
 
     share: float  # of the pixels that have changed, 0 to 1
@@ -48,7 +48,7 @@ class Difference:
     @property
     def matters(self) -> bool:
         """True if it is more than another machine's rounding."""
-        return self.together > STRAY_PIXELS or self.largest > STRAY_LEVELS or self.share > STRAY_SHARE
+        return self.together > _STRAY_PIXELS or self.largest > _STRAY_LEVELS or self.share > _STRAY_SHARE
 
     def __str__(self) -> str:
         return (
@@ -57,7 +57,7 @@ class Difference:
         )
 
 
-def compare(expected: Image.Image, actual: Image.Image) -> Difference:
+def compare(expected: Image.Image, actual: Image.Image) -> _Difference:
     """Return the difference between two pictures of the same size. Raises ValueError if their sizes differ."""
     import numpy as np
 
@@ -72,7 +72,7 @@ def compare(expected: Image.Image, actual: Image.Image) -> Difference:
     near = near - sums[NEIGHBOURHOOD:, :-NEIGHBOURHOOD] + sums[:-NEIGHBOURHOOD, :-NEIGHBOURHOOD]
     row, column = np.unravel_index(int(near.argmax()), near.shape)
     largest = int(np.abs(difference).max())
-    return Difference(float(changed.mean()), largest, int(near.max()), (int(column), int(row)))
+    return _Difference(float(changed.mean()), largest, int(near.max()), (int(column), int(row)))
 
 
 def _difference(expected: Image.Image, actual: Image.Image) -> np.ndarray:
@@ -87,7 +87,7 @@ def _changed(difference: np.ndarray) -> np.ndarray:
     """Return True for the pixels that have changed by more than rounding, shape (height, width)."""
     import numpy as np
 
-    higher, lower = difference > HIGHEST + ROUNDING_LEVELS, difference < LOWEST - ROUNDING_LEVELS
+    higher, lower = difference > _HIGHEST + ROUNDING_LEVELS, difference < LOWEST - ROUNDING_LEVELS
     return np.any(higher | lower, axis=2)
 
 
@@ -130,5 +130,5 @@ def coarser(image: Image.Image) -> Image.Image:
     import numpy as np
     from PIL import Image
 
-    lost = 8 - COLOUR_BITS
+    lost = 8 - _COLOUR_BITS
     return Image.fromarray(np.asarray(image) >> lost << lost | 1 << (lost - 1))

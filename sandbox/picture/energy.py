@@ -20,7 +20,7 @@ from sandbox.engine.paths.run import Run
 from sandbox.picture.path import instants
 
 #: The run is cut into so many pieces.
-PIECES = 160
+_PIECES = 160
 
 #: Name of the energy that a conservative force stores, with the force's name.
 STORED = "stored by "
@@ -55,7 +55,7 @@ class Course:
 
 def course(run: Run) -> Course:
     """The energy of a run over time; height counts from the lowest that the balls come to."""
-    called, times = _names(run), instants(run, PIECES)
+    called, times = _names(run), instants(run, _PIECES)
     gained: dict[str, np.ndarray] = defaultdict(lambda: np.zeros(len(times)))
     for i, (a, b) in enumerate(pairwise([-inf, *times[1:]])):
         part = _piece_of(run, a, float(b))

@@ -17,13 +17,13 @@ from sandbox.picture.vectors import colour_of
 from sandbox.scene.scene_run import SceneRun
 
 #: Causes that took less than this share of all energy are summed up as "other"; and at most so many are shown.
-LEAST_SHARE, MOST_CAUSES = 0.004, 6
+LEAST_SHARE, _MOST_CAUSES = 0.004, 6
 #: J; a run with less at the start has nothing to show.
-LEAST_ENERGY = 1e-3
+_LEAST_ENERGY = 1e-3
 #: For this share of a run the chart goes on after an impact that ends it: what that changed would have no width.
-AFTER_LAST = 0.04
+_AFTER_LAST = 0.04
 #: Darkening of lost energy, and lightening of words in a band's colour.
-LOST, LIGHT = 0.42, 0.4
+_LOST, _LIGHT = 0.42, 0.4
 
 
 def bands_of(energy: Course) -> tuple[list[Curve], list[Curve]]:
@@ -35,13 +35,13 @@ def bands_of(energy: Course) -> tuple[list[Curve], list[Curve]]:
         wanted = [CHART["cause"].get(name) or colour_of(name), *CHART["spare"]]
         colours[name] = next((colour for colour in wanted if colour not in colours.values()), wanted[0])
     lost = sorted(energy.taken.items(), key=lambda cause: -cause[1].max())
-    shown = [(name, values) for name, values in lost[:MOST_CAUSES] if values.max() > least]
+    shown = [(name, values) for name, values in lost[:_MOST_CAUSES] if values.max() > least]
     rest = sum((values for _, values in lost[len(shown) :]), np.zeros(len(times)))
     there = [
         Curve(name, times, values, CHART.get(name) or colours[name.removeprefix(STORED)])
         for name, values in energy.has.items()
     ]
-    there += [Curve(name, times, values, mix(colours[name], CHART["ground"], LOST)) for name, values in shown]
+    there += [Curve(name, times, values, mix(colours[name], CHART["ground"], _LOST)) for name, values in shown]
     there += [Curve("other", times, rest, CHART["other"])]
     put_in = [Curve(_put_in_by(name), times, values, colours[name]) for name, values in energy.put_in.items()]
     return list(_stacked(there, 0.0, least)), list(_stacked(put_in, energy.start, least))
@@ -92,7 +92,7 @@ def energy_chart(run: SceneRun, size: tuple[int, int] = (1280, 720)) -> pygame.S
     right = sheet.frame.right - max(written, default=0) - 2 * sheet.gap
     top = sheet.top_row + 2 * sheet.gap
     rect = pygame.Rect(sheet.frame.left, top, right - sheet.frame.left, sheet.card_row() - sheet.gap - top)
-    high = max([LEAST_ENERGY, *(float(band.values.max()) for band in bands)])
+    high = max([_LEAST_ENERGY, *(float(band.values.max()) for band in bands)])
     plot = plotted(sheet, rect, max(float(energy.times[-1]), 1e-9), 0.0, high, joules)
     for curve in [*bands, *(line._replace(foot=None) for line in put_in)]:
         plot.draw(sheet, curve)
@@ -116,7 +116,7 @@ def held_at_the_end(run: SceneRun) -> Course:
     def held(values: np.ndarray) -> np.ndarray:
         return np.append(values, values[-1])
 
-    times = np.append(energy.times, (1.0 + AFTER_LAST) * run.duration)
+    times = np.append(energy.times, (1.0 + _AFTER_LAST) * run.duration)
     has, work = ({name: held(values) for name, values in each.items()} for each in (energy.has, energy.work))
     return Course(times, has, work)
 
@@ -154,7 +154,7 @@ def _last(band: Curve) -> float:
 
 def _light(band: Curve) -> Colour:
     """Its colour for words on dark ground."""
-    return mix(band.colour, CARD["text"], LIGHT)
+    return mix(band.colour, CARD["text"], _LIGHT)
 
 
 def _said(band: Curve) -> str:

@@ -30,30 +30,30 @@ if TYPE_CHECKING:
 #: all scenes at 1280x720, ms on one core and kB: Pillow 24 and 171 at its quickest (level 1, RLE), 24 and 195 at
 #: level 1, 45 and 142 at level 6, 292 and 131 at level 9. Most of the 24 ms go into choosing a filter for each line;
 #: without filters, which flat colours hardly need, level 1 takes 9 and 192.
-FRAME_LEVEL = 1
+_FRAME_LEVEL = 1
 #: Pillow's level for a poster, which is kept.
-POSTER_LEVEL = 6
+_POSTER_LEVEL = 6
 #: Smaller than a GIF, in all colours. Each frame is whole: parts of frames leave traces of what has moved on, and take
 #: no less room. "method" is the effort of the encoder, from 0 to 6: 3 takes twice the time for 2 %.
-WEBP = {"quality": 82, "method": 2, "kmin": 0, "kmax": 1}
+_WEBP = {"quality": 82, "method": 2, "kmin": 0, "kmax": 1}
 #: ffmpeg's options: quality (lower is better, 18 looks as drawn), colours that all players know, and even sides.
-VIDEO = ["-crf", "18", "-pix_fmt", "yuv420p", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-movflags", "+faststart"]
+_VIDEO = ["-crf", "18", "-pix_fmt", "yuv420p", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-movflags", "+faststart"]
 #: The colours of a GIF are chosen from so many frames.
-PALETTE_FRAMES = 16
+_PALETTE_FRAMES = 16
 #: The index of what stays as it was, after all colours.
-SEE_THROUGH = 255
+_SEE_THROUGH = 255
 #: Pixels of all frames that wait to be written, at 3 bytes each.
-MOST_PIXELS = 100_000_000
+_MOST_PIXELS = 100_000_000
 #: Viewers slow a GIF down that shows more frames per second than this.
 FASTEST_GIF = 50
 #: The last picture of an animation stays for so long, in s, before it begins again.
 PAUSE = 2.0
 
 #: A mark in every frame, by which those of an earlier run are told from files that a user put there.
-OURS = b"Software\0sports sandbox, one of the frames of a run"
-FRAMES = "frame_[0-9][0-9][0-9][0-9][0-9].png"
+_OURS = b"Software\0sports sandbox, one of the frames of a run"
+_FRAMES = "frame_[0-9][0-9][0-9][0-9][0-9].png"
 
-Progress = Callable[[int, int], object]
+_Progress = Callable[[int, int], object]
 
 
 def to_image(surface: pygame.Surface) -> Image.Image:
@@ -64,7 +64,7 @@ def to_image(surface: pygame.Surface) -> Image.Image:
     return Image.frombytes("RGB", surface.get_size(), pygame.image.tobytes(surface, "RGB"))
 
 
-def film(picture: View[Any], times: Sequence[float], progress: Progress | None) -> Iterator[Image.Image]:
+def _film(picture: View[Any], times: Sequence[float], progress: _Progress | None) -> Iterator[Image.Image]:
     """The frames at these times in s, each drawn when it is asked for."""
     for done, t in enumerate(times, 1):
         yield to_image(picture.frame(t))
@@ -75,7 +75,7 @@ def film(picture: View[Any], times: Sequence[float], progress: Progress | None) 
 def save_png(surface: pygame.Surface, path: Path | str) -> None:
     """Write a surface as PNG. Raises OSError where it cannot be written."""
     data = io.BytesIO()
-    to_image(surface).save(data, "PNG", compress_level=POSTER_LEVEL)
+    to_image(surface).save(data, "PNG", compress_level=_POSTER_LEVEL)
     _write(Path(path), data.getvalue())
 
 
@@ -86,8 +86,8 @@ def quick_png(image: Image.Image) -> bytes:
     lines[:, 1:] = np.asarray(image).reshape(height, 3 * width)
     parts = {
         b"IHDR": struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0),  # 8 bits of red, green and blue
-        b"tEXt": OURS,
-        b"IDAT": zlib.compress(lines.data, FRAME_LEVEL),
+        b"tEXt": _OURS,
+        b"IDAT": zlib.compress(lines.data, _FRAME_LEVEL),
         b"IEND": b"",
     }
     chunks = (
@@ -97,7 +97,7 @@ def quick_png(image: Image.Image) -> bytes:
     return b"\x89PNG\r\n\x1a\n" + b"".join(chunks)
 
 
-def save_frames(picture: View[Any], run: Run, folder: Path | str, fps: float, progress: Progress | None = None) -> int:
+def save_frames(picture: View[Any], run: Run, folder: Path | str, fps: float, progress: _Progress | None = None) -> int:
     """Write frame_00000.png, frame_00001.png, ... into a folder, all or none; returns how many.
 
     Frames of an earlier run are kept in a folder with ``~``, all of them, or a film made of the folder would end in two
@@ -110,10 +110,10 @@ def save_frames(picture: View[Any], run: Run, folder: Path | str, fps: float, pr
     names = [f"frame_{number:05d}.png" for number in range(len(times))]
     with folder_of_parts(folder, "frames") as part, ThreadPoolExecutor() as pool:
         written: deque[Future[int]] = deque()
-        for name, image in zip(names, film(picture, times, progress), strict=True):
+        for name, image in zip(names, _film(picture, times, progress), strict=True):
             # Pillow and zlib do not hold Python up; no more pictures wait than keep all cores at work, fewer if large
             written.append(pool.submit(lambda file, image: file.write_bytes(quick_png(image)), part / name, image))
-            while len(written) > min(2 * (os.cpu_count() or 1), MOST_PIXELS // (image.width * image.height)):
+            while len(written) > min(2 * (os.cpu_count() or 1), _MOST_PIXELS // (image.width * image.height)):
                 written.popleft().result()
         for waiting in written:
             waiting.result()
@@ -125,12 +125,12 @@ def save_frames(picture: View[Any], run: Run, folder: Path | str, fps: float, pr
 
 def _keep_frames(folder: Path, new: Path) -> None:
     """Move the frames of an earlier run into the folder with ``~``, unless the new ones are the same."""
-    frames, backup = sorted(folder.glob(FRAMES)), backup_of(folder.resolve())
+    frames, backup = sorted(folder.glob(_FRAMES)), backup_of(folder.resolve())
     same = filecmp.cmpfiles(folder, new, [frame.name for frame in frames], shallow=False)[0]
     if len(same) == len(frames):
         return
     backup.mkdir(exist_ok=True)
-    for older in backup.glob(FRAMES):
+    for older in backup.glob(_FRAMES):
         older.unlink()
     for frame in frames:
         frame.replace(backup / frame.name)
@@ -140,7 +140,7 @@ def check_frames_folder(option: str, folder: Path) -> None:
     """Raise RequestError if the folder, or that of its backup, has a file named like a frame that the sandbox did not
     write: it would be overwritten, or end up in the same film."""
     for place in (folder, backup_of(folder.resolve())):
-        for file in sorted(place.glob(FRAMES)):
+        for file in sorted(place.glob(_FRAMES)):
             if not _is_ours(file):
                 raise RequestError(
                     f"{option} {place}: {file.name} in it was not written by the sandbox; name another folder, or move "
@@ -152,12 +152,12 @@ def _is_ours(file: Path) -> bool:
     """True if a file is a frame of an earlier run."""
     try:
         with file.open("rb") as opened:
-            return opened.read(8 + 25 + 8 + len(OURS)).endswith(b"tEXt" + OURS)
+            return opened.read(8 + 25 + 8 + len(_OURS)).endswith(b"tEXt" + _OURS)
     except OSError:
         return False
 
 
-def save_gif(picture: View[Any], run: Run, path: Path | str, fps: float, progress: Progress | None = None) -> int:
+def save_gif(picture: View[Any], run: Run, path: Path | str, fps: float, progress: _Progress | None = None) -> int:
     """Write the run as an animated GIF that repeats; returns the number of frames.
 
     All frames share one palette, and times are rounded to the 10 ms that the format knows so that none is lost. Of each
@@ -168,11 +168,11 @@ def save_gif(picture: View[Any], run: Run, path: Path | str, fps: float, progres
     colours = shared_palette(picture, times)
     palette = bytes(colours.getpalette("RGB") or []).ljust(3 * 256, b"\0")
     parts = []
-    for image, stay in zip(film(picture, times, progress), _durations(times, 10, picture.slower), strict=True):
+    for image, stay in zip(_film(picture, times, progress), _durations(times, 10, picture.slower), strict=True):
         shown = np.asarray(image.quantize(palette=colours, dither=Image.Dither.NONE))
-        changed = shown if before is None else np.where(shown == before, SEE_THROUGH, shown).astype(np.uint8)
+        changed = shown if before is None else np.where(shown == before, _SEE_THROUGH, shown).astype(np.uint8)
         part, before = Image.frombytes("P", image.size, changed.tobytes()), shown
-        parts += GifImagePlugin.getdata(part, duration=stay, transparency=SEE_THROUGH, disposal=1)
+        parts += GifImagePlugin.getdata(part, duration=stay, transparency=_SEE_THROUGH, disposal=1)
     head = b"GIF89a" + struct.pack("<HHBBB", *image.size, 0b11110111, 0, 0) + palette  # 256 colours for all frames
     repeat = b"!\xff\x0bNETSCAPE2.0\x03\x01" + struct.pack("<H", 0) + b"\0"
     _write(Path(path), head + repeat + b"".join(parts) + b";")
@@ -182,7 +182,7 @@ def save_gif(picture: View[Any], run: Run, path: Path | str, fps: float, progres
 class _Film(Image.Image):
     """All frames as one image of Pillow's, each drawn when it is asked for."""
 
-    def __init__(self, picture: View[Any], times: list[float], progress: Progress | None):
+    def __init__(self, picture: View[Any], times: list[float], progress: _Progress | None):
         super().__init__()
         self.picture, self.times, self.progress = picture, times, progress
         self.n_frames, self.shown = len(times), -1
@@ -199,18 +199,18 @@ class _Film(Image.Image):
         return self.shown
 
 
-def save_webp(picture: View[Any], run: Run, path: Path | str, fps: float, progress: Progress | None = None) -> int:
+def save_webp(picture: View[Any], run: Run, path: Path | str, fps: float, progress: _Progress | None = None) -> int:
     """Write the run as an animated WebP that repeats, in all colours; returns the number of frames, of which equal ones
     are written as one. Raises OSError where it cannot be written.
     """
     times, data = _moments(picture, run, fps), io.BytesIO()
     film = _Film(picture, times, progress)
-    film.save(data, "WEBP", save_all=True, duration=_durations(times, 1, picture.slower), loop=0, **WEBP)
+    film.save(data, "WEBP", save_all=True, duration=_durations(times, 1, picture.slower), loop=0, **_WEBP)
     _write(Path(path), data.getvalue())
     return len(times)
 
 
-def save_video(picture: View[Any], run: Run, path: Path | str, fps: float, progress: Progress | None = None) -> int:
+def save_video(picture: View[Any], run: Run, path: Path | str, fps: float, progress: _Progress | None = None) -> int:
     """Write the run as a video (H.264 in MP4, which every player knows); returns the number of frames.
 
     A side with an odd number of px gets one more. Raises OSError where it cannot be written.
@@ -225,11 +225,11 @@ def save_video(picture: View[Any], run: Run, path: Path | str, fps: float, progr
     check_replaced("--video", path)
     with folder_of_parts(Path(os.path.realpath(path)).parent, "video") as folder:
         part = folder / "run.mp4"
-        images = film(picture, times, progress)
+        images = _film(picture, times, progress)
         first = next(images)
         encoder = imageio_ffmpeg.write_frames(
             str(part), first.size, fps=fps, macro_block_size=1, codec="libx264", quality=None,
-            output_params=VIDEO, ffmpeg_log_level="quiet",
+            output_params=_VIDEO, ffmpeg_log_level="quiet",
         )  # fmt: skip
         try:
             encoder.send(None)
@@ -268,7 +268,7 @@ def shared_palette(picture: View[Any], times: list[float]) -> Image.Image:
 
     A colour counts by the square root of its area: small things such as ball and trace matter more than their size.
     """
-    chosen = {times[round(i * (len(times) - 1) / (PALETTE_FRAMES - 1))] for i in range(PALETTE_FRAMES)}
+    chosen = {times[round(i * (len(times) - 1) / (_PALETTE_FRAMES - 1))] for i in range(_PALETTE_FRAMES)}
     counts = np.zeros(1 << 18, np.int64)
     for t in sorted(chosen):
         for lines in np.array_split(np.asarray(to_image(picture.frame(t))), 16):  # some MB at a time
@@ -278,7 +278,7 @@ def shared_palette(picture: View[Any], times: list[float]) -> Image.Image:
     colours = np.stack([present >> 12, present >> 6 & 63, present & 63], axis=1).astype(np.uint8) << 2 | 2
     row = np.repeat(colours, np.ceil(np.sqrt(counts[present])).astype(int), axis=0)
     return Image.fromarray(row[None]).quantize(
-        SEE_THROUGH, method=Image.Quantize.MEDIANCUT, kmeans=2, dither=Image.Dither.NONE
+        _SEE_THROUGH, method=Image.Quantize.MEDIANCUT, kmeans=2, dither=Image.Dither.NONE
     )
 
 

@@ -25,13 +25,13 @@ from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.amounts import ladder
 from sandbox.units import convert
 
-TRACES = palette("trace")["colours"]
+_TRACES = palette("trace")["colours"]
 #: A run is sampled at so many even times.
-PIECES = 300
+_PIECES = 300
 #: Panels next to each other, whichever leaves fewer gaps; on a picture narrower than so many px per row, two.
-COLUMNS, NARROW = (3, 4), 1.3
+_COLUMNS, _NARROW = (3, 4), 1.3
 #: Share of its colour that another run's curve has; lightening of a curve on dark ground, compared with its trace.
-PALE, LIGHTER = 0.75, 0.25
+_PALE, _LIGHTER = 0.75, 0.25
 
 
 class Panel(NamedTuple):
@@ -56,7 +56,7 @@ def panels_of(runs: Mapping[str, SceneRun]) -> list[Panel]:
     """The panels of runs of one scene by name, the first on top."""
     found: dict[str, Panel] = {}
     for i, (name, run) in reversed(list(enumerate(runs.items()))):
-        for panel in _panels(run, Curve(name, np.empty(0), np.empty(0), _colour(i), PALE if i else 1.0)):
+        for panel in _panels(run, Curve(name, np.empty(0), np.empty(0), _colour(i), _PALE if i else 1.0)):
             before = found.get(panel.title, panel._replace(curves=()))
             found[panel.title] = before._replace(curves=[*before.curves, *panel.curves])
     return list(found.values())
@@ -64,13 +64,13 @@ def panels_of(runs: Mapping[str, SceneRun]) -> list[Panel]:
 
 def _colour(number: int) -> Colour:
     """The colour of a run's curves."""
-    return mix(TRACES[number % len(TRACES)], CARD["text"], LIGHTER)
+    return mix(_TRACES[number % len(_TRACES)], CARD["text"], _LIGHTER)
 
 
 def motion(run: SceneRun, view: View[Any]) -> tuple[np.ndarray, dict[str, tuple[str, np.ndarray]]]:
     """Times in s until the ball is caught, and over them by name what it does: unit and values."""
     ball = view.ball
-    times = instants(run, PIECES, [ball])
+    times = instants(run, _PIECES, [ball])
     times = times[times <= (run.caught_at(ball) or run.duration)]
     x, y, vx, vy, spin = run.states(ball, times).T[:5]
     if isinstance(view, SideView):
@@ -157,8 +157,8 @@ def graph(
     row = sheet.frame.top + letters.height(sheet.head) + gap
     for i, name in enumerate(runs):
         across = sheet.write(name, "small", (across, row), _colour(i), bold=True).right + 3 * gap
-    wide_enough = size[0] > NARROW * size[1]
-    columns = min(COLUMNS, key=lambda count: (-len(panels) % count, -count)) if wide_enough else 2
+    wide_enough = size[0] > _NARROW * size[1]
+    columns = min(_COLUMNS, key=lambda count: (-len(panels) % count, -count)) if wide_enough else 2
     rows = ceil(len(panels) / columns)
     top = row + letters.height("small") + 3 * gap
     wide, tall = (sheet.frame.width + 3 * gap) / columns, (sheet.frame.bottom - top + 2 * gap) / rows

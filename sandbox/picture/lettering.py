@@ -15,28 +15,28 @@ from sandbox.picture.palette import ASSETS, Colour
 from sandbox.text import printable
 
 #: Height of the letters in px on a picture of 720 rows, and the least at which they can be read.
-SIZES = {"small": (14.5, 11), "medium": (20, 14), "large": (40, 24)}
+_SIZES = {"small": (14.5, 11), "medium": (20, 14), "large": (40, 24)}
 
 
 #: Height of a line in units of the letters' size, and what the font keeps free above it.
-LINE, ABOVE = 1.21, 0.105
+_LINE, _ABOVE = 1.21, 0.105
 #: Letters are drawn this much larger and scaled down: set straight at 11 px they would be moved to whole px, and words
 #: would run into each other.
-FINER = 4
+_FINER = 4
 
 
 @cache
 def _font(pixels: int, bold: bool) -> pygame.font.Font:
     """The font, larger by FINER."""
     pygame.font.init()
-    return pygame.font.Font(str(ASSETS / "fonts" / f"NotoSans-{'Bold' if bold else 'Regular'}.ttf"), pixels * FINER)
+    return pygame.font.Font(str(ASSETS / "fonts" / f"NotoSans-{'Bold' if bold else 'Regular'}.ttf"), pixels * _FINER)
 
 
 @lru_cache(maxsize=1024)
 def _rendered(text: str, pixels: int, bold: bool, colour: Colour) -> pygame.Surface:
     drawn = _font(pixels, bold).render(printable(text), True, colour)
-    width, height = (ceil(side / FINER) for side in drawn.get_size())
-    whole = scratch((width * FINER, height * FINER), colour)
+    width, height = (ceil(side / _FINER) for side in drawn.get_size())
+    whole = scratch((width * _FINER, height * _FINER), colour)
     whole.blit(drawn, (0, 0))
     return pygame.transform.smoothscale(whole, (width, height))
 
@@ -56,16 +56,16 @@ class Lettering:
     def __init__(self, height: int):
         rows = self.larger * height / 720
         self.pixels = {
-            name: max(round(self.larger * least), round(size * rows)) for name, (size, least) in SIZES.items()
+            name: max(round(self.larger * least), round(size * rows)) for name, (size, least) in _SIZES.items()
         }
 
     def height(self, size: str) -> int:
         """From the top of a tall letter to the bottom of a deep one, in px."""
-        return round(self.pixels[size] * LINE)
+        return round(self.pixels[size] * _LINE)
 
     def width(self, text: str, size: str, bold: bool = False) -> int:
         """In px."""
-        return ceil(_font(self.pixels[size], bold).size(printable(text))[0] / FINER)
+        return ceil(_font(self.pixels[size], bold).size(printable(text))[0] / _FINER)
 
     def rect(
         self, text: str, size: str, at: tuple[float, float], anchor: str = "topleft", bold: bool = False
@@ -88,7 +88,7 @@ class Lettering:
         """Write one line with the corner or side named ``anchor`` (as pygame.Rect names them) at a point in px."""
         rect = self.rect(text, size, at, anchor, bold)
         image = _rendered(text, self.pixels[size], bold, colour)
-        surface.blit(image, (rect.left, rect.top - round(ABOVE * self.pixels[size])))
+        surface.blit(image, (rect.left, rect.top - round(_ABOVE * self.pixels[size])))
         return rect
 
     def cut(self, text: str, size: str, room: float, bold: bool = False) -> str:

@@ -24,15 +24,15 @@ from sandbox.picture.sheet import Sheet
 from sandbox.picture.view import P
 from sandbox.sport.amounts import metres, times
 
-CARD = palette("card")
+_CARD = palette("card")
 
 #: The strip takes this share of the room between headline and card, at most; gaps and the room around letters, in px
 #: on 720 rows.
-STRIP, GAP, AROUND = 0.42, 8.0, 7.0
+_STRIP, _GAP, _AROUND = 0.42, 8.0, 7.0
 #: The surroundings of the place, in m, as far as a lens may show them.
-EVERYWHERE = Box(-1e3, -1e3, 1e3, 1e3)
+_EVERYWHERE = Box(-1e3, -1e3, 1e3, 1e3)
 #: A ball that goes no further than this, in m, has no path.
-LEAST_WAY = 1e-6
+_LEAST_WAY = 1e-6
 
 
 class LongView(AboveView[P]):
@@ -73,7 +73,7 @@ class LongView(AboveView[P]):
     def _whole(self) -> Camera:
         """Shows all of the strip, which keeps its room where the window's camera shows a part of it from near by."""
         left, right = self.sheet.frame.left, self.sheet.frame.right
-        box, top, most = self.whole, self.area.top, STRIP * (self.area.bottom - self.area.top)
+        box, top, most = self.whole, self.area.top, _STRIP * (self.area.bottom - self.area.top)
         scale = min((right - left) / (box.right - box.left), most / (box.top - box.bottom) / self.WIDTH_SCALE)
         tall = scale * self.WIDTH_SCALE * (box.top - box.bottom)
         middle = (box.left + box.right) / 2, (box.bottom + box.top) / 2
@@ -84,7 +84,7 @@ class LongView(AboveView[P]):
         painter.surface.fill(self.ROOM_COLOUR)
         (left, top), (right, bottom) = (camera.pixel(*corner) for corner in (self.whole[::3], self.whole[2:0:-1]))
         painter.surface.set_clip(pygame.Rect(round(left), round(top), round(right - left), round(bottom - top)))
-        painter.surface.blit(drawn((Ground(EVERYWHERE, self.ROOM_COLOUR), *self.plan), camera, self.size), (0, 0))
+        painter.surface.blit(drawn((Ground(_EVERYWHERE, self.ROOM_COLOUR), *self.plan), camera, self.size), (0, 0))
         painter.surface.set_clip(None)
 
     def landmarks(self, sheet: Sheet, camera: Camera) -> None:
@@ -99,15 +99,15 @@ class LongView(AboveView[P]):
     def _row(self) -> pygame.Rect:
         """Under the strip, where it is labelled."""
         low = self._whole.pixel(0.0, self.whole.bottom)[1]
-        tall = self.sheet.lettering.height("small") + AROUND * self.unit
+        tall = self.sheet.lettering.height("small") + _AROUND * self.unit
         return pygame.Rect(0, round(low), self.size[0], round(tall))
 
     @cached_property
     def lens(self) -> pygame.Rect:
         """The part of the picture with the near part, in px."""
-        low = self._row.bottom + GAP * self.unit
+        low = self._row.bottom + _GAP * self.unit
         frame = self.sheet.frame
-        return pygame.Rect(frame.left, round(low), frame.width, round(self.card_row - GAP * self.unit - low))
+        return pygame.Rect(frame.left, round(low), frame.width, round(self.card_row - _GAP * self.unit - low))
 
     @cached_property
     def near_camera(self) -> Camera:
@@ -124,22 +124,22 @@ class LongView(AboveView[P]):
         left, right = (near.world(x, 0.0)[0] for x in (lens.left, lens.right))
         (x, top), (end, bottom) = camera.pixel(left, self.whole.top), camera.pixel(right, self.whole.bottom)
         part = pygame.Rect(round(x), round(top), round(end - x), round(bottom - top))
-        pygame.draw.rect(painter.surface, CARD["quiet"], part, max(1, round(self.unit)))
+        pygame.draw.rect(painter.surface, _CARD["quiet"], part, max(1, round(self.unit)))
         around = pygame.Rect(lens).inflate(2, 2)
         beam = [part.bottomleft, part.bottomright, around.topright, around.topleft]
-        painter.polygon(beam, CARD["quiet"], 0.12)
+        painter.polygon(beam, _CARD["quiet"], 0.12)
         local, surface = self._in_lens, painter.surface.subsurface(lens)
         self._lens_place(surface, t)
         inside = Painter(surface)
         for ball in self.run.setup.balls:
             if (
-                ball.name != self.ball and np.ptp(self.paths[ball.name].points, axis=0).max() > LEAST_WAY
+                ball.name != self.ball and np.ptp(self.paths[ball.name].points, axis=0).max() > _LEAST_WAY
             ):  # where it lay
                 at = local.pixel(*ball.position)
                 inside.ring(at, ball.radius * local.scale, 1.5 * self.unit, self.colour_of(ball.name), 0.8)
         for name, path in self.paths.items():
             some = path.points[path.samples[:, 0] <= until]
-            if len(some) and np.ptp(some, axis=0).max() > LEAST_WAY:
+            if len(some) and np.ptp(some, axis=0).max() > _LEAST_WAY:
                 points = np.vstack([some, self.run.state(name, min(until, path.until))[:2]])
                 inside.line(
                     self.traced(local, points),
@@ -150,7 +150,7 @@ class LongView(AboveView[P]):
         for ghost in self.ghosts:
             inside.line(self.traced(local, ghost.points), 2.4 * self.unit, ghost.colour, 0.8)
         self.place_balls(inside, local, t)
-        pygame.draw.rect(painter.surface, CARD["quiet"], around, max(1, round(self.unit)))
+        pygame.draw.rect(painter.surface, _CARD["quiet"], around, max(1, round(self.unit)))
 
     @property
     def _in_lens(self) -> Camera:
@@ -160,7 +160,7 @@ class LongView(AboveView[P]):
 
     def _lens_place(self, surface: pygame.Surface, t: float) -> None:
         """Draw the place of the near part on a surface of the lens' size."""
-        plan = (Ground(EVERYWHERE, self.ROOM_COLOUR), *self.plan)
+        plan = (Ground(_EVERYWHERE, self.ROOM_COLOUR), *self.plan)
         surface.blit(drawn(plan, self._in_lens, self.lens.size), (0, 0))
         self.behind(Painter(surface), self._in_lens, t)
 

@@ -22,31 +22,31 @@ from sandbox.sport.amounts import amount
 if TYPE_CHECKING:
     from sandbox.picture.view import View
 
-CARD, TRACE = palette("card"), palette("trace")
+_CARD, _TRACE = palette("card"), palette("trace")
 
 #: A label this far from its mark, in px on 720 rows, has a line that leads to it.
-FARTHER = (25, 36, 50)
+_FARTHER = (25, 36, 50)
 #: And one that is alone may be so far away.
-ALONE = 66
+_ALONE = 66
 #: Lightening of a ghost's text on the card, compared with its trace.
-LIGHTER = 0.45
+_LIGHTER = 0.45
 #: The label of a ghost may stand at about so many points of its path.
-ANCHORS = 12
+_ANCHORS = 12
 
 
 def draw_trace(sheet: Sheet, points: np.ndarray, colour: Colour, share: float = 1.0) -> None:
     """The path as a thick line with a thin dark rim, or a ``share`` as thick; no label will be placed on it."""
     sheet.labels.take_path(points, 4 * sheet.unit)
     width = share * max(2.5, 4.5 * sheet.unit)
-    sheet.painter.trace(points, width, colour, TRACE["rim"], max(0.75, sheet.unit))
+    sheet.painter.trace(points, width, colour, _TRACE["rim"], max(0.75, sheet.unit))
 
 
 def draw_mark(sheet: Sheet, at: tuple[float, float]) -> None:
     """Mark the place where a ball struck something."""
     radius = max(2.5, 4.2 * sheet.unit)
-    sheet.painter.disc(at, radius + max(0.8, 1.2 * sheet.unit), TRACE["rim"], 0.8)
-    sheet.painter.disc(at, radius, CARD["accent"])
-    sheet.painter.disc(at, 0.4 * radius, CARD["background"])
+    sheet.painter.disc(at, radius + max(0.8, 1.2 * sheet.unit), _TRACE["rim"], 0.8)
+    sheet.painter.disc(at, radius, _CARD["accent"])
+    sheet.painter.disc(at, 0.4 * radius, _CARD["background"])
 
 
 def is_under(at: Point, ball: tuple[Point, float], edge: float) -> bool:
@@ -79,19 +79,21 @@ def label_mark(
     """
     unit, first = sheet.unit, atan2(towards[1], towards[0])
     turns = [first + turn for turn in (0.0, 0.6, -0.6, 1.2, -1.2, 1.9, -1.9, *((2.5, -2.5) if alone else ()), pi)]
-    placed = sheet.chip(text, around(at, [far * unit for far in (9, 16, *FARTHER, *([ALONE] if alone else []))], turns))
+    placed = sheet.chip(
+        text, around(at, [far * unit for far in (9, 16, *_FARTHER, *([_ALONE] if alone else []))], turns)
+    )
     if placed is None:
         return
     near = min(max(at[0], placed.left), placed.right), min(max(at[1], placed.top), placed.bottom)
     length = hypot(near[0] - at[0], near[1] - at[1])
-    if length > FARTHER[0] * unit * 0.9:
+    if length > _FARTHER[0] * unit * 0.9:
         start = at[0] + (near[0] - at[0]) * 4.2 * unit / length, at[1] + (near[1] - at[1]) * 4.2 * unit / length
-        sheet.painter.line([start, near], max(1.0, 1.3 * unit), CARD["text"], 0.8)
+        sheet.painter.line([start, near], max(1.0, 1.3 * unit), _CARD["text"], 0.8)
 
 
 def lighter(colour: Colour) -> Colour:
     """Return the colour of another run as it is on a dark ground."""
-    return mix(colour, CARD["text"], LIGHTER)
+    return mix(colour, _CARD["text"], _LIGHTER)
 
 
 @dataclass(frozen=True)
@@ -123,7 +125,7 @@ class Ghost:
 
     def colour_on(self, sheet: Sheet) -> Colour:
         """Lighter where the picture's ground is dark."""
-        return self.light if sheet.ink == CARD["text"] else self.colour
+        return self.light if sheet.ink == _CARD["text"] else self.colour
 
     @property
     def note(self) -> str:
@@ -140,7 +142,7 @@ class Ghost:
     def draw(self, sheet: Sheet, points: np.ndarray) -> None:
         """Its path (px, shape (n, 2)); no label will be placed on it."""
         width = max(2.5, 4.5 * sheet.unit)
-        sheet.painter.line(points, width, self.colour_on(sheet), TRACE["earlier"])
+        sheet.painter.line(points, width, self.colour_on(sheet), _TRACE["earlier"])
         sheet.painter.disc(points[-1], 1.3 * width, self.light, 0.9)
         sheet.labels.take_path(points, 3 * sheet.unit)
 
@@ -151,7 +153,7 @@ class Ghost:
         """
         points = points[apart(points, FINEST)]
         away = np.hypot(*(points[:, None] - trace[None, :: max(1, len(trace) // 100)]).T).min(axis=0)
-        far_first = points[np.argsort(-away, kind="stable")[:: max(1, len(points) // ANCHORS)]]
+        far_first = points[np.argsort(-away, kind="stable")[:: max(1, len(points) // _ANCHORS)]]
         distances, turns = [far * sheet.unit for far in (8, 16, 28)], np.linspace(pi / 2, 5 * pi / 2, 9).tolist()
         spots = [spot for place in far_first.tolist() for spot in around(place, distances, turns)]
         sheet.chip(self.label, spots, self.light)
@@ -160,5 +162,5 @@ class Ghost:
 def mark_measured(painter: Painter, places: np.ndarray, unit: float) -> None:
     """Dots at measured places in px, shape (n, 2), that are seen on any ground and on a path."""
     for at in places.tolist():
-        painter.disc(at, 3.4 * unit, TRACE["rim"])
-        painter.disc(at, 2.3 * unit, CARD["text"])
+        painter.disc(at, 3.4 * unit, _TRACE["rim"])
+        painter.disc(at, 2.3 * unit, _CARD["text"])

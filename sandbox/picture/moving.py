@@ -22,24 +22,24 @@ from sandbox.picture.vectors import Vectors
 from sandbox.sport.amounts import round_number_above
 from sandbox.text import with_article
 
-RIM = palette("trace")["rim"]
+_RIM = palette("trace")["rim"]
 
 #: In frames the ball is at least so much larger than it has to be to be seen.
-LARGER = 1.3
+_LARGER = 1.3
 #: A ball that is larger by less than this factor is not said to be.
 NOT_WORTH_NOTING = 1.05
 #: Only the hardest is marked of impacts that are nearer to each other than this, in px on 720 rows.
-APART = 20
+_APART = 20
 #: At most so many balls are drawn along a path, or along that part of it that matters.
-BALLS = 14
+_BALLS = 14
 #: Radius of a bead on the path: at most so much of that of the balls there, and so many px on 720 rows.
-BEAD, LARGEST_BEAD = 0.5, 3.0
+_BEAD, _LARGEST_BEAD = 0.5, 3.0
 #: Width of a string, px on 720 rows.
-STRING = 1.5
+_STRING = 1.5
 #: Half the least width of a surface, px on 720 rows.
 THINNEST = 1.5
 #: The faint trace of a surface that moves on a poster: poses, s between them, and how opaque the latest is.
-SWEEP, SWEEP_EVERY, SWEEP_OPACITY = 5, 0.05, 0.25
+_SWEEP, _SWEEP_EVERY, _SWEEP_OPACITY = 5, 0.05, 0.25
 
 
 def draw_shape(
@@ -145,7 +145,7 @@ class BallDrawing(SceneOptions[P]):
 
     def _least(self, in_frame: bool) -> float:
         """The least radius of a ball in px: of one alone, larger in frames."""
-        return self.min_radius * (LARGER if in_frame and len(self.balls) == 1 else 1.0)
+        return self.min_radius * (_LARGER if in_frame and len(self.balls) == 1 else 1.0)
 
     # Where
 
@@ -219,17 +219,17 @@ class BallDrawing(SceneOptions[P]):
         if len(self.balls) > 1:
             return []
         painter = sheet.painter
-        every = round_number_above(max(self.strobe_end, 0.01) / BALLS)
+        every = round_number_above(max(self.strobe_end, 0.01) / _BALLS)
         moments = [i * every for i in range(max(1, ceil(self.story_end / every - 1e-9)))]
         radius, look = max(self.radius * camera.scale, mark_radius(self.rows)), self.looks[self.ball]
         states = np.array([self.position_of(self.ball, t) for t in [*moments, self.story_end]])
         *places, end = self.spots(camera, states, radius)
         over = self.last(camera)
-        bead, last, crowded = min(BEAD * radius, max(2.0, LARGEST_BEAD * self.unit)), None, False
+        bead, last, crowded = min(_BEAD * radius, max(2.0, _LARGEST_BEAD * self.unit)), None, False
         for t, at in zip(moments, places, strict=True):
             near = [2.2 * radius > dist(at, other) for other in ([end] if last is None else [end, last])]
             if t > 0 and any(near):
-                painter.disc(at, bead + max(0.7, 0.8 * self.unit), RIM, 0.8)
+                painter.disc(at, bead + max(0.7, 0.8 * self.unit), _RIM, 0.8)
                 painter.disc(at, bead, look.colour)
                 crowded |= not is_under(at, over, self.unit)
             else:
@@ -244,7 +244,7 @@ class BallDrawing(SceneOptions[P]):
         """The impacts that are marked."""
         marked: list[ImpactMark] = []
         for mark in sorted(self.path.marks(), key=lambda mark: -mark.hardness):
-            near = (dist(mark.at, other.at) * camera.scale < APART * self.unit for other in marked)
+            near = (dist(mark.at, other.at) * camera.scale < _APART * self.unit for other in marked)
             least = max(self.MIN_IMPACT, self.MIN_IMPACT_SHARE * [*marked, mark][0].hardness)
             if mark.hardness >= least and not any(near):
                 marked.append(mark)
@@ -254,7 +254,7 @@ class BallDrawing(SceneOptions[P]):
         """Draw the strings of balls that hang."""
         for name, (x, y) in self.strings:
             hung = self.spots(camera, np.array([self.run.state(name, t)[:2]]), 0.0, name)[0]
-            painter.line([camera.pixel(x, y), hung], STRING * self.unit, self.STRING_COLOUR)
+            painter.line([camera.pixel(x, y), hung], _STRING * self.unit, self.STRING_COLOUR)
 
     @cached_property
     def driven(self) -> list[Surface]:
@@ -268,10 +268,10 @@ class BallDrawing(SceneOptions[P]):
 
     def _sweep(self, painter: Painter, camera: Camera) -> None:
         """Draw the surfaces that move as the poster has them, over a faint trace of where they were just before."""
-        for i in range(SWEEP, 0, -1):
-            before = self.driven_moment - i * SWEEP_EVERY
+        for i in range(_SWEEP, 0, -1):
+            before = self.driven_moment - i * _SWEEP_EVERY
             if before >= 0.0:
-                self.draw_driven(painter, camera, before, SWEEP_OPACITY * (1.0 - i / (SWEEP + 1)))
+                self.draw_driven(painter, camera, before, _SWEEP_OPACITY * (1.0 - i / (_SWEEP + 1)))
         self.draw_driven(painter, camera, self.driven_moment)
 
     def _trails(self, sheet: Sheet, camera: Camera, t: float) -> None:

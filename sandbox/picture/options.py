@@ -29,14 +29,14 @@ from sandbox.sport.amounts import amount, metres, signed
 from sandbox.text import shortened
 from sandbox.tracebacks import is_ours
 
-CARD, PLAIN = palette("card"), palette("plain")
-TRACES = palette("trace")["colours"]
+_CARD, _PLAIN = palette("card"), palette("plain")
+_TRACES = palette("trace")["colours"]
 
 #: A run that is shorter, in s, is told in ms.
-INSTANT = 0.1
+_INSTANT = 0.1
 
 #: The times at which the distance of a ball to surfaces that move is compared.
-NEAREST = 200
+_NEAREST = 200
 
 P = TypeVar("P", bound=Group)
 
@@ -75,7 +75,7 @@ class SceneOptions(Generic[P]):
     # Colours and words
 
     #: The look of the ball, and its name in notes: "" for a ball, or a body where it is a ``Body``.
-    LOOK: ClassVar[Look] = Look(PLAIN["ball"], seams(PLAIN["marks"]))
+    LOOK: ClassVar[Look] = Look(_PLAIN["ball"], seams(_PLAIN["marks"]))
     #: Looks of balls by name, where they differ.
     LOOKS: ClassVar[Mapping[str, Look]] = {}
     THING: ClassVar[str] = ""
@@ -83,17 +83,17 @@ class SceneOptions(Generic[P]):
     CAVEAT: ClassVar[str] = ""
     #: Colours of the path, of the thin line of it that stays behind in frames (None: the same), and of the paths of
     #: other balls and other runs.
-    TRACE: ClassVar[Colour] = TRACES[0]
+    TRACE: ClassVar[Colour] = _TRACES[0]
     FAINT_TRACE: ClassVar[Colour | None] = None
-    OTHER_TRACES: ClassVar[Sequence[Colour]] = TRACES[1:]
+    OTHER_TRACES: ClassVar[Sequence[Colour]] = _TRACES[1:]
     #: Names of a spin below and of one above zero.
     SPIN_NAMES: ClassVar[tuple[str, str]] = ("topspin", "backspin")
     #: The direction that a camera may stretch, as notes call it: "heights" or "widths".
     STRETCHED: ClassVar[str] = "heights"
     #: The colour of strings.
-    STRING_COLOUR: ClassVar[Colour] = CARD["quiet"]
+    STRING_COLOUR: ClassVar[Colour] = _CARD["quiet"]
     #: The colour of surfaces that move.
-    DRIVEN: ClassVar[Colour] = PLAIN["surface"]
+    DRIVEN: ClassVar[Colour] = _PLAIN["surface"]
     #: True if text stands on dark ground, False if on light; None: as the place is where the headline stands.
     ON_DARK: ClassVar[bool | None] = None
 
@@ -157,7 +157,7 @@ class SceneOptions(Generic[P]):
             x, y = self.run.state(self.ball, t)[:2]
             return min(Outline.of(surface.at(t).shape, 0.0).near(x, y).gap for surface in driven)
 
-        return min(np.linspace(0.0, self.story_end, NEAREST).tolist(), key=gap)
+        return min(np.linspace(0.0, self.story_end, _NEAREST).tolist(), key=gap)
 
     @property
     def datum(self) -> tuple[tuple[float, float], str]:
@@ -207,7 +207,7 @@ class SceneOptions(Generic[P]):
 
     def clock(self, t: float) -> str:
         """A time in s, in ms where all is over in an instant."""
-        return f"{1e3 * t:.2f} ms" if self.run.duration < INSTANT else f"{t:.2f} s"
+        return f"{1e3 * t:.2f} ms" if self.run.duration < _INSTANT else f"{t:.2f} s"
 
     def position(self, t: float) -> list[Entry]:
         """Entries of the frame's card for the ball's position."""

@@ -18,19 +18,19 @@ import pygame
 from sandbox.picture.palette import Colour
 
 Point = tuple[float, float]
-Points = Sequence[Point] | np.ndarray  # an array has shape (n, 2)
+_Points = Sequence[Point] | np.ndarray  # an array has shape (n, 2)
 
 #: A shape is drawn so many times larger before it is scaled down. 4 gives 16 levels along an edge; 2 shows steps.
 OVERSAMPLING = 4
 #: Half the width of an arrow's head over its length.
-ARROW = 0.62
+_ARROW = 0.62
 #: Discs are kept for centres this far apart (px) and radii half as far: finer than the eye, coarse enough to be reused.
-PHASE = 1 / 8
+_PHASE = 1 / 8
 #: So many shapes are kept, none of more than so many px.
-MOST_KEPT, LARGEST_KEPT = 512, 40_000
+_MOST_KEPT, _LARGEST_KEPT = 512, 40_000
 #: Discs, shadows and panels longer than this, in px, are computed only where they are seen: a camera that zooms in may
 #: make them far larger than the picture.
-LARGEST_WHOLE = 2000
+_LARGEST_WHOLE = 2000
 
 
 def blank(size: tuple[int, int], transparent: bool = False) -> pygame.Surface:
@@ -141,15 +141,15 @@ class Painter:
 
     def disc(self, centre: Point, radius: float, colour: Colour, opacity: float = 1.0, width: float = 0.0) -> None:
         """A disc, or with ``width`` > 0 the ring of that width along its edge."""
-        if 2 * radius > LARGEST_WHOLE:
+        if 2 * radius > _LARGEST_WHOLE:
             self._large(
                 centre, (radius + width + 1,) * 2, lambda x, y: _round(np.hypot(x, y), radius, width), colour, opacity
             )
             return
-        x, y = (round(value / PHASE) * PHASE for value in centre)
+        x, y = (round(value / _PHASE) * _PHASE for value in centre)
         column, row = floor(x), floor(y)  # pixel i covers i to i + 1, so its centre is at i + 1/2
         phase = x - column - 0.5, y - row - 0.5
-        sprite = _disc(round(radius * 2 / PHASE) * PHASE / 2, width, phase, colour)
+        sprite = _disc(round(radius * 2 / _PHASE) * _PHASE / 2, width, phase, colour)
         self._blit(sprite, (column - sprite.get_width() // 2, row - sprite.get_height() // 2), opacity)
 
     def ring(self, centre: Point, radius: float, width: float, colour: Colour, opacity: float = 1.0) -> None:
@@ -157,7 +157,7 @@ class Painter:
 
     def shadow(self, centre: Point, half_width: float, half_height: float, colour: Colour, opacity: float) -> None:
         """A soft ellipse, fading over its outer half."""
-        if 2 * max(half_width, half_height) > LARGEST_WHOLE:
+        if 2 * max(half_width, half_height) > _LARGEST_WHOLE:
             reach = 1.5 * half_width, 1.5 * half_height
             self._large(centre, reach, lambda x, y: _soft(x / half_width, y / half_height), colour, opacity)
             return
@@ -165,20 +165,20 @@ class Painter:
         left, top = centre[0] - sprite.get_width() / 2, centre[1] - sprite.get_height() / 2
         self._blit(sprite, (round(left), round(top)), opacity)
 
-    def polygon(self, points: Points, colour: Colour, opacity: float = 1.0) -> None:
+    def polygon(self, points: _Points, colour: Colour, opacity: float = 1.0) -> None:
         self._shape(points, 0, colour, opacity, pygame.draw.polygon)
 
-    def line(self, points: Points, width: float, colour: Colour, opacity: float = 1.0) -> None:
+    def line(self, points: _Points, width: float, colour: Colour, opacity: float = 1.0) -> None:
         """A line through the points with round ends and joints."""
         self._shape(points, width, colour, opacity, _line, width * OVERSAMPLING / 2)
 
-    def lines(self, lines: Sequence[Points] | np.ndarray, width: float, colour: Colour, opacity: float = 1.0) -> None:
+    def lines(self, lines: Sequence[_Points] | np.ndarray, width: float, colour: Colour, opacity: float = 1.0) -> None:
         """Many thin lines at once, such as the mesh of a net; where they cross they are no denser."""
         points = lines.reshape(-1, 2) if isinstance(lines, np.ndarray) else np.concatenate(lines)
         ends = tuple(accumulate(map(len, lines), initial=0))
         self._shape(points, width, colour, opacity, _lines, max(1, round(width * OVERSAMPLING)), ends)
 
-    def thread(self, points: Points, width: float, colour: Colour) -> None:
+    def thread(self, points: _Points, width: float, colour: Colour) -> None:
         """A line of whole px, at least one, without round joints: quick enough for every frame.
 
         Piece by piece: what pygame's ``aalines`` draws is not the same each time.
@@ -186,24 +186,24 @@ class Painter:
         for a, b in pairwise(np.asarray(points, dtype=float).tolist()):
             pygame.draw.aaline(self.surface, colour, a, b, max(1, round(width)))
 
-    def trace(self, points: Points, width: float, colour: Colour, rim: Colour, rim_width: float) -> None:
+    def trace(self, points: _Points, width: float, colour: Colour, rim: Colour, rim_width: float) -> None:
         """A line with a thin edge of another colour, so that it stands out on any ground."""
         self.line(points, width + 2 * rim_width, rim, 0.55)
         self.line(points, width, colour)
 
     def dashes(
-        self, points: Points, width: float, colour: Colour, dash: float, gap: float, opacity: float = 1.0
+        self, points: _Points, width: float, colour: Colour, dash: float, gap: float, opacity: float = 1.0
     ) -> None:
         """A dashed line along the points; ``dash`` and ``gap`` in px."""
         for piece in _dashed(points, dash, gap):
             self.line(piece, width, colour, opacity)
 
-    def dashed_thread(self, points: Points, width: float, colour: Colour, dash: float, gap: float) -> None:
+    def dashed_thread(self, points: _Points, width: float, colour: Colour, dash: float, gap: float) -> None:
         """A dashed line, quick enough for every frame."""
         for piece in _dashed(points, dash, gap):
             self.thread(piece, width, colour)
 
-    def fading(self, points: Points, width: float, colour: Colour, opacity: float) -> None:
+    def fading(self, points: _Points, width: float, colour: Colour, opacity: float) -> None:
         """A line that grows from nothing at its first point to full width and opacity at its last."""
         array = np.asarray(points, dtype=float)
         if len(array) < 2:
@@ -233,8 +233,8 @@ class Painter:
         head = min(3.5 * width, length)
 
         def outline(wider: float) -> list[Point]:
-            beyond = wider * hypot(1, ARROW) / ARROW  # by which the tip of a head whose sides move out moves on
-            neck, shaft, wide = length - head - wider, width / 2 + wider, ARROW * (head + wider + beyond)
+            beyond = wider * hypot(1, _ARROW) / _ARROW  # by which the tip of a head whose sides move out moves on
+            neck, shaft, wide = length - head - wider, width / 2 + wider, _ARROW * (head + wider + beyond)
             half = (-wider, shaft), (neck, shaft), (neck, wide), (length + beyond, 0.0)
             corners = [*half, *((far, -aside) for far, aside in half[2::-1])]
             return [(a[0] + far * along - aside * down, a[1] + far * down + aside * along) for far, aside in corners]
@@ -245,7 +245,7 @@ class Painter:
 
     def panel(self, rect: pygame.Rect, colour: Colour, opacity: float, corner: float) -> None:
         """A rectangle with round corners."""
-        if max(rect.size) > LARGEST_WHOLE:
+        if max(rect.size) > _LARGEST_WHOLE:
             centre, reach = (rect.left + rect.width / 2, rect.top + rect.height / 2), (rect.width / 2, rect.height / 2)
             self._large(centre, reach, lambda x, y: _cornered(x, y, rect.size, corner), colour, opacity)
             return
@@ -270,7 +270,7 @@ class Painter:
 
     def _shape(
         self,
-        points: Points,
+        points: _Points,
         width: float,
         colour: Colour,
         opacity: float,
@@ -292,9 +292,9 @@ class Painter:
             mask = scratch((seen.width * larger, seen.height * larger), colour)
             draw(mask, colour, drawn.tolist(), *how)
             sprite = pygame.transform.smoothscale(mask, seen.size)
-            if seen.width * seen.height <= LARGEST_KEPT:
+            if seen.width * seen.height <= _LARGEST_KEPT:
                 _sprites[key] = sprite
-                if len(_sprites) > MOST_KEPT:
+                if len(_sprites) > _MOST_KEPT:
                     _sprites.pop(next(iter(_sprites)), None)
         self._blit(sprite, seen.topleft, opacity)
 
@@ -329,7 +329,7 @@ def _quad(a: Point, b: Point, radius: float) -> list[Point]:
     return [(a[0] + x, a[1] + y), (b[0] + x, b[1] + y), (b[0] - x, b[1] - y), (a[0] - x, a[1] - y)]
 
 
-def _dashed(points: Points, dash: float, gap: float) -> list[list[Point]]:
+def _dashed(points: _Points, dash: float, gap: float) -> list[list[Point]]:
     """The pieces of a line that a dashed pen leaves."""
     array = np.asarray(points, dtype=float)
     along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(array, axis=0).T))])

@@ -18,19 +18,19 @@ from sandbox.engine.model.shapes import Shape
 from sandbox.engine.paths.run import Run
 
 #: The path is sampled this often in s; of a long run, in so many pieces.
-SAMPLING, MOST_SAMPLES = 1 / 120, 5000
+_SAMPLING, MOST_SAMPLES = 1 / 120, 5000
 #: Points of a trace are this far apart, in px.
 FINEST = 1.5
 #: Points on each arc of a path. The arcs of a drive are seconds long, and its line must still look smooth.
-POINTS = 9
+_POINTS = 9
 #: A drawn line has no points nearer to each other than this, none farther, in px, and bends by no more at one, in rad.
-CLOSEST, LONGEST, BEND = 3.0, 60.0, 0.12
+_CLOSEST, _LONGEST, _BEND = 3.0, 60.0, 0.12
 
 #: A run is in slow motion if what matters of it, until the first impact but at least this share of the whole, is over
 #: sooner than this in s; it then lasts at least so long, but is no more than so many times slower.
-STORIES, BRIEF, SEEN, SLOWEST = 0.4, 0.55, 1.0, 16
+_STORIES, _BRIEF, _SEEN, _SLOWEST = 0.4, 0.55, 1.0, 16
 #: Values that jump at an impact are sampled so many s before it, too; at most at so many impacts.
-BEFORE, JUMPS = 1e-9, 200
+_BEFORE, _JUMPS = 1e-9, 200
 
 
 def hardest(
@@ -38,7 +38,7 @@ def hardest(
 ) -> list[Event]:
     """The impacts of the balls with these ``names`` or of all, the hardest first: at most so many, and none at less
     than a share of the hardest; only those before the time ``until`` in s."""
-    impacts = (event for event in run.events if event.kind == "impact" and BEFORE < event.t < until)
+    impacts = (event for event in run.events if event.kind == "impact" and _BEFORE < event.t < until)
     own = (event for event in impacts if not names or event.ball in names or event.partner in names)
     hits = sorted(own, key=lambda event: -event.speed)[:most]
     return [event for event in hits if event.speed >= share * hits[0].speed]
@@ -47,24 +47,24 @@ def hardest(
 def instants(run: Run, pieces: int, names: Collection[str] = ()) -> np.ndarray:
     """Times in s at which to sample a run: evenly spread over so many pieces and, so that what jumps at an impact does,
     just before and at the hardest impacts, of the balls with these ``names`` or of all."""
-    hits = (event.t for event in hardest(run, names, JUMPS, 0.0))
-    return np.union1d(np.linspace(0.0, run.duration, pieces + 1), [t for hit in hits for t in (hit - BEFORE, hit)])
+    hits = (event.t for event in hardest(run, names, _JUMPS, 0.0))
+    return np.union1d(np.linspace(0.0, run.duration, pieces + 1), [t for hit in hits for t in (hit - _BEFORE, hit)])
 
 
 def first_impact(run: Run, ball: str) -> float | None:
     """The time in s at which a ball first hits something, or is hit; None if it never does."""
     impacts = (event.t for event in run.events if event.kind == "impact" and ball in (event.ball, event.partner))
-    return next((t for t in impacts if t > BEFORE), None)
+    return next((t for t in impacts if t > _BEFORE), None)
 
 
 def slow_motion(run: Run, ball: str) -> int:
     """The factor by which a run is slowed down at first: 1, or a power of two for one that is over too soon to be seen,
     such as a pitch, a spike, or a serve up to its bounce."""
     first = first_impact(run, ball)
-    lasts = max(run.duration if first is None else first, STORIES * run.duration)
-    if not 0.0 < lasts < BRIEF:
+    lasts = max(run.duration if first is None else first, _STORIES * run.duration)
+    if not 0.0 < lasts < _BRIEF:
         return 1
-    return min(SLOWEST, 2 ** ceil(log2(SEEN / lasts)))
+    return min(_SLOWEST, 2 ** ceil(log2(_SEEN / lasts)))
 
 
 @dataclass(frozen=True)
@@ -89,7 +89,7 @@ class DrawnPath:
     def __init__(self, run: Run, name: str = "ball", until: float | None = None):
         self.run, self.name = run, name
         self.until = run.duration if until is None else until
-        every, found = max(SAMPLING, run.duration / MOST_SAMPLES), list[tuple[float, float, float]]()  # t, x, y
+        every, found = max(_SAMPLING, run.duration / MOST_SAMPLES), list[tuple[float, float, float]]()  # t, x, y
         for arc in (arc for arc in run.arcs[name] if arc.t0 < min(arc.t1, self.until)):
             between = range(floor(arc.t0 / every) + 1, 0 if arc.rests else ceil(min(arc.t1, self.until) / every))
             found += [(t, *arc.position(t)) for t in (arc.t0, *(i * every for i in between))]
@@ -130,12 +130,12 @@ def simplify(pixels: np.ndarray) -> np.ndarray:
 
     Joints would show between short pieces of a smooth line.
     """
-    pixels = pixels[apart(pixels, CLOSEST)]
+    pixels = pixels[apart(pixels, _CLOSEST)]
     steps = np.diff(pixels, axis=0)
     heading = np.arctan2(steps[:, 1], steps[:, 0])
     turn = np.abs((np.diff(heading) + np.pi) % (2 * np.pi) - np.pi)
-    along = np.hypot(*steps.T) / LONGEST
-    along[1:] += turn / BEND
+    along = np.hypot(*steps.T) / _LONGEST
+    along[1:] += turn / _BEND
     return pixels[_firsts(np.cumsum(np.append(along, 0.0)))]
 
 
@@ -149,8 +149,8 @@ def points(paths: Sequence[tuple[Run, str]]) -> list[np.ndarray]:
     pieces = [[*run.arcs[ball].pieces()] for run, ball in paths]
     starts, stops, *both = (list(part) for part in zip(*chain(*pieces), strict=True))
     counts = [len(each) for each in pieces]
-    out = np.empty((len(starts), POINTS, 3))
-    u = np.linspace(0.0, 1.0, POINTS)
+    out = np.empty((len(starts), _POINTS, 3))
+    u = np.linspace(0.0, 1.0, _POINTS)
     first, last = np.array(starts), np.minimum(stops, np.repeat([run.duration for run, _ in paths], counts))
     out[:, :, 0] = first[:, None] + (last - first)[:, None] * u
     for column, curves in enumerate(both, 1):
@@ -158,7 +158,7 @@ def points(paths: Sequence[tuple[Run, str]]) -> list[np.ndarray]:
         for terms in set(lengths.tolist()):
             rows = np.flatnonzero(lengths == terms)
             out[rows, :, column] = evaluate(np.array([curves[row] for row in rows]).T[:, :, None], u)
-    return np.split(out.reshape(-1, 3), POINTS * np.cumsum(counts)[:-1])
+    return np.split(out.reshape(-1, 3), _POINTS * np.cumsum(counts)[:-1])
 
 
 def time_after(way: float, track: np.ndarray) -> float:

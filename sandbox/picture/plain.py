@@ -16,19 +16,19 @@ from sandbox.picture.palette import palette
 from sandbox.picture.sheet import Sheet
 from sandbox.picture.view import View
 
-COLOURS, TRACES = palette("plain"), palette("trace")["colours"]
+_COLOURS, _TRACES = palette("plain"), palette("trace")["colours"]
 #: The looks of several balls, each in the colour of its path.
-SEVERAL = [Look(colour, seams(COLOURS["marks"])) for colour in TRACES]
+_SEVERAL = [Look(colour, seams(_COLOURS["marks"])) for colour in _TRACES]
 
 
 #: Surfaces and traps that are named.
-MOST_NAMED = 8
+_MOST_NAMED = 8
 #: The name of a segment stands at the first of these fractions of the part in sight where there is room.
-ALONG = (0.9, 0.1, 0.75, 0.25, 0.5)
+_ALONG = (0.9, 0.1, 0.75, 0.25, 0.5)
 
 #: Beside what is level and what is steep: the direction in px, and the part of the text that is there.
-LEVEL = ((0.0, 1.0, "midtop"), (0.0, -1.0, "midbottom"))
-STEEP = ((1.0, 0.0, "midleft"), (-1.0, 0.0, "midright"))
+_LEVEL = ((0.0, 1.0, "midtop"), (0.0, -1.0, "midbottom"))
+_STEEP = ((1.0, 0.0, "midleft"), (-1.0, 0.0, "midright"))
 
 
 class Picture(AboveView[Group]):
@@ -44,16 +44,16 @@ class Picture(AboveView[Group]):
         return [*super().solids, *(trap.shape for trap in self.run.setup.traps)]
 
     def look_of(self, name: str) -> Look:
-        return self.LOOK if len(self.balls) == 1 else SEVERAL[self.balls.index(name) % len(SEVERAL)]
+        return self.LOOK if len(self.balls) == 1 else _SEVERAL[self.balls.index(name) % len(_SEVERAL)]
 
     def backdrop(self, painter: Painter, camera: Camera) -> None:
         """A light ground, and as a line or a disc every surface at rest and, paler, what takes balls."""
-        painter.surface.blit(gradient(self.size, COLOURS["ground"]), (0, 0))
+        painter.surface.blit(gradient(self.size, _COLOURS["ground"]), (0, 0))
         for trap in self.run.setup.traps:
-            draw_shape(painter, camera, trap.shape, COLOURS["catch"], self.unit)
+            draw_shape(painter, camera, trap.shape, _COLOURS["catch"], self.unit)
         for surface in self.run.setup.surfaces:
             if surface.motion is None:
-                draw_shape(painter, camera, surface.shape, COLOURS["surface"], self.unit)
+                draw_shape(painter, camera, surface.shape, _COLOURS["surface"], self.unit)
 
     def shadow(self, painter: Painter, camera: Camera, name: str, t: float, at: Point, radius: float) -> None:
         """On the plane that balls roll on; from the side there is none."""
@@ -65,12 +65,12 @@ class Picture(AboveView[Group]):
         setup = self.run.setup
         named = {surface.name: surface.at(self.driven_moment).shape for surface in setup.surfaces}
         named |= {trap.name: trap.shape for trap in setup.traps}
-        if len(named) > MOST_NAMED:
+        if len(named) > _MOST_NAMED:
             touched = dict.fromkeys(event.partner for event in self.run.events if event.partner in named)
-            named = {name: named[name] for name in list(touched)[:MOST_NAMED]}
+            named = {name: named[name] for name in list(touched)[:_MOST_NAMED]}
         room = pygame.FRect(0, sheet.top_row, self.size[0], self.card_row - sheet.top_row)
         for name, shape in named.items():
-            sheet.label(name, "small", self._spots(shape, camera, room), COLOURS["surface"])
+            sheet.label(name, "small", self._spots(shape, camera, room), _COLOURS["surface"])
 
     def _spots(self, shape: Segment | Circle, camera: Camera, room: pygame.FRect) -> list[tuple[float, float, str]]:
         """Return spots for the name of a surface, beside the part of it that is in sight, in px."""
@@ -81,6 +81,6 @@ class Picture(AboveView[Group]):
         if not seen:
             return []
         (x0, y0), (x1, y1) = seen
-        sides = STEEP if abs(y1 - y0) > abs(x1 - x0) else LEVEL
-        places = [(x0 + part * (x1 - x0), y0 + part * (y1 - y0)) for part in ALONG]
+        sides = _STEEP if abs(y1 - y0) > abs(x1 - x0) else _LEVEL
+        places = [(x0 + part * (x1 - x0), y0 + part * (y1 - y0)) for part in _ALONG]
         return [(x + across * off, y + down * off, anchor) for x, y in places for across, down, anchor in sides]

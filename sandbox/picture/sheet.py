@@ -25,33 +25,33 @@ CARD = palette("card")
 Entry = tuple[str, str] | tuple[str, str, Colour]
 
 #: Nearest that anything important comes to an edge, as a share of the picture's width and height.
-MARGIN = 0.05
+_MARGIN = 0.05
 YARD = 0.9144  # m
 #: Letters and lines go with a picture's height; where it is narrower than this, width over height, with its width.
-SQUAREST = 4 / 3
+_SQUAREST = 4 / 3
 #: Under so many rows a ruler has no second row of figures; under so few there is no room for a large headline, nor for
 #: lengths between ground and ruler.
-ROWS_FOR_YARDS, ROWS_FOR_LENGTHS = 480, 240
+_ROWS_FOR_YARDS, ROWS_FOR_LENGTHS = 480, 240
 
 
 #: Factor by which letters and lines are enlarged: more for a small screen with many px.
-DENSITY: ContextVar[float] = ContextVar("density", default=1.0)
+_DENSITY: ContextVar[float] = ContextVar("density", default=1.0)
 
 
 @contextmanager
 def drawn_at(density: float) -> Iterator[None]:
     """Draw pictures with this density."""
-    token = DENSITY.set(density)
+    token = _DENSITY.set(density)
     try:
         yield
     finally:
-        DENSITY.reset(token)
+        _DENSITY.reset(token)
 
 
 def rows_of(size: tuple[int, int]) -> int:
     """The rows in px that letters and lines of a picture are made for: its own, or fewer where it is narrow."""
     width, height = size
-    return round(DENSITY.get() * min(height, width / SQUAREST))
+    return round(_DENSITY.get() * min(height, width / _SQUAREST))
 
 
 class SideRows(NamedTuple):
@@ -83,7 +83,7 @@ class Sheet:
         if surface is not None:
             self.surface = surface
         self.lettering = Lettering(self.rows)
-        self.frame = pygame.Rect(0, 0, width, height).inflate(-2 * ceil(MARGIN * width), -2 * ceil(MARGIN * height))
+        self.frame = pygame.Rect(0, 0, width, height).inflate(-2 * ceil(_MARGIN * width), -2 * ceil(_MARGIN * height))
         self.labels = Labels(self.frame, self.gap)
         self.written: list[tuple[str, pygame.Rect]] = []
 
@@ -225,7 +225,7 @@ class Sheet:
     def ruler_heights(self) -> tuple[int, int]:
         """The heights of the ruler above and below its line, in px."""
         figures = self.lettering.height("small") + round(8 * self.unit)
-        return figures, figures if self.rows >= ROWS_FOR_YARDS else 0
+        return figures, figures if self.rows >= _ROWS_FOR_YARDS else 0
 
     def ruler(self, camera: Camera, row: float, below: str = "yd") -> None:
         """A ruler along x over the frame's width, in metres and, where there is room, in another unit below."""
@@ -233,7 +233,7 @@ class Sheet:
         y = round(row)
         self.surface.fill(CARD["rule"], (self.frame.left, y, self.frame.width, thin))
         self._scale(camera, y, thin, "m", 1.0, upward=True)
-        if self.rows >= ROWS_FOR_YARDS:
+        if self.rows >= _ROWS_FOR_YARDS:
             self._scale(camera, y, thin, below, convert(1.0, below, "m"), upward=False)
 
     def _scale(self, camera: Camera, row: int, thin: int, unit: str, metre: float, upward: bool) -> None:

@@ -25,18 +25,18 @@ from sandbox.picture.view import P, View
 from sandbox.sport.amounts import metres, roughly
 
 #: The picture shows at least so many radii of the ball along the ground.
-LEAST_WIDTH = 60
+_LEAST_WIDTH = 60
 #: A flight that rises at least so much, in px on 720 rows, and at most over this share of the room is drawn
 #: higher, where the ball is drawn at least so many times its size.
-LEAST_RISE, LOW_FLIGHT, LARGE_BALL = 24, 0.45, 3
+_LEAST_RISE, _LOW_FLIGHT, _LARGE_BALL = 24, 0.45, 3
 #: Columns, as shares of the width, between which frames keep the ball: where all is in sight, and on its way.
-AT_HOME, ON_ITS_WAY = (0.1, 0.9), (0.25, 0.45)
+_AT_HOME, _ON_ITS_WAY = (0.1, 0.9), (0.25, 0.45)
 #: Width and height of the map of frames, as shares of the picture's width and rows.
-MAP = 0.24, 0.15
+_MAP = 0.24, 0.15
 #: Labels keep off so many points along the sides of a thing, and from there to its middle.
-ALONG, ACROSS = 9, 4
+_ALONG, _ACROSS = 9, 4
 #: A shadow is half as dark where the ball is so high over the ground, in px on 720 rows.
-SHADOW_FADES = 80
+_SHADOW_FADES = 80
 
 
 class SideView(SideOptions[P], View[P]):
@@ -72,7 +72,7 @@ class SideView(SideOptions[P], View[P]):
         wide = _joined(seen, self.preferred_view)
         if max(seen.right - seen.left, seen.top) >= self.MIN_PATH_SHARE * (wide.right - wide.left):
             seen = wide
-        short = max(0.0, LEAST_WIDTH * self.radius - (seen.right - seen.left)) / 2
+        short = max(0.0, _LEAST_WIDTH * self.radius - (seen.right - seen.left)) / 2
         seen = seen._replace(left=seen.left - short, right=seen.right + short)
         heights = self.ground(np.linspace(seen.left, seen.right, 500))
         return seen._replace(bottom=float(heights.min()), top=max(seen.top, float(heights.max())))
@@ -85,9 +85,9 @@ class SideView(SideOptions[P], View[P]):
         """Shows the whole path and what belongs to it; a low flight higher than it is, where the scene allows it."""
         camera = Camera.fit(self.subject, area)
         rise, room = (self.subject.top - self.subject.bottom) * camera.scale, area.bottom - area.top
-        low = LEAST_RISE * self.unit < rise < LOW_FLIGHT * room
+        low = _LEAST_RISE * self.unit < rise < _LOW_FLIGHT * room
         stretch = 1.0
-        if low and self.min_radius > LARGE_BALL * self.radius * camera.scale:
+        if low and self.min_radius > _LARGE_BALL * self.radius * camera.scale:
             stretch = min(self.MAX_STRETCH, max(1.0, floor(room / rise)))
         if isinf(self.MAX_STRETCH):  # in steps of half a power of ten
             most = max(1.0, room / rise)
@@ -139,12 +139,12 @@ class SideView(SideOptions[P], View[P]):
     def _way(self) -> tuple[float, float]:
         """Between which shares of the width a ball on its way is, that behind it first."""
         forward = self.run.state(self.ball, 0.0)[2] >= 0.0
-        return ON_ITS_WAY if forward else (1 - ON_ITS_WAY[0], 1 - ON_ITS_WAY[1])
+        return _ON_ITS_WAY if forward else (1 - _ON_ITS_WAY[0], 1 - _ON_ITS_WAY[1])
 
     @cached_property
     def columns(self) -> tuple[float, float]:
         """The columns between which frames keep the ball, in px."""
-        low, high = sorted(AT_HOME if self.home == self.camera else self._way)
+        low, high = sorted(_AT_HOME if self.home == self.camera else self._way)
         return low * self.size[0], high * self.size[0]
 
     def inset(self, sheet: Sheet, camera: Camera, t: float | None) -> pygame.Rect | None:
@@ -172,10 +172,10 @@ class SideView(SideOptions[P], View[P]):
     def _map(self) -> tuple[pygame.Rect, Camera, np.ndarray, np.ndarray]:
         """Its rectangle in px, its camera, which points of the path can be told apart on it, and the ground in px."""
         gap, (goal, _), rect = self.sheet.gap, self.datum[0], pygame.Rect(self.sheet.frame)
-        rect.size = round(MAP[0] * self.size[0]), round(MAP[1] * self.rows)
+        rect.size = round(_MAP[0] * self.size[0]), round(_MAP[1] * self.rows)
         rect.right = self.sheet.frame.right
         (left, _), (right, top) = self.points.min(axis=0), self.points.max(axis=0)
-        left, right = min(left, goal), max(right, goal, left + LEAST_WIDTH * self.radius)
+        left, right = min(left, goal), max(right, goal, left + _LEAST_WIDTH * self.radius)
         heights, inset = self.profile(left, right)[:, 1], 2.4 * gap
         area = Area(rect.left + inset, rect.top + inset, rect.right - 2 * inset, rect.bottom - inset)
         camera = Camera.fit(Box(left, heights.min(), right, max(top, heights.max())), area, self.camera.stretch)
@@ -226,7 +226,7 @@ class SideView(SideOptions[P], View[P]):
         height = y - self.radius - ground
         if height < -0.5 * self.radius:
             return
-        near = 1 / (1 + max(0.0, height) * camera.scale * camera.stretch / (SHADOW_FADES * self.unit))
+        near = 1 / (1 + max(0.0, height) * camera.scale * camera.stretch / (_SHADOW_FADES * self.unit))
         below = at[0], camera.pixel(x, ground)[1] + self.unit
         painter.shadow(below, radius * (2.2 - near), 0.35 * radius, CARD["shadow"], 0.15 + 0.45 * near)
 
@@ -262,8 +262,8 @@ class SideView(SideOptions[P], View[P]):
                 (left, top), (right, bottom) = points.min(axis=0).tolist(), points.max(axis=0).tolist()
                 sheet.labels.avoid(pygame.Rect(round(left), round(top), ceil(right - left) + 1, ceil(bottom - top) + 1))
                 continue
-            along = np.linspace(points[:-1], points[1:], ALONG).reshape(-1, 2)
-            inside = np.linspace(along, points.mean(axis=0), ACROSS) if len(points) > 2 else along
+            along = np.linspace(points[:-1], points[1:], _ALONG).reshape(-1, 2)
+            inside = np.linspace(along, points.mean(axis=0), _ACROSS) if len(points) > 2 else along
             for x, y in inside.reshape(-1, 2).tolist():
                 sheet.labels.avoid(pygame.Rect(round(x), round(y), 1, 1))
 

@@ -15,22 +15,22 @@ from sandbox.picture.palette import Colour, palette
 from sandbox.picture.sheet import CARD, Entry, Sheet
 from sandbox.sport.amounts import amount
 
-FORCE = palette("force")
+_FORCE = palette("force")
 
 #: Length of the longest arrow of a run, px on 720 rows: of a force, of the velocity; and the shortest that is drawn.
 FORCE_LENGTH, VELOCITY_LENGTH, SHORTEST = 64.0, 100.0, 5.0
 #: Widths of the arrows, px on 720 rows.
-FORCE_WIDTH, VELOCITY_WIDTH = 4.2, 3.4
+_FORCE_WIDTH, _VELOCITY_WIDTH = 4.2, 3.4
 #: The longest arrows are found at so many times.
-SAMPLES = 60
+_SAMPLES = 60
 #: A ball slower than this, in m/s, is at rest.
-AT_REST = 1e-9
+_AT_REST = 1e-9
 
 
 def colour_of(name: str) -> Colour:
     """The colour of the arrows for a cause; causes of a user's own share out what is left."""
-    own = FORCE["own"]
-    return FORCE[name] if name in FORCE and name != "own" else own[sum(name.encode()) % len(own)]
+    own = _FORCE["own"]
+    return _FORCE[name] if name in _FORCE and name != "own" else own[sum(name.encode()) % len(own)]
 
 
 class Vectors:
@@ -53,7 +53,7 @@ class Vectors:
         surface = plane.name if plane is not None else "contact" if arc.phase is not Phase.FREE else None
         if surface is not None:
             others = [sum(axis) for axis in zip((0.0, 0.0), *found.values(), strict=True)]
-            moves = hypot(*self.run.state(self.name, t)[2:4]) >= AT_REST
+            moves = hypot(*self.run.state(self.name, t)[2:4]) >= _AT_REST
             ax, ay = arc.acceleration(t) if moves else (0.0, 0.0)
             mass = self.ball.mass * float(self.ball.mass_fraction(t))
             found[surface] = mass * ax - others[0], mass * ay - others[1]
@@ -68,7 +68,7 @@ class Vectors:
     @cached_property
     def longest(self) -> tuple[float, float]:
         """The largest speed in m/s and the largest force in N of the run; those of surfaces set no scale."""
-        times = np.linspace(0.0, self.run.duration, SAMPLES)
+        times = np.linspace(0.0, self.run.duration, _SAMPLES)
         forces = [np.zeros((1, 2)), *(force for name, force in self.over(times).items() if name != "contact")]
         speeds = self.run.states(self.name, times)[:, 2:4]
         return float(np.hypot(*speeds.T).max()), float(np.nanmax([np.nanmax(np.hypot(*force.T)) for force in forces]))
@@ -88,9 +88,9 @@ class Vectors:
                 tip = tail[0] + along * shown, tail[1] + down * shown
                 sheet.painter.arrow(tail, tip, width * unit, colour, rim=(CARD["shadow"], max(0.7, unit)))
 
-        arrow(self.run.state(self.name, t)[2:4], speed, VELOCITY_LENGTH, VELOCITY_WIDTH, CARD["text"])
+        arrow(self.run.state(self.name, t)[2:4], speed, VELOCITY_LENGTH, _VELOCITY_WIDTH, CARD["text"])
         for name, vector in self.forces(t).items():
-            arrow(vector, force, FORCE_LENGTH, FORCE_WIDTH, colour_of(name))
+            arrow(vector, force, FORCE_LENGTH, _FORCE_WIDTH, colour_of(name))
 
     def entries(self, t: float) -> list[Entry]:
         """For the card: each force in N, in the colour of its arrow."""

@@ -26,14 +26,14 @@ from sandbox.sport.amounts import times
 from sandbox.text import counted
 
 #: Surfaces are around a path that reach no farther beyond it than it is long, or than so many radii of the ball.
-NEAR = 12.0
+_NEAR = 12.0
 #: The reach of a surface that moves is judged at so many times.
-POSES = 48
+_POSES = 48
 #: Text is dark on a place at least this light, in levels of 255: between the darkest sky by day and the lightest hall.
-LIGHT = 150
+_LIGHT = 150
 
 
-class Heading(NamedTuple):
+class _Heading(NamedTuple):
     """The words above a poster: the headline, the notes under it, and the room for them in px."""
 
     text: str
@@ -86,7 +86,7 @@ class View(BallDrawing[P]):
         frame = self.sheet.frame
         head = pygame.Rect(frame.left, frame.top, frame.width // 2, max(1, self.sheet.top_row - frame.top))
         red, green, blue, *_ = pygame.transform.average_color(self._still(self.camera), head)
-        return 0.299 * red + 0.587 * green + 0.114 * blue < LIGHT
+        return 0.299 * red + 0.587 * green + 0.114 * blue < _LIGHT
 
     @property
     def card_row(self) -> float:
@@ -123,7 +123,7 @@ class View(BallDrawing[P]):
         that do not reach far beyond, of others the place next to its middle; shape (2, 2)."""
         radius = max(self.radii.values())
         low, high = self.points.min(axis=0) - radius, self.points.max(axis=0) + radius
-        reach, middle = max(NEAR * radius, *(high - low)), (low + high) / 2
+        reach, middle = max(_NEAR * radius, *(high - low)), (low + high) / 2
         for shape in self.solids:
             a, b = map(np.array, (shape.a, shape.b) if isinstance(shape, Segment) else (shape.center, shape.center))
             next_to = a + np.clip((middle - a) @ (b - a) / max((b - a) @ (b - a), 1e-99), 0.0, 1.0) * (b - a)
@@ -138,7 +138,7 @@ class View(BallDrawing[P]):
         return [shape for surface in self.run.setup.surfaces for shape in self._seen_of(surface)]
 
     def _seen_of(self, surface: Surface) -> list[Segment | Circle]:
-        times = [0.0] if surface.motion is None else np.linspace(0.0, self.story_end, POSES).tolist()
+        times = [0.0] if surface.motion is None else np.linspace(0.0, self.story_end, _POSES).tolist()
         return [surface.at(t).shape for t in times]
 
     # Poster and frames
@@ -190,7 +190,7 @@ class View(BallDrawing[P]):
         dots = [] if points is None else [f"dots: {counted(len(points.t), 'measured point')}"]
         others = [*dots, *(ghost.note for ghost in self.ghosts)]
         notes = [*others, *self.aligned, *every[:1], *self.notes(camera), *every[1:]]
-        self.heading = Heading(self.run.scene.verdict(self.run), notes, room)
+        self.heading = _Heading(self.run.scene.verdict(self.run), notes, room)
 
     def frame(self, t: float) -> pygame.Surface:
         """The scene at time t in s."""

@@ -16,32 +16,32 @@ from sandbox.picture.camera import Eye
 from sandbox.picture.painter import Painter, blank, from_coverage, gradient
 from sandbox.picture.palette import Colour, mix, palette
 
-FLOOR, GRASS, WHITE = palette("floor"), palette("grass")["mown"], (255, 255, 255)
+_FLOOR, _GRASS, _WHITE = palette("floor"), palette("grass")["mown"], (255, 255, 255)
 
 #: The ground differs little from place to place, so a lower factor than for other shapes will do.
-OVERSAMPLING = 2
+_OVERSAMPLING = 2
 #: Stripes stripes narrower than this, in px on 720 rows, are drawn twice as wide.
-LEAST_STRIPE = 12
+_LEAST_STRIPE = 12
 
 #: Points (x, z) of the ground in m: along the plane of play, and away from the eye.
 Line = Sequence[tuple[float, float]]
 #: From points of the ground in m to those of what is drawn, larger, in px.
-Project = Callable[[Line], np.ndarray]
+_Project = Callable[[Line], np.ndarray]
 
 
 @dataclass(frozen=True)
 class Stripes:
     """Stripes across the plane of play, as of mown grass: even ones, odd ones, ``width`` m wide from ``start`` m on."""
 
-    colours: tuple[Colour, Colour] = GRASS
+    colours: tuple[Colour, Colour] = _GRASS
     width: float = 4.0
     start: float = 0.0
 
-    def draw(self, drawn: pygame.Surface, eye: Eye, far: float, near: float, project: Project) -> None:
+    def draw(self, drawn: pygame.Surface, eye: Eye, far: float, near: float, project: _Project) -> None:
         """Between the distances ``far`` and ``near`` behind the plane of play, in m."""
         drawn.fill(self.colours[0])
-        width = self.width * 2.0 ** max(0, ceil(log2(LEAST_STRIPE * eye.unit / (self.width * eye.camera.scale))))
-        low, high = (eye.along(px, far) for px in (0, drawn.get_width() / OVERSAMPLING))
+        width = self.width * 2.0 ** max(0, ceil(log2(_LEAST_STRIPE * eye.unit / (self.width * eye.camera.scale))))
+        low, high = (eye.along(px, far) for px in (0, drawn.get_width() / _OVERSAMPLING))
         odd = range(floor((low - self.start) / width) | 1, ceil((high - self.start) / width), 2)
         corners = [
             (self.start + (i + j) * width, z) for i in odd for j, z in ((0, near), (1, near), (1, far), (0, far))
@@ -56,7 +56,7 @@ class Planks:
 
     colours: tuple[Colour, Colour, Colour]
 
-    def draw(self, drawn: pygame.Surface, eye: Eye, far: float, near: float, project: Project) -> None:
+    def draw(self, drawn: pygame.Surface, eye: Eye, far: float, near: float, project: _Project) -> None:
         """Planks along the plane of play, so low on the picture that their slanting ends may stand upright."""
         distant, close, tinge = self.colours
         plank, length, width = eye.distance * 0.04, eye.distance * 0.30, drawn.get_width()
@@ -65,7 +65,7 @@ class Planks:
             middle, shift = (i + 0.5) * plank, i * 0.618 % 1
             share = eye.share(middle)
             colour = mix(distant, close, (share - least) / (1 - least))
-            first, last = (floor(eye.along(px, middle) / length - shift) for px in (0, width / OVERSAMPLING))
+            first, last = (floor(eye.along(px, middle) / length - shift) for px in (0, width / _OVERSAMPLING))
             joints = [((j + shift) * length, middle) for j in range(first, last + 2)]
             seen = project([(0.0, i * plank), (0.0, (i + 1) * plank), *joints])
             low, top, edges = seen[0, 1], seen[1, 1], zip(seen[2:, 0], range(first, last + 2), strict=True)
@@ -83,12 +83,12 @@ class Ground:
     stands there; ``beyond`` colours the rest of the way to the horizon, far and near, where nothing does.
     """
 
-    surface: Stripes | Planks = Planks(FLOOR["wood"])
-    soil: tuple[Colour, Colour, Colour] = FLOOR["beneath"]  # from the top down
+    surface: Stripes | Planks = Planks(_FLOOR["wood"])
+    soil: tuple[Colour, Colour, Colour] = _FLOOR["beneath"]  # from the top down
     edges: Sequence[tuple[Colour, float]] = ()  # thin layers at the top of the cut, how deep they go, px on 720 rows
     areas: Sequence[tuple[Line, Colour]] = ()
     lines: Sequence[Line] = ()
-    line: tuple[Colour, float] = (WHITE, 0.05)  # their colour, and width in m
+    line: tuple[Colour, float] = (_WHITE, 0.05)  # their colour, and width in m
     far: float = 0.4
     haze: Colour | None = None
     beyond: tuple[Colour, Colour] | None = None
@@ -103,16 +103,16 @@ class Ground:
         if foot >= height:  # the camera looks over it
             return
         deepest = round(eye.base) if deepest is None else deepest
-        drawn = _canvas((width * OVERSAMPLING, (max(height, deepest) - foot) * OVERSAMPLING))
-        drawn = drawn.subsurface((0, 0, width * OVERSAMPLING, (deepest - foot) * OVERSAMPLING))
+        drawn = _canvas((width * _OVERSAMPLING, (max(height, deepest) - foot) * _OVERSAMPLING))
+        drawn = drawn.subsurface((0, 0, width * _OVERSAMPLING, (deepest - foot) * _OVERSAMPLING))
         begin = 0
         if self.beyond is not None:
-            begin = round(self.far * (eye.base - eye.level) * OVERSAMPLING)
+            begin = round(self.far * (eye.base - eye.level) * _OVERSAMPLING)
             drawn.blit(gradient((drawn.get_width(), begin), self.beyond), (0, 0))
 
         def project(line: Line) -> np.ndarray:
             seen = eye.points(np.array([(x, eye.camera.at[1], z) for x, z in line]))
-            return (seen - (0, foot + begin / OVERSAMPLING)) * OVERSAMPLING
+            return (seen - (0, foot + begin / _OVERSAMPLING)) * _OVERSAMPLING
 
         part = drawn.subsurface((0, begin, drawn.get_width(), drawn.get_height() - begin))
         far, near = eye.depth(self.far), eye.depth((deepest - eye.level) / (eye.base - eye.level))
@@ -128,7 +128,7 @@ class Ground:
         for colour, deep in reversed(self.edges):
             painter.surface.fill(colour, (0, deepest, width, max(1, round(deep * eye.unit))))
 
-    def _line(self, drawn: pygame.Surface, eye: Eye, line: Line, project: Project) -> None:
+    def _line(self, drawn: pygame.Surface, eye: Eye, line: Line, project: _Project) -> None:
         """Behind the plane of play: as wide as it is at its nearest, and narrower where it runs along that plane."""
         colour, width = self.line
         for near, far in (sorted(ends, key=lambda point: point[1]) for ends in pairwise(line)):
@@ -138,7 +138,7 @@ class Ground:
             a, b = (near[0] + cut * (far[0] - near[0]), max(near[1], 0.0)), far
             along, away = b[0] - a[0], b[1] - a[1]
             seen = hypot(0.35 * along, 0.5 * away) / (hypot(along, away) or 1.0)
-            thick = width * eye.camera.scale * eye.share(a[1]) * seen * OVERSAMPLING
+            thick = width * eye.camera.scale * eye.share(a[1]) * seen * _OVERSAMPLING
             pygame.draw.lines(drawn, colour, False, project([a, b]), max(2, round(thick)))
 
 
@@ -147,7 +147,7 @@ def turf(
 ) -> Ground:
     """Mown grass in a scene's colours ``grass``, ``soil``, ``edge`` and ``line``: widths of stripes and lines in m."""
     kinds = Stripes(colours["grass"], stripe, start), colours["soil"], [(colours["edge"], edge)]
-    return Ground(*kinds, line=(colours.get("line", WHITE), line), **more)
+    return Ground(*kinds, line=(colours.get("line", _WHITE), line), **more)
 
 
 def boards(colours: Mapping[str, Any], **more: Any) -> Ground:

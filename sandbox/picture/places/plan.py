@@ -21,7 +21,7 @@ from sandbox.picture.palette import Colour
 from sandbox.picture.places.things import SHADOW, unit_of
 
 #: The smallest width of a line, a stripe and a person, in px on 720 rows.
-LEAST_LINE, LEAST_STRIPE, LEAST_PERSON = 1.3, 10.0, 9.0
+_LEAST_LINE, LEAST_STRIPE, LEAST_PERSON = 1.3, 10.0, 9.0
 #: Shoulders are so broad, in m.
 BREADTH = 0.5
 
@@ -104,7 +104,7 @@ class Line:
     colour: Colour
 
     def draw(self, painter: Painter, camera: Camera) -> None:
-        width = max(self.width, max(1.0, LEAST_LINE * unit_of(painter)) / camera.scale)
+        width = max(self.width, max(1.0, _LEAST_LINE * unit_of(painter)) / camera.scale)
         x, y = zip(*self.points, strict=True)
         box = Box(min(x) - width / 2, min(y) - width / 2, max(x) + width / 2, max(y) + width / 2)
         if len(self.points) == 2 and (x[0] == x[1] or y[0] == y[1]):
@@ -123,7 +123,7 @@ class Spot:
     ring: float = 0.0
 
     def draw(self, painter: Painter, camera: Camera) -> None:
-        least = max(1.0, LEAST_LINE * unit_of(painter))
+        least = max(1.0, _LEAST_LINE * unit_of(painter))
         radius, ring = self.radius * camera.scale, self.ring and max(self.ring * camera.scale, least)
         painter.disc(camera.pixel(*self.centre), max(radius, least), self.colour, width=ring)
 

@@ -15,25 +15,25 @@ from sandbox.picture.painter import Painter, blank, from_colours, from_coverage
 from sandbox.picture.palette import Colour, mix, palette
 from sandbox.picture.sheet import Sheet, rows_of
 
-HALL, STANDS, LANDSCAPE = palette("hall"), palette("stands"), palette("landscape")
-SHADOW, WHITE = palette("card")["shadow"], (255, 255, 255)
+_HALL, _STANDS, _LANDSCAPE = palette("hall"), palette("stands"), palette("landscape")
+_SHADOW, _WHITE = palette("card")["shadow"], (255, 255, 255)
 
 #: Heads larger than this, in px, have shoulders below them.
-SHOULDERS = 4
+_SHOULDERS = 4
 #: Height of an evening sky's middle colour, as a share of the way down to the stands.
-TURN = 0.62
+_TURN = 0.62
 #: Motion of each layer of a landscape in px when the eye moves by 1 px: the far hills least, the near trees most.
-CLOUDS, HILLS, TREES = 0.01, (0.02, 0.04, 0.08), 0.16
+_CLOUDS, _HILLS, _TREES = 0.01, (0.02, 0.04, 0.08), 0.16
 
 #: A surface at least as wide as the picture, whose ends join; the row of its top in px; how far it moves to the left
 #: when the eye moves by 1 px to the right: what is far away hardly, what is near most.
-Layer = tuple[pygame.Surface, int, float]
+_Layer = tuple[pygame.Surface, int, float]
 
 
 class Scenery:
     """Scenery: a frozen dataclass, so that its layers can be kept."""
 
-    def layers(self, size: tuple[int, int], foot: int) -> tuple[Layer, ...]:
+    def layers(self, size: tuple[int, int], foot: int) -> tuple[_Layer, ...]:
         """Down to the row ``foot`` (px) of a picture of ``size`` px, the farthest first."""
         raise NotImplementedError
 
@@ -50,7 +50,7 @@ class Scenery:
 
 
 @lru_cache(maxsize=4)
-def _layers(scenery: Scenery, size: tuple[int, int], foot: int) -> tuple[Layer, ...]:
+def _layers(scenery: Scenery, size: tuple[int, int], foot: int) -> tuple[_Layer, ...]:
     """Shared by all pictures of one shape."""
     return scenery.layers(size, foot)
 
@@ -59,18 +59,18 @@ def _layers(scenery: Scenery, size: tuple[int, int], foot: int) -> tuple[Layer, 
 class Stands(Scenery):
     """Stands with their roof, people, lamps on masts, and boards along their foot, under an evening sky."""
 
-    sky: tuple[Colour, Colour, Colour] = STANDS["sky"]  # top, middle, over the stands
-    glow: Colour = STANDS["glow"]  # where the sun went down
-    stands: tuple[Colour, Colour, Colour] = STANDS["stands"]  # roof, upper tier, lower tier
-    crowd: tuple[Colour, ...] = STANDS["crowd"]
-    boards: tuple[Colour, ...] = STANDS["boards"]
-    mast: Colour = STANDS["mast"]
-    lamp: Colour = STANDS["lamp"]
+    sky: tuple[Colour, Colour, Colour] = _STANDS["sky"]  # top, middle, over the stands
+    glow: Colour = _STANDS["glow"]  # where the sun went down
+    stands: tuple[Colour, Colour, Colour] = _STANDS["stands"]  # roof, upper tier, lower tier
+    crowd: tuple[Colour, ...] = _STANDS["crowd"]
+    boards: tuple[Colour, ...] = _STANDS["boards"]
+    mast: Colour = _STANDS["mast"]
+    lamp: Colour = _STANDS["lamp"]
 
-    def layers(self, size: tuple[int, int], foot: int) -> tuple[Layer, ...]:
+    def layers(self, size: tuple[int, int], foot: int) -> tuple[_Layer, ...]:
         width, unit = size[0], rows_of(size) / 720
-        sky = shaded(width, np.clip(np.arange(foot) / max(1.0, foot - 90 * unit), 0, 1), self.sky, 1.3)
-        sky = glowing(sky, self.glow, (0.70 * width, foot - 120 * unit), (0.30 * width, 120 * unit))
+        sky = _shaded(width, np.clip(np.arange(foot) / max(1.0, foot - 90 * unit), 0, 1), self.sky, 1.3)
+        sky = _glowing(sky, self.glow, (0.70 * width, foot - 120 * unit), (0.30 * width, 120 * unit))
         return (from_colours(sky), 0, 0.0), (_stands(self, size, foot), 0, 0.25)
 
 
@@ -78,27 +78,27 @@ class Stands(Scenery):
 class Hall(Scenery):
     """A wall lit from above on the right, rows of people before it, and padding along its foot."""
 
-    wall: tuple[Colour, Colour] = HALL["wall"]  # top, foot
-    light: Colour = HALL["light"]
-    crowd: tuple[Colour, ...] = HALL["crowd"]
-    padding: Colour = HALL["padding"]
+    wall: tuple[Colour, Colour] = _HALL["wall"]  # top, foot
+    light: Colour = _HALL["light"]
+    crowd: tuple[Colour, ...] = _HALL["crowd"]
+    padding: Colour = _HALL["padding"]
 
-    def layers(self, size: tuple[int, int], foot: int) -> tuple[Layer, ...]:
-        wall, width = shaded(size[0], np.linspace(0, 1, foot), self.wall, 1.2), size[0]
-        wall = glowing(wall, self.light, (0.62 * width, 0.30 * foot), (0.42 * width, 0.75 * foot))
+    def layers(self, size: tuple[int, int], foot: int) -> tuple[_Layer, ...]:
+        wall, width = _shaded(size[0], np.linspace(0, 1, foot), self.wall, 1.2), size[0]
+        wall = _glowing(wall, self.light, (0.62 * width, 0.30 * foot), (0.42 * width, 0.75 * foot))
         return (from_colours(wall), 0, 0.0), (_audience(self, size, foot), 0, 0.44)
 
 
-def shaded(width: int, share: np.ndarray, colours: Sequence[Colour], power: float) -> np.ndarray:
+def _shaded(width: int, share: np.ndarray, colours: Sequence[Colour], power: float) -> np.ndarray:
     """Colours of shape (width, rows, 3): from the first at share 0 to the last at 1, over the middle one at TURN."""
-    found, turns = np.array(colours[0], float), (0.0, TURN, 1.0) if len(colours) > 2 else (0.0, 1.0)
+    found, turns = np.array(colours[0], float), (0.0, _TURN, 1.0) if len(colours) > 2 else (0.0, 1.0)
     for colour, (start, end) in zip(colours[1:], pairwise(turns), strict=True):
         part = np.clip((share - start) / (end - start), 0, 1)[None, :, None] ** power
         found = found + (np.array(colour, float) - found) * part
     return np.broadcast_to(found, (width, len(share), 3))
 
 
-def glowing(
+def _glowing(
     sky: np.ndarray, colour: Colour, middle: tuple[float, float], reach: tuple[float, float], share: float = 0.58
 ) -> np.ndarray:
     """Colours of shape (width, height, 3) with a soft light in them, around a point in px."""
@@ -122,7 +122,7 @@ def _row_of_people(
         y = row + random.uniform(-0.4, 0.4) * head
         for turn in (-width, 0):  # the ends join
             painter.disc((x + turn, y), head, colour, 0.8)
-            if head > SHOULDERS:
+            if head > _SHOULDERS:
                 painter.shadow((x + turn, y + 2.8 * head), 1.6 * head, 1.65 * head, colour, 0.8)
 
 
@@ -149,7 +149,7 @@ def _stands(stands: Stands, size: tuple[int, int], foot: int) -> pygame.Surface:
     for i in range(12):
         left, right = round(i * width / 12), round((i + 1) * width / 12)
         drawn.fill(stands.boards[i * 7 % 4], (left, foot - boards, right - left, boards))
-    drawn.fill(mix(stands.boards[0], WHITE, 0.2), (0, foot - boards, width, max(1, round(1.5 * unit))))
+    drawn.fill(mix(stands.boards[0], _WHITE, 0.2), (0, foot - boards, width, max(1, round(1.5 * unit))))
     return drawn
 
 
@@ -188,14 +188,14 @@ def _audience(hall: Hall, size: tuple[int, int], foot: int) -> pygame.Surface:
         row, opacity = foot - tall - (i + 1) * 27 * unit, (1 - share) ** 1.1
         people = blank((width, foot), transparent=True)
         _row_of_people(Painter(people), random, row, 6.2 * unit, hall.crowd, 0.9 - 0.25 * share)
-        people.fill((*SHADOW, 50), (0, round(row + 22 * unit), width, max(1, round(unit))))
+        people.fill((*_SHADOW, 50), (0, round(row + 22 * unit), width, max(1, round(unit))))
         people.set_alpha(round(255 * opacity))
         drawn.blit(people, (0, 0))
     thin = max(1, round(2 * unit))
     drawn.fill(hall.padding, (0, foot - tall, width, tall))
-    drawn.fill(mix(hall.padding, WHITE, 0.14), (0, foot - tall, width, thin))
+    drawn.fill(mix(hall.padding, _WHITE, 0.14), (0, foot - tall, width, thin))
     for x in np.linspace(0, width, 12)[:-1]:
-        drawn.fill(mix(hall.padding, SHADOW, 0.16), (round(x), foot - tall, max(1, thin // 2), tall))
+        drawn.fill(mix(hall.padding, _SHADOW, 0.16), (round(x), foot - tall, max(1, thin // 2), tall))
     return drawn
 
 
@@ -206,22 +206,22 @@ class Landscape(Scenery):
     Hills and trees are from far to near; with a colour of stars there is no air, so neither clouds nor trees.
     """
 
-    sky: tuple[Colour, Colour] = LANDSCAPE["sky"]  # top, horizon
-    sun: Colour = LANDSCAPE["sun"]
-    hills: tuple[Colour, Colour, Colour] = LANDSCAPE["hills"]
-    haze: Colour = LANDSCAPE["haze"]
-    trees: tuple[Colour, ...] = LANDSCAPE["trees"]
-    cloud: Colour = LANDSCAPE["cloud"]
+    sky: tuple[Colour, Colour] = _LANDSCAPE["sky"]  # top, horizon
+    sun: Colour = _LANDSCAPE["sun"]
+    hills: tuple[Colour, Colour, Colour] = _LANDSCAPE["hills"]
+    haze: Colour = _LANDSCAPE["haze"]
+    trees: tuple[Colour, ...] = _LANDSCAPE["trees"]
+    cloud: Colour = _LANDSCAPE["cloud"]
     star: Colour | None = None
 
-    def layers(self, size: tuple[int, int], foot: int) -> tuple[Layer, ...]:
+    def layers(self, size: tuple[int, int], foot: int) -> tuple[_Layer, ...]:
         """Twice as wide as the picture, so that a camera may move for ever."""
         width, artist = size[0], _Artist(self, 2 * size[0], foot, rows_of(size) / 720)
-        sky = shaded(width, np.linspace(0, 1, foot), self.sky, 1.15)
-        sky = glowing(sky, self.sun, (0.74 * width, 0.80 * foot), (0.34 * width, 0.62 * foot), 0.75)
-        found = [(from_colours(sky), 0, 0.0), (*(artist.stars() if self.star else artist.clouds(self.cloud)), CLOUDS)]
-        found += [(*artist.hills(i), speed) for i, speed in enumerate(HILLS)]
-        return (*found, *([(*artist.trees(), TREES)] if self.trees and not self.star else []))
+        sky = _shaded(width, np.linspace(0, 1, foot), self.sky, 1.15)
+        sky = _glowing(sky, self.sun, (0.74 * width, 0.80 * foot), (0.34 * width, 0.62 * foot), 0.75)
+        found = [(from_colours(sky), 0, 0.0), (*(artist.stars() if self.star else artist.clouds(self.cloud)), _CLOUDS)]
+        found += [(*artist.hills(i), speed) for i, speed in enumerate(_HILLS)]
+        return (*found, *([(*artist.trees(), _TREES)] if self.trees and not self.star else []))
 
 
 class _Artist:
@@ -275,7 +275,7 @@ class _Artist:
         places = self.random.uniform((0, 0), (self.width, self.foot), (260, 2))
         for (x, y), faint in zip(places, self.random.uniform(0, 1, len(places)), strict=True):
             self._heap(cover, x, y, (1.7 - faint) * self.unit, rows=1.0 - 0.75 * faint)
-        return from_coverage(cover, self.of.star or WHITE), 0
+        return from_coverage(cover, self.of.star or _WHITE), 0
 
     def _heap(
         self, cover: np.ndarray, x: float, y: float, radius: float, flat: float = 1.0, rows: np.ndarray | float = 1.0

@@ -21,17 +21,17 @@ from sandbox.picture.places.plan import Line, on_pixels
 from sandbox.picture.places.things import Shape
 
 #: Light is computed at every so many px and smoothed between.
-COARSE = 4
+_COARSE = 4
 #: Share of the light in the middle that reaches the table's corners, and the colour of white there.
-AT_CORNER, WARM = 0.56, (1.0, 0.985, 0.955)
+_AT_CORNER, _WARM = 0.56, (1.0, 0.985, 0.955)
 #: Streaks of grain on each rail.
-GRAIN = 16
+_GRAIN = 16
 #: Radius of the rails' outer corners, in m.
-CORNER = 0.055
+_CORNER = 0.055
 #: Widths in m: of the lip on the rails' inside, the leather round a pocket, a sight.
-LIP, LEATHER, SIGHT = 0.009, 0.018, 0.010
+_LIP, _LEATHER, _SIGHT = 0.009, 0.018, 0.010
 #: The cushions' shadow on the bed: how dark, and how far it reaches in m.
-SHADE, SHADE_REACH = 0.45, 0.022
+_SHADE, _SHADE_REACH = 0.45, 0.022
 
 
 def around(half: Point) -> Box:
@@ -70,15 +70,15 @@ class Rails:
     def draw(self, painter: Painter, camera: Camera) -> None:
         _, plain, dark = self.wood
         edge, rect = 0.006 * camera.scale, on_pixels(camera, around(self.outer))
-        painter.panel(rect, dark, 1.0, CORNER * camera.scale)
-        painter.panel(rect.inflate(-2 * edge, -2 * edge), plain, 1.0, (CORNER - 0.006) * camera.scale)
+        painter.panel(rect, dark, 1.0, _CORNER * camera.scale)
+        painter.panel(rect.inflate(-2 * edge, -2 * edge), plain, 1.0, (_CORNER - 0.006) * camera.scale)
         chance = np.random.default_rng(3)
-        for side, axis, _ in product((-1, 1), (0, 1), range(GRAIN)):
+        for side, axis, _ in product((-1, 1), (0, 1), range(_GRAIN)):
             self._streak(painter, camera, chance, side, axis)
         for sx, sy in product((-1, 1), (-1, 1)):
             a, b = self.inner, (self.outer[0] - 0.02, self.outer[1] - 0.02)
             Line(((sx * a[0], sy * a[1]), (sx * b[0], sy * b[1])), 0.002, dark).draw(painter, camera)
-        lip = on_pixels(camera, around((self.inner[0] + LIP, self.inner[1] + LIP)))
+        lip = on_pixels(camera, around((self.inner[0] + _LIP, self.inner[1] + _LIP)))
         painter.surface.fill(self.lip, lip)
 
     def _streak(self, painter: Painter, camera: Camera, chance: np.random.Generator, side: int, axis: int) -> None:
@@ -105,10 +105,10 @@ class Pocket:
 
     def draw(self, painter: Painter, camera: Camera) -> None:
         centre, at = np.array(self.centre), camera.pixel(*self.centre)
-        radius, leather = self.radius * camera.scale, LEATHER * camera.scale
+        radius, leather = self.radius * camera.scale, _LEATHER * camera.scale
         out = np.sign(np.where(abs(centre) > 1e-9, centre, 0.0))
         out /= hypot(*out) or 1.0
-        across = np.array([-out[1], out[0]]) * (self.radius + LEATHER) * 1.02
+        across = np.array([-out[1], out[0]]) * (self.radius + _LEATHER) * 1.02
         painter.disc(at, radius + leather, self.leather[0])
         painter.disc(at, radius + 0.8 * leather, self.leather[1])
         back = centre - 2.5 * self.radius * out
@@ -122,7 +122,7 @@ class Pocket:
 
 
 @dataclass(frozen=True)
-class Cushion:
+class _Cushion:
     """From its nose back to the rail, between two jaws (middle line and radius), brighter along the nose."""
 
     nose: tuple[Point, Point]
@@ -151,7 +151,7 @@ class Cushion:
         painter.surface.set_clip(None)
 
 
-def cushions(surfaces: Sequence[Surface], back: Point, colours: tuple[Colour, Colour]) -> tuple[Cushion, ...]:
+def cushions(surfaces: Sequence[Surface], back: Point, colours: tuple[Colour, Colour]) -> tuple[_Cushion, ...]:
     """The cushions of segments named "... cushion", which are noses, each between the jaws that begin at its ends."""
     shapes = [(s.name.endswith("cushion"), s.shape) for s in surfaces if isinstance(s.shape, Segment)]
     jaws = [(shape.a, shape.b, shape.radius) for nose, shape in shapes if not nose]
@@ -162,7 +162,7 @@ def cushions(surfaces: Sequence[Surface], back: Point, colours: tuple[Colour, Co
             next((jaw for jaw in jaws if hypot(*(end + jaw[2] * out - jaw[0])) < 1e-9), None)
             for end in (shape.a, shape.b)
         ]
-        found.append(Cushion((shape.a, shape.b), (ends[0], ends[1]), back, colours))
+        found.append(_Cushion((shape.a, shape.b), (ends[0], ends[1]), back, colours))
     return tuple(found)
 
 
@@ -178,7 +178,7 @@ def sights(half: Point, rails: Point, colour: Colour, pockets: bool) -> tuple[Sh
     places += [(side * rails[0], i / 2 * half[1], 1) for i in (-1, 0, 1) for side in (-1, 1)]
     found = []
     for x, y, turned in places:
-        wide, tall = (0.85 * SIGHT, 1.5 * SIGHT) if turned else (1.5 * SIGHT, 0.85 * SIGHT)
+        wide, tall = (0.85 * _SIGHT, 1.5 * _SIGHT) if turned else (1.5 * _SIGHT, 0.85 * _SIGHT)
         found.append(Shape(((x - wide, y), (x, y + tall), (x + wide, y), (x, y - tall)), colour))
     return tuple(found)
 
@@ -192,24 +192,24 @@ class Lamp:
 
     def draw(self, painter: Painter, camera: Camera) -> None:
         surface, table = painter.surface, on_pixels(camera, around(self.outer))
-        floor = around_corners(surface, table, CORNER * camera.scale)
+        floor = around_corners(surface, table, _CORNER * camera.scale)
         across, up = _coarse(camera, table)
         far = np.hypot(across / (self.bed[0] * 1.12), up / (self.bed[1] * 1.35)) / hypot(1 / 1.12, 1 / 1.35)
-        light = (AT_CORNER + (1 - AT_CORNER) * np.exp(-1.3 * far**2.4))[:, :, None]
-        colours = from_colours(255 * light * (np.array(WARM) + (1 - np.array(WARM)) * (1 - light)))
+        light = (_AT_CORNER + (1 - _AT_CORNER) * np.exp(-1.3 * far**2.4))[:, :, None]
+        colours = from_colours(255 * light * (np.array(_WARM) + (1 - np.array(_WARM)) * (1 - light)))
         surface.blit(pygame.transform.smoothscale(colours, table.size), table, special_flags=pygame.BLEND_RGB_MULT)
         bed = on_pixels(camera, around(self.bed))
-        shade, reach = blank(bed.size), SHADE_REACH * camera.scale
+        shade, reach = blank(bed.size), _SHADE_REACH * camera.scale
         shade.fill((255, 255, 255))
         for i in range(min(round(5 * reach), min(bed.size) // 2)):
-            level = round(255 * (1 - SHADE * exp(-(i + 0.5) / reach)))
+            level = round(255 * (1 - _SHADE * exp(-(i + 0.5) / reach)))
             pygame.draw.rect(shade, (level, level, level), shade.get_rect().inflate(-2 * i, -2 * i), 1)
         surface.blit(shade, bed, special_flags=pygame.BLEND_RGB_MULT)
         surface.blit(floor, table)
 
 
 def _coarse(camera: Camera, rect: pygame.Rect) -> tuple[np.ndarray, np.ndarray]:
-    """World coordinates in m of places in a part of the picture, ``COARSE`` px apart: light changes slowly."""
+    """World coordinates in m of places in a part of the picture, ``_COARSE`` px apart: light changes slowly."""
     (left, top), (right, bottom) = camera.world(*rect.topleft), camera.world(*rect.bottomright)
-    across, up = ((np.arange(n) + 0.5) / n for n in (rect.width // COARSE, rect.height // COARSE))
+    across, up = ((np.arange(n) + 0.5) / n for n in (rect.width // _COARSE, rect.height // _COARSE))
     return left + (right - left) * across[:, None], top + (bottom - top) * up[None, :]

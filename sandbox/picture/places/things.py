@@ -1,4 +1,4 @@
-"""Things that stand on the ground: nets, posts, people, a goal. Each is described once and seen by an ``Eye``: from the
+"""Things that stand on the ground: nets, posts, people, a goal. Each is described once and seen by an ``_Eye``: from the
 side, or from above."""
 
 from __future__ import annotations
@@ -18,19 +18,19 @@ from sandbox.picture.painter import Painter, Point
 from sandbox.picture.palette import ASSETS, Colour, palette
 from sandbox.picture.sheet import rows_of
 
-PERSON, SHADOW = palette("person"), palette("card")["shadow"]
+_PERSON, SHADOW = palette("person"), palette("card")["shadow"]
 #: Of posts and nets of a scene that has no colours of its own.
-POST, MESH = palette("plain")["surface"], (236, 240, 244)
+_POST, _MESH = palette("plain")["surface"], (236, 240, 244)
 
 #: The least that is drawn of a net's mesh, of a post's width and of a person's height, px on 720 rows.
-LEAST_MESH, LEAST_POST, LEAST_PERSON = 4.0, 1.8, 30.0
+_LEAST_MESH, _LEAST_POST, _LEAST_PERSON = 4.0, 1.8, 30.0
 #: Darkening of things behind a net, as a share of its opacity.
-SHADED = 0.3
+_SHADED = 0.3
 
 #: A point in m: along the plane of play, up, and behind it or, from above, to the left; two numbers are on the ground.
-Point3 = tuple[float, ...]
+_Point3 = tuple[float, ...]
 #: Sees such points: from the side, or from above.
-Eye = SideEye | Camera
+_Eye = SideEye | Camera
 
 
 class Thing(Protocol):
@@ -41,7 +41,7 @@ class Thing(Protocol):
         """True if it is before the ball, from the side."""
 
     @property
-    def corners(self) -> Sequence[Point3]:
+    def corners(self) -> Sequence[_Point3]:
         """Points in m around what it hides."""
 
     def draw(self, painter: Painter, eye: Any) -> None:
@@ -57,25 +57,25 @@ def unit_of(painter: Painter) -> float:
 class Net:
     """Flat nets, each from a corner along two edges (m), with meshes ``mesh`` m wide."""
 
-    planes: Sequence[tuple[Point3, Point3, Point3]]
-    colour: Colour = MESH
+    planes: Sequence[tuple[_Point3, _Point3, _Point3]]
+    colour: Colour = _MESH
     opacity: float = 0.5
     mesh: float = 0.12
     near: bool = False
 
     @property
-    def corners(self) -> Sequence[Point3]:
+    def corners(self) -> Sequence[_Point3]:
         return ()  # one sees through it
 
-    def draw(self, painter: Painter, eye: Eye) -> None:
+    def draw(self, painter: Painter, eye: _Eye) -> None:
         threads, edges, thin = [], [], max(0.6, 0.8 * unit_of(painter))
         for plane in self.planes:
             corner, one, other = (np.array(vector, float) for vector in plane)
             corners = eye.points(np.array([corner, corner + one, corner + one + other, corner + other]))
-            painter.polygon(corners, SHADOW, 0.0 if self.near else SHADED * self.opacity)
+            painter.polygon(corners, SHADOW, 0.0 if self.near else _SHADED * self.opacity)
             edges.append(corners[[0, 1, 2, 3, 0]])
             for along, across in ((one, other), (other, one)):
-                most = dist(*eye.points(np.array([corner, corner + across]))) / (LEAST_MESH * unit_of(painter))
+                most = dist(*eye.points(np.array([corner, corner + across]))) / (_LEAST_MESH * unit_of(painter))
                 count = 1 + max(1, round(min(most, float(np.linalg.norm(across)) / self.mesh)))
                 starts = [corner + share * across for share in np.linspace(0, 1, count)]
                 threads += [(start, start + along) for start in starts]
@@ -88,18 +88,18 @@ class Net:
 class Post:
     """A round bar along the points (m)."""
 
-    points: Sequence[Point3]
+    points: Sequence[_Point3]
     radius: float
-    colour: Colour = POST
+    colour: Colour = _POST
     near: bool = False
 
     @property
-    def corners(self) -> Sequence[Point3]:
+    def corners(self) -> Sequence[_Point3]:
         return self.points
 
-    def draw(self, painter: Painter, eye: Eye) -> None:
+    def draw(self, painter: Painter, eye: _Eye) -> None:
         points = np.array(self.points)
-        width = max(LEAST_POST * unit_of(painter), 2 * self.radius * eye.scale_at(points))
+        width = max(_LEAST_POST * unit_of(painter), 2 * self.radius * eye.scale_at(points))
         painter.line(eye.points(points), width, self.colour)
 
 
@@ -107,16 +107,16 @@ class Post:
 class Shape:
     """A flat shape with corners in m."""
 
-    corners: Sequence[Point3]
+    corners: Sequence[_Point3]
     colour: Colour
     opacity: float = 1.0
     near: bool = False
 
-    def draw(self, painter: Painter, eye: Eye) -> None:
+    def draw(self, painter: Painter, eye: _Eye) -> None:
         painter.polygon(eye.points(np.array(self.corners)), self.colour, self.opacity)
 
 
-class Pose(NamedTuple):
+class _Pose(NamedTuple):
     """A plain person from the side, flat and without a face, in units of its height: the colour's name, width and
     points of each stroke, and where the middle of what is held is."""
 
@@ -130,14 +130,14 @@ def _figures() -> dict[str, Any]:
 
 
 @cache
-def pose_of(name: str) -> Pose:
+def pose_of(name: str) -> _Pose:
     """The pose of this name. Raises ValueError for an unknown one."""
     poses, strokes = _figures()["poses"], _figures()["strokes"]
     if name not in poses:
         raise ValueError(f"pose = {name!r}: there is no such pose; the poses are {', '.join(poses)}")
     found = poses[name]
     drawn = [(part, width, points) for group in found["strokes"] for part, width, *points in strokes[group]]
-    return Pose(drawn, tuple(found.get("holds", (0.0, 0.0))))
+    return _Pose(drawn, tuple(found.get("holds", (0.0, 0.0))))
 
 
 @dataclass(frozen=True)
@@ -146,7 +146,7 @@ class Person:
 
     x: float
     tall: float = 1.8
-    colours: Mapping[str, Colour] = field(default_factory=PERSON.copy)
+    colours: Mapping[str, Colour] = field(default_factory=_PERSON.copy)
     pose: str = "standing"  # of assets/figures.toml
     z: float = 0.0
     up: float = 0.0
@@ -154,7 +154,7 @@ class Person:
     near: bool = False
 
     @property
-    def corners(self) -> Sequence[Point3]:
+    def corners(self) -> Sequence[_Point3]:
         half = 0.2 * self.tall
         return [(self.x + side * half, self.up + high, self.z) for side in (-1, 1) for high in (0.0, self.tall)]
 
@@ -175,7 +175,7 @@ class Person:
         return cls(x - ahead * tall, tall, colours, pose, up=max(0.0, high - up * tall))
 
     def draw(self, painter: Painter, eye: SideEye) -> None:
-        tall = max(self.tall * eye.camera.scale, LEAST_PERSON * eye.unit) * eye.share(self.z)
+        tall = max(self.tall * eye.camera.scale, _LEAST_PERSON * eye.unit) * eye.share(self.z)
         place = np.array([(self.x, eye.camera.at[1] + up, self.z) for up in (0.0, self.up)])
         ground, (x, foot) = eye.points(place).tolist()
         painter.shadow(ground, 0.24 * tall, 0.05 * tall, SHADOW, 0.42)
