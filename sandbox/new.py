@@ -47,7 +47,7 @@ def new_scene(folder: Path, template: str = FROM_SIDE, copied: str | None = None
 
 
 #: The test of a scene that is copied; ``until`` ends a chaotic run where it is still reproducible.
-TEST = '''"""Tests of the scene; ``pytest --golden-update`` makes the golden files, or makes them anew."""
+_TEST = '''"""Tests of the scene; ``pytest --golden-update`` makes the golden files, or makes them anew."""
 
 from __future__ import annotations
 
@@ -93,7 +93,7 @@ def _make_golden(scene: Path, name: str) -> None:
     test = scene / f"test_{name.replace('-', '_')}.py"
     if not test.exists():
         given = "" if until is None else f", until={until}"
-        _write(test, TEST.format(name=name, until=given))
+        _write(test, _TEST.format(name=name, until=given))
     picture = loaded.picture(run, SIZE)
     image = coarser(to_image(picture.poster() if until is None else picture.frame(until)))
     (scene / "golden").mkdir()

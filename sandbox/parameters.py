@@ -133,10 +133,10 @@ def _is_list(value: Any) -> bool:
     return isinstance(value, Iterable) and isinstance(value, Sized) and not isinstance(value, str | bytes | Mapping)
 
 
-Read = TypeVar("Read")
+_Read = TypeVar("_Read")
 
 
-def _each(values: Iterable[Any], read: Callable[[Any], Read]) -> Iterator[Read]:
+def _each(values: Iterable[Any], read: Callable[[Any], _Read]) -> Iterator[_Read]:
     """Every item as it is read; an error names the item, since the message shows the whole list."""
     for item in values:
         try:
@@ -234,7 +234,7 @@ class SceneParameters(Group):
         """Nested ``values`` with those of a scene file over them."""
         missing = [name for name in cls.TOGETHER if name not in file]
         emptied = {name: list[Any]() for name in missing} if len(missing) < len(cls.TOGETHER) else {}
-        return with_changes(cls, values, {**file, **emptied})
+        return _with_changes(cls, values, {**file, **emptied})
 
 
 def problem_with(schema: type[Group]) -> str | None:
@@ -375,30 +375,30 @@ def merged(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any
     return result
 
 
-def with_changes(schema: type[Group], values: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+def _with_changes(schema: type[Group], values: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
     """Nested ``values`` with nested ``changes`` applied, and what these imply; where they choose another drag model,
     say, the keys of the old one are dropped."""
     changes = schema.with_implied(changes)
     return _without_leftovers(schema, merged(values, changes), changes)
 
 
-Schema = TypeVar("Schema", bound=Group)
+_Schema = TypeVar("_Schema", bound=Group)
 
 
 def validate(
-    schema: type[Schema],
+    schema: type[_Schema],
     values: Mapping[str, Any],
     source: str = "",
     changes: Mapping[str, Any] | None = None,
     changed_by: str = "override",
-) -> Schema:
+) -> _Schema:
     """Check the nested ``values`` of ``source`` (a file's name) with ``changes`` applied.
 
     Raises RequestError with a line that names file (or ``changed_by``), key, value, bound and unit.
     """
-    tables = with_changes(schema, _defaults(schema), values)
+    tables = _with_changes(schema, _defaults(schema), values)
     changes = _nested(changes or {}, tables, changed_by)
-    combined = with_changes(schema, tables, changes)
+    combined = _with_changes(schema, tables, changes)
     try:
         return schema.model_validate(combined)
     except ValidationError as failure:
@@ -409,7 +409,7 @@ def validate(
     raise RequestError(first + more)
 
 
-def changed(parameters: Schema, changes: Mapping[str, Any], by: str = "override") -> Schema:
+def changed(parameters: _Schema, changes: Mapping[str, Any], by: str = "override") -> _Schema:
     """The parameters with some of them changed, by key. Raises RequestError for an invalid value."""
     check_mapping("parameters", changes, '{"launch.speed": 70.0}')
     return validate(type(parameters), parameters.model_dump(), "", changes, by)

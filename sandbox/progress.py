@@ -11,11 +11,11 @@ from contextlib import contextmanager
 #: Work that takes less than this shows no bar, in s.
 PATIENCE = 2.0
 #: Work of which more than this is left after that time says so in a line, on a terminal or not, in s.
-LONG = 20.0
+_LONG = 20.0
 #: Seconds between two refreshes of the bar.
-INTERVAL = 0.1
+_INTERVAL = 0.1
 #: Length of the bar, in characters.
-LENGTH = 30
+_LENGTH = 30
 
 
 @contextmanager
@@ -36,18 +36,18 @@ def bar(what: str) -> Iterator[Callable[[float, float], None]]:
         now = time.monotonic()
         first = first if first is not None and done >= latest else (now, done)
         latest = done
-        if now - begun < PATIENCE or now - refreshed < INTERVAL:
+        if now - begun < PATIENCE or now - refreshed < _INTERVAL:
             return
         refreshed = now
         worked, seconds = done - first[1], now - first[0]
         wait = (total - done) * seconds / worked if worked > 0 and seconds > 0.0 else 0.0
-        if wait > LONG and total > 2.0 * announced:
+        if wait > _LONG and total > 2.0 * announced:
             announced = total
             _write(f"{what}: {total:,.0f} in all, about {_time(wait)} left", "\n", terminal)
         if terminal:
-            full = round(LENGTH * min(1.0, done / total)) if total else LENGTH
+            full = round(_LENGTH * min(1.0, done / total)) if total else _LENGTH
             pace = f"{_rate(worked / seconds)}/s  {_time(wait)} left" if worked > 0 and seconds > 0.0 else ""
-            _write(f"{what} {'━' * full}{'─' * (LENGTH - full)} {int(done)}/{int(total)} {pace}")
+            _write(f"{what} {'━' * full}{'─' * (_LENGTH - full)} {int(done)}/{int(total)} {pace}")
 
     try:
         yield show if sys.stderr is not None else lambda done, total: None

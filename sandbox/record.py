@@ -21,18 +21,18 @@ if TYPE_CHECKING:
 #: part in ten thousand moves a ball by millimetres.
 TOLERANCE = 1e-6
 #: Numbers are rounded to this many digits, so that files differ only where the tolerance is exceeded.
-DIGITS = 9
+_DIGITS = 9
 #: States recorded for each ball, and the most for all balls together.
-SAMPLES, MOST_STATES = 24, 240
+SAMPLES, _MOST_STATES = 24, 240
 #: A run is chaotic if moving its balls this far, in m, at the start moves the result by more than the tolerance. It is
 #: a hundred times the effect of rounding.
-NUDGE = 1e-12
+_NUDGE = 1e-12
 
 #: Longest text of a result in a message, in characters.
-LONGEST_WORD = 48
+_LONGEST_WORD = 48
 
-COLUMNS = ("t", "x", "y", "vx", "vy", "spin")
-UNITS = {"t": "s", "x": "m", "y": "m", "vx": "m/s", "vy": "m/s", "spin": "rad/s", "speed": "m/s"}
+_COLUMNS = ("t", "x", "y", "vx", "vy", "spin")
+_UNITS = {"t": "s", "x": "m", "y": "m", "vx": "m/s", "vy": "m/s", "spin": "rad/s", "speed": "m/s"}
 
 Record = dict[str, Any]
 
@@ -46,13 +46,13 @@ def record(run: SceneRun, until: float | None = None, duration: float | None = N
     """
     end = run.duration if until is None else min(until, run.duration)
     balls = run.setup.balls
-    last = max(6, min(SAMPLES, MOST_STATES // len(balls))) - 1
+    last = max(6, min(SAMPLES, _MOST_STATES // len(balls))) - 1
     times = _rounded([(duration or end) * i / last for i in range(last + 1)])  # as the file will have them
     recorded: Record = {} if until is None else {"until": until}
     if until is None:
         recorded |= {"ended": run.ended, "duration": run.duration, "result": json_ready(run.result)}
     recorded["parameters"] = run.scene.parameters.model_dump(mode="json", exclude_none=True)
-    recorded["versions"] = versions()
+    recorded["versions"] = _versions()
     recorded["events"] = [
         [event.t, event.kind, event.ball, event.partner, event.speed] for event in run.events if event.t <= end
     ]
@@ -66,7 +66,7 @@ def record(run: SceneRun, until: float | None = None, duration: float | None = N
     return _rounded(recorded)
 
 
-def versions() -> str:
+def _versions() -> str:
     """The versions on which numbers and pictures depend: ``"Python 3.11.2, numpy 2.1.0, ..."``."""
     packages = ", ".join(f"{name} {version(name)}" for name in ("numpy", "pymunk", "pygame-ce"))
     return f"Python {python_version()}, {packages}"
@@ -194,13 +194,13 @@ def _kept(known: Any, value: Any, tolerance: float) -> Any:
 
 
 def diverges(run: SceneRun, until: float | None = None, tolerance: float = TOLERANCE) -> float | None:
-    """The time in s at which a run and one that begins ``NUDGE`` away differ; None if they never do."""
+    """The time in s at which a run and one that begins ``_NUDGE`` away differ; None if they never do."""
     from sandbox.engine import simulate
     from sandbox.scene.running import nudged
     from sandbox.scene.scene_run import SceneRun
 
     recorded = record(run, until)
-    nudged_run = SceneRun.of(simulate(nudged(run.setup, NUDGE, 0), run.accuracy), run.scene, {})
+    nudged_run = SceneRun.of(simulate(nudged(run.setup, _NUDGE, 0), run.accuracy), run.scene, {})
     other = record(nudged_run, until, recorded.get("duration"))
     change = first_change(recorded, other, tolerance)
     return None if change is None else change[0]
@@ -217,7 +217,7 @@ class _Entry(NamedTuple):
 def _courses(recorded: Record) -> dict[str, list[_Entry]]:
     """The states of each ball by its name, and the events, by ""."""
     states = {
-        ball: [_Entry(row[0], ball, dict(zip(COLUMNS, row, strict=True))) for row in rows]
+        ball: [_Entry(row[0], ball, dict(zip(_COLUMNS, row, strict=True))) for row in rows]
         for ball, rows in recorded["states"].items()
     }
     events = [
@@ -236,7 +236,7 @@ def _first_change(before: list[_Entry], after: list[_Entry], tolerance: float) -
         for name, then in old.numbers.items():
             now = new.numbers[name]
             if not _same(then, now, tolerance):
-                return t, f"t = {old.t:.3g} s, {old.what}, {name} is {_amounts(now, then, UNITS[name])}"
+                return t, f"t = {old.t:.3g} s, {old.what}, {name} is {_amounts(now, then, _UNITS[name])}"
     both = min(len(before), len(after))
     for extra in (before[both:] or after[both:])[:1]:
         return extra.t, f"t = {extra.t:.3g} s: {extra.what} is {'gone' if len(before) > both else 'new'}"
@@ -245,7 +245,7 @@ def _first_change(before: list[_Entry], after: list[_Entry], tolerance: float) -
 
 def _amounts(now: float, then: float, unit: str) -> str:
     """Both numbers, with enough digits to tell them apart."""
-    digits = next((n for n in range(4, DIGITS) if f"{now:.{n}g}" != f"{then:.{n}g}"), DIGITS)
+    digits = next((n for n in range(4, _DIGITS) if f"{now:.{n}g}" != f"{then:.{n}g}"), _DIGITS)
     return f"{now:.{digits}g} {unit}, was {then:.{digits}g} {unit}"
 
 
@@ -266,7 +266,7 @@ def _same(a: Any, b: Any, tolerance: float = TOLERANCE) -> bool:
 
 def _rounded(value: Any) -> Any:
     if isinstance(value, float):
-        return float(f"{value:.{DIGITS}g}") + 0.0  # no negative zero
+        return float(f"{value:.{_DIGITS}g}") + 0.0  # no negative zero
     if isinstance(value, list):
         return [_rounded(item) for item in value]
     if isinstance(value, dict):
@@ -275,5 +275,5 @@ def _rounded(value: Any) -> Any:
 
 
 def _word(value: Any) -> str:
-    text = f"{value:.{DIGITS}g}" if isinstance(value, float) else json.dumps(value, ensure_ascii=False)
-    return shortened(text, LONGEST_WORD)
+    text = f"{value:.{_DIGITS}g}" if isinstance(value, float) else json.dumps(value, ensure_ascii=False)
+    return shortened(text, _LONGEST_WORD)

@@ -23,19 +23,19 @@ if TYPE_CHECKING:
     from sandbox.scene.scene_run import SceneRun
 
 #: The fields of an event in JSON.
-EVENT = ("t", "kind", "ball", "with", "speed", "x", "y")
+_EVENT = ("t", "kind", "ball", "with", "speed", "x", "y")
 
 #: Time in s that an impact, a step of a heap, a cluster and an evaluation of forces take, about.
 _OF_AN_IMPACT, _OF_A_HEAP, _OF_A_CLUSTER, _OF_FORCES = 5e-4, 2e-3, 5e-3, 2e-5
 
 #: Events shown on a card; a ball that rolls through a rack has hundreds.
-EVENTS_SHOWN = 6
+_EVENTS_SHOWN = 6
 
 #: Longest value in a sentence, in characters; a list of what a ball touched may have hundreds.
-LONGEST_WORD = 40
+_LONGEST_WORD = 40
 
 #: Smallest error, in its unit, that is reported for a number which the card leaves out.
-LEAST_REPORTED = 1e-3
+_LEAST_REPORTED = 1e-3
 
 
 def as_json(
@@ -52,7 +52,7 @@ def as_json(
         **(more or {}),
         "accuracy": run.accuracy,
         "warnings": [*_beyond_target(check, scene), *_warnings(run)],
-        "events": [dict(zip(EVENT, event, strict=True)) for event in run.events],
+        "events": [dict(zip(_EVENT, event, strict=True)) for event in run.events],
         "numerics": run.numerics,
     }
     if others:
@@ -142,7 +142,7 @@ def _compared(rows: list[tuple[str, str]], verdict: str, others: Sequence[SceneR
 
 def _events(run: SceneRun) -> list[str]:
     several = len(run.setup.balls) > 1
-    shown = list(run.events if len(run.events) <= EVENTS_SHOWN else run.events[: EVENTS_SHOWN - 1])
+    shown = list(run.events if len(run.events) <= _EVENTS_SHOWN else run.events[: _EVENTS_SHOWN - 1])
     rows = [words_of(run, event, several) for event in shown]
     if len(shown) < len(run.events):
         more = f"... {len(run.events) - len(shown) - 1} more"
@@ -206,7 +206,7 @@ def _check_lines(check: Check, scene: Scene) -> list[str]:
     unseen = [
         _error(check, scene, name)
         for name, error in check.errors.items()
-        if error >= LEAST_REPORTED and not scene.facts[name].label and name not in check.chaotic
+        if error >= _LEAST_REPORTED and not scene.facts[name].label and name not in check.chaotic
     ]
     said += [f"not on the card: {', '.join(unseen)}"] if unseen else []
     said = said or [f"checked against a finer run and {away}: only the numbers change, by no more than their ±"]
@@ -219,4 +219,4 @@ def _error(check: Check, scene: Scene, name: str) -> str:
 
 def _word(value: Any) -> str:
     text = json.dumps(json_ready(value), ensure_ascii=False, default=str)
-    return shortened(text, LONGEST_WORD)
+    return shortened(text, _LONGEST_WORD)

@@ -22,23 +22,23 @@ if TYPE_CHECKING:
     from sandbox.scene.scene_run import SceneRun
 
 #: Columns of a trajectory, in s, m, m/s and rad/s; and the interval in s at which it is sampled.
-STATE, EVERY = ("x", "y", "vx", "vy", "spin"), 1 / 120
+_STATE, EVERY = ("x", "y", "vx", "vy", "spin"), 1 / 120
 
 #: More columns of a trajectory, on request.
 MORE = ("acceleration", "forces", "energy")
 
 #: Most rows of a trajectory for each ball: more is taken as a mistake.
-MOST_ROWS = 10_000_000
+_MOST_ROWS = 10_000_000
 
 #: The columns of the table of impacts, with their units in the names of those that people see.
-IMPACTS = ("t", "ball", "mass", "vx_before", "vy_before", "vx_after", "vy_after", "px_before", "py_before", "px_after",
+_IMPACTS = ("t", "ball", "mass", "vx_before", "vy_before", "vx_after", "vy_after", "px_before", "py_before", "px_after",
            "py_after", "energy_before", "energy_after", "angular_before", "angular_after", "spin_before",
            "spin_after")  # fmt: skip
 #: Those that are of one ball alone, and have no sum.
 _OWN = ("vx_before", "vy_before", "vx_after", "vy_after", "spin_before", "spin_after")
 
 #: A row of all balls of an impact together.
-TOTAL = "total"
+_TOTAL = "total"
 
 
 def write_trajectory(
@@ -56,13 +56,13 @@ def write_trajectory(
     """
     runs = {run.scene.title: run, **others}
     for each in runs.values():
-        if each.duration / every > MOST_ROWS:
-            raise RequestError(f"--every {every:g}: more than {MOST_ROWS:,} rows for {each.duration:g} s")
+        if each.duration / every > _MOST_ROWS:
+            raise RequestError(f"--every {every:g}: more than {_MOST_ROWS:,} rows for {each.duration:g} s")
     names = [name for each in runs.values() for name in _columns(each, more)]
     columns = list(dict.fromkeys(names))
     with atomic_write(path) as file:
         rows = csv.writer(file, lineterminator="\n")
-        rows.writerow(("t", "ball", *STATE, *columns, *(["run"] if others else [])))
+        rows.writerow(("t", "ball", *_STATE, *columns, *(["run"] if others else [])))
         for title, each in runs.items():
             last = [csv_text(title)] if others else []
             for ball in each.setup.balls:
@@ -122,8 +122,8 @@ def impacts(run: SceneRun) -> Iterator[dict[str, Any]]:
         rows = [_impact(run, balls[name], t) for name in names]
         yield from rows
         if len(rows) > 1:
-            sums = {key: "" if key in _OWN else sum(row[key] for row in rows) for key in IMPACTS[2:]}
-            yield {"t": t, "ball": TOTAL, **sums}
+            sums = {key: "" if key in _OWN else sum(row[key] for row in rows) for key in _IMPACTS[2:]}
+            yield {"t": t, "ball": _TOTAL, **sums}
 
 
 def _impact(run: SceneRun, ball: Ball, t: float) -> dict[str, Any]:
@@ -138,18 +138,18 @@ def _impact(run: SceneRun, ball: Ball, t: float) -> dict[str, Any]:
             f"spin_{when}": spin,
             f"angular_{when}": mass * (x * vy - y * vx) + ball.inertia * mass / ball.mass * spin,
         }
-    return {key: row[key] for key in IMPACTS}
+    return {key: row[key] for key in _IMPACTS}
 
 
 def write_impacts(run: SceneRun, path: Path, others: Mapping[str, SceneRun] = {}) -> None:
     """Write the table of impacts as CSV; with other runs by name the name of the run is a last column."""
     with atomic_write(path) as file:
         rows = csv.writer(file, lineterminator="\n")
-        rows.writerow((*IMPACTS, *(["run"] if others else [])))
+        rows.writerow((*_IMPACTS, *(["run"] if others else [])))
         for title, each in {run.scene.title: run, **others}.items():
             for row in impacts(each):
                 cells = {**row, "ball": csv_text(row["ball"])}
-                rows.writerow((*(cells[key] for key in IMPACTS), *([csv_text(title)] if others else [])))
+                rows.writerow((*(cells[key] for key in _IMPACTS), *([csv_text(title)] if others else [])))
 
 
 def impact_lines(run: SceneRun, most: int = 12) -> list[str]:

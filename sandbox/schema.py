@@ -13,7 +13,7 @@ from sandbox.parameters import Group
 #: The draft that the TOML extensions of editors support.
 HEAD = {"$schema": "http://json-schema.org/draft-07/schema#"}
 #: The table of a scene file that names measured points.
-MEASURED = {
+_MEASURED = {
     "type": "object",
     "additionalProperties": False,
     "properties": {"track": {"type": "string", "description": "CSV file with t (s), x, y (m) and ball, for pictures"}},
@@ -32,7 +32,7 @@ def json_schema(parameters: Group, scene: str) -> dict[str, Any]:
         "description": "the scene that this file is for, or the preset that it begins from",
     }
     _fill_in(body, body["$defs"], parameters, json.dumps(body))
-    properties = {"scene": named, **body["properties"], "measured": MEASURED}
+    properties = {"scene": named, **body["properties"], "measured": _MEASURED}
     if chosen := _chosen_by_default(parameters):
         own = {"properties": {"scene": {"const": scene}}}  # what begins from a preset may have chosen otherwise
         body |= {"if": own, "then": {"properties": chosen}}

@@ -15,7 +15,7 @@ from sandbox.files import read_given
 from sandbox.text import shortened
 
 #: Most bytes of a scene file; the largest of the project's own has 5 kB.
-LARGEST = 1_000_000
+_LARGEST = 1_000_000
 
 #: Most parts of a key; deeper tables take time with the square of their depth.
 _DEEPEST = 100
@@ -24,7 +24,7 @@ _DEEPEST = 100
 def read_toml(path: Path) -> dict[str, Any]:
     """The nested tables of a TOML file; RequestError says in one line why it cannot be read."""
     try:
-        text = read_given(path, LARGEST).decode("utf-8-sig")
+        text = read_given(path, _LARGEST).decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise RequestError(f"{path}: not a text file in UTF-8 (byte {error.start})") from None
     deep = next((n for n, line in enumerate(text.splitlines(), 1) if _parts_of_key(line) > _DEEPEST), None)

@@ -11,7 +11,7 @@ from sandbox.errors import SandboxError
 from sandbox.text import one_line, printable, shortened
 
 #: Most characters of an error's own text, which a scene may have made of anything.
-LONGEST = 500
+_LONGEST = 500
 
 
 def of_user_code(error: BaseException) -> str | None:
@@ -32,7 +32,7 @@ def of_user_code(error: BaseException) -> str | None:
 def one_line_error(error: BaseException) -> str:
     """The error on one line, for a table cell; for a user's code with file and line: ``"ZeroDivisionError: division by
     zero (volleyball/scene.py, line 12)"``."""
-    text = shortened(one_line(" ".join(str(error).split())), LONGEST)
+    text = shortened(one_line(" ".join(str(error).split())), _LONGEST)
     if isinstance(error, SandboxError):
         return text
     own = [frame for frame in traceback.extract_tb(error.__traceback__) if not is_ours(frame.filename)]
@@ -42,7 +42,7 @@ def one_line_error(error: BaseException) -> str:
 
 def _short(line: str) -> str:
     """A line of an error's text, without control characters and not longer than LONGEST."""
-    return shortened(printable(line.rstrip()), LONGEST) + "\n"
+    return shortened(printable(line.rstrip()), _LONGEST) + "\n"
 
 
 def is_ours(filename: str) -> bool:

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 #: Room around what stands in a scene, as a share of its extent, in which balls are observed; and the half width in m of
 #: the room where nothing stands.
-MARGIN, OPEN = 0.1, 1_000.0
+_MARGIN, _OPEN = 0.1, 1_000.0
 
 
 class Course:
@@ -114,7 +114,7 @@ class Course:
             shape = surface.shape
             places += [getattr(shape, name) for name in ("a", "b", "center") if hasattr(shape, name)]
         low, high = np.min(places, axis=0), np.max(places, axis=0)
-        margin = MARGIN * max(high - low) if len(places) > len(self.names) else OPEN
+        margin = _MARGIN * max(high - low) if len(places) > len(self.names) else _OPEN
         return low - margin, high + margin
 
     def drawn(self, random: np.random.Generator, options: Mapping[str, Any] | None = None) -> list[Any]:

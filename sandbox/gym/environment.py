@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from sandbox.tasks import Task
 
 #: The size of frames in px.
-SIZE = (640, 360)
+_SIZE = (640, 360)
 
 
 class TaskEnv(gymnasium.Env["NDArray[np.float32]", "NDArray[np.float32]"]):
@@ -52,7 +52,7 @@ class TaskEnv(gymnasium.Env["NDArray[np.float32]", "NDArray[np.float32]"]):
         render_mode: str | None = None,
         noise: bool = True,
         facts: Sequence[str] | None = None,
-        size: tuple[int, int] = SIZE,
+        size: tuple[int, int] = _SIZE,
         accuracy: str | None = None,
     ) -> None:
         if render_mode not in (None, *self.metadata["render_modes"]):

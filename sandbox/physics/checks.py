@@ -71,7 +71,7 @@ def with_fields_named(cls: type[T]) -> type[T]:
             message = f"unexpected keyword argument {wrong!r}; it takes {', '.join(known)}"
             raise TypeError(f"{cls.__name__}: {message}") from None
 
-    cls.__init__ = cast(Any, init)
+    cast(Any, cls).__init__ = init
     return cls
 
 

@@ -43,7 +43,7 @@ _PALETTE_FRAMES = 16
 #: The index of what stays as it was, after all colours.
 _SEE_THROUGH = 255
 #: Pixels of all frames that wait to be written, at 3 bytes each.
-_MOST_PIXELS = 100_000_000
+MOST_PIXELS = 100_000_000
 #: Viewers slow a GIF down that shows more frames per second than this.
 FASTEST_GIF = 50
 #: The last picture of an animation stays for so long, in s, before it begins again.
@@ -113,7 +113,7 @@ def save_frames(picture: View[Any], run: Run, folder: Path | str, fps: float, pr
         for name, image in zip(names, _film(picture, times, progress), strict=True):
             # Pillow and zlib do not hold Python up; no more pictures wait than keep all cores at work, fewer if large
             written.append(pool.submit(lambda file, image: file.write_bytes(quick_png(image)), part / name, image))
-            while len(written) > min(2 * (os.cpu_count() or 1), _MOST_PIXELS // (image.width * image.height)):
+            while len(written) > min(2 * (os.cpu_count() or 1), MOST_PIXELS // (image.width * image.height)):
                 written.popleft().result()
         for waiting in written:
             waiting.result()

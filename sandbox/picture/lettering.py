@@ -27,7 +27,7 @@ _FINER = 4
 
 @cache
 def _font(pixels: int, bold: bool) -> pygame.font.Font:
-    """The font, larger by FINER."""
+    """The font, larger by ``_FINER``."""
     pygame.font.init()
     return pygame.font.Font(str(ASSETS / "fonts" / f"NotoSans-{'Bold' if bold else 'Regular'}.ttf"), pixels * _FINER)
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from importlib import import_module
 
-TYPE_CHECKING = False
-if TYPE_CHECKING:
+_TYPE_CHECKING = False
+if _TYPE_CHECKING:
     from typing import Any
 
     from sandbox.scene.finding import Listing, listings, listings_in, listings_of, reference

@@ -24,13 +24,13 @@ from sandbox.files import from_here, is_given, reason
 from sandbox.text import nearest, shortened
 from sandbox.toml import read_toml, shown
 
-ENTRY_POINTS = "sandbox.scenes"
+_ENTRY_POINTS = "sandbox.scenes"
 
 #: What is said of a task where a scene is wanted.
 _TASK = "is a task, not a scene: sandbox play and sandbox run take it"
 
 #: Most scene files that are based on one another.
-MOST_FILES = 30
+_MOST_FILES = 30
 
 
 @dataclass(frozen=True)
@@ -178,7 +178,7 @@ def _unknown(name: str) -> str:
         return f"{name}: {_TASK}"
     from importlib.metadata import entry_points
 
-    for point in entry_points(group=ENTRY_POINTS):
+    for point in entry_points(group=_ENTRY_POINTS):
         if point.name == name.partition("/")[0]:
             package, where = point.dist.name if point.dist else "a package", point.value.partition(":")[0]
             return f"scene {point.name}: {package} offers it as {where}, but that module is not installed with it"
@@ -199,7 +199,7 @@ def _offered(name: str = "") -> dict[str, Path]:
     """The folders of all scenes that other installed packages offer, or of one, by their names."""
     from importlib.metadata import entry_points
 
-    points = entry_points(group=ENTRY_POINTS)
+    points = entry_points(group=_ENTRY_POINTS)
     folders = {point.name: _folder_of(point.value) for point in points if name in ("", point.name)}
     return {found: folder for found, folder in folders.items() if folder is not None}
 
@@ -258,8 +258,8 @@ def _files(
     if base is not None:
         if base.resolve() in (*after, file.resolve()):
             raise RequestError(f"{from_here(file)}: scene = {shown(written)}: is based on itself")
-        if len(after) == MOST_FILES:
-            raise RequestError(f"{from_here(after[0])}: is based on more than {MOST_FILES} files, one on the other")
+        if len(after) == _MOST_FILES:
+            raise RequestError(f"{from_here(after[0])}: is based on more than {_MOST_FILES} files, one on the other")
         name, folder, files = _files(base, (name, folder) if name else None, (*after, file.resolve()))
     else:
         files = []

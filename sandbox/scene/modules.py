@@ -22,7 +22,7 @@ from sandbox.files import is_given
 from sandbox.parameters import wrong_group
 
 #: Scene folders are imported as packages below this name, which nothing else uses.
-NAMESPACE = "sandbox_scenes"
+_NAMESPACE = "sandbox_scenes"
 
 
 def module_in(folder: Path, name: str) -> ModuleType:
@@ -32,7 +32,7 @@ def module_in(folder: Path, name: str) -> ModuleType:
         return importlib.import_module(f"{package}.{name}")
     try:
         with sys_exit_as_error():
-            _package(NAMESPACE, resources.folder("scenes"))
+            _package(_NAMESPACE, resources.folder("scenes"))
             _package(package, folder)
             is_given(folder / f"{name}.py")
             return importlib.import_module(f"{package}.{name}")
@@ -71,7 +71,7 @@ def read_again(folder: Path) -> Iterator[None]:
 @cache
 def _package_of(folder: Path) -> str:
     """Name of the package that a scene's folder is imported as."""
-    package = f"{NAMESPACE}.{re.sub(r'[^0-9A-Za-z_]', '_', folder.name)}"
+    package = f"{_NAMESPACE}.{re.sub(r'[^0-9A-Za-z_]', '_', folder.name)}"
     if folder.parent != resources.folder("scenes"):
         # Two folders with the same name may be in use at once.
         package += "_" + hashlib.sha256(str(folder).encode()).hexdigest()[:12]

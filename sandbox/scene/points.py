@@ -16,7 +16,7 @@ from sandbox.files import from_here, read_given
 from sandbox.toml import shown
 
 #: The columns of such a file, and most bytes that it has.
-COLUMNS, LARGEST = ("t", "x", "y", "ball"), 20_000_000
+_COLUMNS, _LARGEST = ("t", "x", "y", "ball"), 20_000_000
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class Points:
         """The file that a scene file names."""
         out = io.StringIO()
         writer = csv.writer(out, lineterminator="\n")
-        writer.writerow(COLUMNS)
+        writer.writerow(_COLUMNS)
         for t, (x, y), ball in zip(self.t.tolist(), self.positions.tolist(), self.balls, strict=True):
             writer.writerow(("" if t != t else repr(t), repr(x), repr(y), ball))
         return out.getvalue()
@@ -45,12 +45,12 @@ def points_of(file: Path, written: Any) -> Points:
         raise RequestError(f'{where}: measured = {shown(written)}: must be [measured] with track = "points.csv"')
     path = file.parent / named
     try:
-        text = read_given(path, LARGEST).decode("utf-8-sig")
+        text = read_given(path, _LARGEST).decode("utf-8-sig")
         head, *rows = [row for row in csv.reader(io.StringIO(text), strict=True) if row] or [[]]
     except (UnicodeDecodeError, csv.Error):
         raise RequestError(f"{where}: measured.track: {path} is not a table") from None
-    if tuple(head) != COLUMNS or not rows:
-        raise RequestError(f"{where}: measured.track: {path} must have rows with {', '.join(COLUMNS)} (s, m, m, name)")
+    if tuple(head) != _COLUMNS or not rows:
+        raise RequestError(f"{where}: measured.track: {path} must have rows with {', '.join(_COLUMNS)} (s, m, m, name)")
     return _points(f"{where}: measured.track: {path}", rows)
 
 
@@ -60,7 +60,7 @@ def _points(where: str, rows: list[list[str]]) -> Points:
     for place, row in enumerate(rows, 1):
         try:
             t, x, y = (float(cell) if cell or column else nan for column, cell in enumerate(row[:3]))
-            good = len(row) == len(COLUMNS) and isfinite(x) and isfinite(y)
+            good = len(row) == len(_COLUMNS) and isfinite(x) and isfinite(y)
         except ValueError:
             good = False
         if not good:

@@ -33,16 +33,16 @@ if TYPE_CHECKING:
     from sandbox.scene.points import Points
     from sandbox.scene.scene_run import SceneRun
 
-REQUIRED = ("Parameters", "build")
+_REQUIRED = ("Parameters", "build")
 #: Keys of a scene file beside its parameters.
-NOT_PARAMETERS = ("scene", "measured")
+_NOT_PARAMETERS = ("scene", "measured")
 #: Types of facts that hold others.
 _CONTAINERS = (Mapping, list, tuple)
 #: Most characters of a fact or a verdict, for which cards and pictures have room.
-LONGEST_TEXT = 400
-_REPORTABLE = f"a number, a text of at most {LONGEST_TEXT} characters, true or false, or a list or dictionary of those"
+_LONGEST_TEXT = 400
+_REPORTABLE = f"a number, a text of at most {_LONGEST_TEXT} characters, true or false, or a list or dictionary of those"
 #: The arguments with which the functions of a scene, and its picture, are called.
-CALLS = {
+_CALLS = {
     "build": (("parameters",),),
     "verdict": (("run", "parameters"),),
     "Picture": (("run", "parameters", "size", "ghosts"), ("run", "parameters")),
@@ -198,8 +198,8 @@ class Scene:
             said = getattr(self.module, "verdict", fallback_verdict)(run, self.parameters)
         if not isinstance(said, str):
             raise self._wrong("verdict", "text", said)
-        if len(said) > LONGEST_TEXT:
-            raise self._wrong("verdict", f"text of at most {LONGEST_TEXT} characters", said)
+        if len(said) > _LONGEST_TEXT:
+            raise self._wrong("verdict", f"text of at most {_LONGEST_TEXT} characters", said)
         return said
 
     @property
@@ -237,7 +237,7 @@ def _as_text(value: Any) -> str:
 def _is_reportable(value: Any, deepest: int = 9) -> bool:
     """True if cards, JSON and tables can show a value; one that contains itself has no end."""
     if isinstance(value, str):
-        return len(value) <= LONGEST_TEXT
+        return len(value) <= _LONGEST_TEXT
     if isinstance(value, _CONTAINERS):
         inside = [*value, *value.values()] if isinstance(value, Mapping) else value
         return deepest > 0 and all(_is_reportable(item, deepest - 1) for item in inside)
@@ -256,15 +256,15 @@ def _is_numeric(value: Any) -> bool:
 def _revived(
     name: str, preset: str | None, folder: Path, values: dict[str, Any], measured: Points | None = None
 ) -> Scene:
-    return Scene(name, preset, parameters_class(folder).model_validate(values), folder, measured=measured)
+    return Scene(name, preset, _parameters_class(folder).model_validate(values), folder, measured=measured)
 
 
-def parameters_class(folder: Path) -> type[declared.SceneParameters]:
+def _parameters_class(folder: Path) -> type[declared.SceneParameters]:
     """The Parameters of the scene in a folder. Raises RequestError where the scene is not as the sandbox uses it."""
     file, module = folder / "scene.py", module_in(folder, "scene")
-    missing = [name for name in REQUIRED if not callable(getattr(module, name, None))]
+    missing = [name for name in _REQUIRED if not callable(getattr(module, name, None))]
     if missing:
-        raise RequestError(f"{file}: a scene needs {', '.join(REQUIRED)}; {missing[0]} is missing")
+        raise RequestError(f"{file}: a scene needs {', '.join(_REQUIRED)}; {missing[0]} is missing")
     for name in ("build", "verdict"):
         if hasattr(module, name):
             _check_calls(file, name, getattr(module, name))
@@ -326,14 +326,14 @@ def _parameters(
 ) -> declared.SceneParameters:
     """The parameters in the scene's own file and in the files that were found, each over the ones before. Raises
     RequestError, which names the first file that is invalid."""
-    schema, own, files = parameters_class(found.folder), default_file(found.folder), list(found.files)
+    schema, own, files = _parameters_class(found.folder), default_file(found.folder), list(found.files)
     if own is not None and own not in (file.resolve() for file, _ in files):
         files.insert(0, (own, read_toml(own)))
 
     def first(count: int) -> dict[str, Any]:
         values: dict[str, Any] = {}
         for _, layer in files[:count]:
-            values = schema.layered(values, {key: value for key, value in layer.items() if key not in NOT_PARAMETERS})
+            values = schema.layered(values, {key: value for key, value in layer.items() if key not in _NOT_PARAMETERS})
         return values
 
     where = from_here(files[-1][0] if files else found.folder)
@@ -360,7 +360,7 @@ def parameters_of(source: str | Path) -> tuple[str, declared.SceneParameters]:
 
 def _check_calls(file: Path, name: str, function: Any) -> None:
     """Raise RequestError unless the function can be called the way the sandbox calls it."""
-    for arguments in CALLS[name]:
+    for arguments in _CALLS[name]:
         call = f"{name}({', '.join(arguments)})"
         if not callable(function):
             raise RequestError(f"{file}: {call} is missing")

@@ -27,21 +27,21 @@ from sandbox.serve.room import Room
 from sandbox.serve.tokens import Tokens
 from sandbox.text import csv_text
 
-HERE = Path(__file__).parent
+_HERE = Path(__file__).parent
 #: The scripts of each page after those of the player, in order; a page has the name of the last.
-SCRIPTS = {
+_SCRIPTS = {
     "play": ("wire.js", "settings.js", "charts.js", "aim.js", "play.js"),
     "teach": ("wire.js", "settings.js", "charts.js", "teach.js"),
 }
-TITLES = {"play": "sports sandbox", "teach": "sports sandbox: the teacher's page"}
-AGAIN = '<button id="again" type="button" title="aim again (Escape)">Aim again</button>\n'
-FONTS = {"regular.ttf": "NotoSans-Regular.ttf", "bold.ttf": "NotoSans-Bold.ttf"}
+_TITLES = {"play": "sports sandbox", "teach": "sports sandbox: the teacher's page"}
+_AGAIN = '<button id="again" type="button" title="aim again (Escape)">Aim again</button>\n'
+_FONTS = {"regular.ttf": "NotoSans-Regular.ttf", "bold.ttf": "NotoSans-Bold.ttf"}
 #: Nothing from elsewhere, no script or style in the page itself, in no frame.
-POLICY = (
+_POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self'; font-src 'self'; img-src data:; "
     "connect-src 'self' ws://$host; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 )
-HEADERS = {
+_HEADERS = {
     "X-Content-Type-Options": "nosniff",
     "Referrer-Policy": "no-referrer",
     "Cross-Origin-Opener-Policy": "same-origin",
@@ -136,8 +136,8 @@ class _Guard:
 
         async def with_headers(message: Message) -> None:
             if message["type"] == "http.response.start":
-                policy = Template(POLICY).substitute(host=host)
-                more = {**HEADERS, "Content-Security-Policy": policy}
+                policy = Template(_POLICY).substitute(host=host)
+                more = {**_HEADERS, "Content-Security-Policy": policy}
                 message["headers"] = [
                     *message["headers"],
                     *((name.lower().encode(), value.encode()) for name, value in more.items()),
@@ -168,12 +168,12 @@ def _files() -> dict[str, tuple[bytes, str]]:
     """All files that are ever sent, by name, with their types: no path of a request reaches the disk."""
     scripts = {
         f"{page}.js": "\n".join([*map(templates.source, templates.PLAYER), *map(_source, names)])
-        for page, names in SCRIPTS.items()
+        for page, names in _SCRIPTS.items()
     }
-    fonts = {name: (resources.folder("assets") / "fonts" / font).read_bytes() for name, font in FONTS.items()}
+    fonts = {name: (resources.folder("assets") / "fonts" / font).read_bytes() for name, font in _FONTS.items()}
     style = templates.source("page.css") + _source("serve.css")
     return {
-        **{f"{page}.html": (_page(page).encode(), "text/html") for page in SCRIPTS},
+        **{f"{page}.html": (_page(page).encode(), "text/html") for page in _SCRIPTS},
         **{name: (script.encode(), "text/javascript") for name, script in scripts.items()},
         **{name: (font, "font/ttf") for name, font in fonts.items()},
         "serve.css": (style.encode(), "text/css"),
@@ -182,16 +182,16 @@ def _files() -> dict[str, tuple[bytes, str]]:
 
 def _page(page: str) -> str:
     """The page of players or of the teacher."""
-    content = templates.with_player(_source(f"{page}.html"), AGAIN)
+    content = templates.with_player(_source(f"{page}.html"), _AGAIN)
     return templates.framed(
-        TITLES[page],
+        _TITLES[page],
         Template(_source("head.html")).substitute(script=f"{page}.js"),
         Template(_source("main.html")).substitute(page=page, content=content),
     )
 
 
 def _source(name: str) -> str:
-    return (HERE / name).read_text("utf-8")
+    return (_HERE / name).read_text("utf-8")
 
 
 def _csv(room: Room) -> str:

@@ -8,7 +8,7 @@ from pathlib import Path
 from time import monotonic
 from typing import Any, Literal, NamedTuple, TypedDict
 
-Changes = Mapping[str, Any]
+_Changes = Mapping[str, Any]
 Kind = Literal["path", "hidden", "stage", "fan", "shot"]
 
 
@@ -24,7 +24,7 @@ class Ask(NamedTuple):
     """A player's question: a scene with changes or, with a ``game``, a task with its controls set."""
 
     source: str
-    changes: Changes
+    changes: _Changes
     n: int  # by which the browser recognises the answer
     narrow: bool = False  # for a phone
     units: str = "si"

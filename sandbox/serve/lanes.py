@@ -17,19 +17,19 @@ from sandbox.workers.pool import WorkerLost, cores
 from sandbox.workers.processes import Processes
 
 #: More processes than cores: as many long jobs may run at once.
-SPARE = 2
+_SPARE = 2
 #: By so much those for long jobs give way to the others.
-NICE = 10
+_NICE = 10
 #: Share of the last time in the time that a job is expected to take; and of how many kinds of jobs that is kept.
-LEARNED, KINDS = 0.5, 4096
+_LEARNED, _KINDS = 0.5, 4096
 #: What a player has had counts half after so long, in s.
-HALF_LIFE = 20.0
+_HALF_LIFE = 20.0
 #: What is wanted besides the rest: of a player, one of these and one of the others run at a time.
-ASIDE = {"fan"}
+_ASIDE = {"fan"}
 
 
 @dataclass(eq=False)
-class Job:
+class _Job:
     """A call for a player, who is waiting for ``reply``; it is None if a newer one took its place."""
 
     player: Hashable
@@ -43,7 +43,7 @@ class Job:
     @property
     def turn(self) -> Hashable:
         """Of jobs with the same turn one runs at a time."""
-        return self.player, self.want in ASIDE
+        return self.player, self.want in _ASIDE
 
 
 class Lanes:
@@ -51,13 +51,13 @@ class Lanes:
     again after it was ended: how long a process takes to start does not count as a job's time."""
 
     def __init__(self, width: int | None, warm: Callable[..., Any] = dict, *args: Any) -> None:
-        self.width = width or cores() + SPARE
+        self.width = width or cores() + _SPARE
         self._warm = warm, args
         self._processes = [Processes(1) for _ in range(self.width)]
         self._slow = self._processes[cores() :] or self._processes[-1:]  # those for long jobs
         self._idle: list[Processes] = []
-        self._running: dict[Hashable, Job] = {}  # by turn
-        self._waiting: dict[Hashable, Job] = {}  # the newest of each want, in the order in which they came
+        self._running: dict[Hashable, _Job] = {}  # by turn
+        self._waiting: dict[Hashable, _Job] = {}  # the newest of each want, in the order in which they came
         self._takes: dict[Hashable, float] = {}  # s, of what is alike, of a player or of anybody; the oldest first
         self._had: dict[Hashable, tuple[float, float]] = {}  # s of computing by player, when that was true
         self._tasks: set[asyncio.Task[None]] = set()
@@ -70,7 +70,7 @@ class Lanes:
         """The reply of ``work(*args)``, computed once no other job runs for this ``player``; None if something newer
         was wanted by then, of the same ``want``. One that takes too long is ended, which its reply says. Jobs that are
         ``alike`` take about as long, above all for the same player."""
-        job = Job(player, want, alike, work, args, asyncio.get_running_loop().create_future())
+        job = _Job(player, want, alike, work, args, asyncio.get_running_loop().create_future())
         older = self._waiting.get((player, want))
         if older is not None and not older.reply.done():
             older.reply.set_result(None)
@@ -116,20 +116,20 @@ class Lanes:
     def _share(self, player: Hashable, now: float) -> float:
         """The time in s that was computed for a player; what was long ago counts less."""
         had, then = self._had.get(player, (0.0, now))
-        return had * 0.5 ** ((now - then) / HALF_LIFE)
+        return had * 0.5 ** ((now - then) / _HALF_LIFE)
 
-    def _learn(self, job: Job, took: float) -> None:
+    def _learn(self, job: _Job, took: float) -> None:
         """Note how long a job took: for its player and for all, and what its player has had."""
         now = monotonic()
         for key in ((job.player, job.alike), (None, job.alike)):
-            self._takes[key] = LEARNED * took + (1 - LEARNED) * self._takes.pop(key, took)
+            self._takes[key] = _LEARNED * took + (1 - _LEARNED) * self._takes.pop(key, took)
         self._takes[job.player, job.want, "last"] = took
         self._had[job.player] = self._share(job.player, now) + took, now
         for kept in (self._takes, self._had):
-            while len(kept) > KINDS:
+            while len(kept) > _KINDS:
                 del kept[next(iter(kept))]
 
-    def _expected(self, job: Job) -> float | None:
+    def _expected(self, job: _Job) -> float | None:
         """The time in s that a job is expected to take: as this player's that were alike; else as his last one or as
         anybody's, if that was long. None for what may be short."""
         known = self._takes.get((job.player, job.alike))
@@ -148,16 +148,16 @@ class Lanes:
         work, args = self._warm
         with suppress(Exception):  # what is wrong is said where it is asked for
             if process in self._slow and self.width > cores() and hasattr(os, "nice"):  # not on Windows
-                await asyncio.wrap_future(process.submit(os.nice, NICE))
+                await asyncio.wrap_future(process.submit(os.nice, _NICE))
             await asyncio.wrap_future(process.submit(work, *args))
         self._idle.append(process)
         self._start()
 
-    def _is_long(self, job: Job, now: float) -> bool:
+    def _is_long(self, job: _Job, now: float) -> bool:
         """True if a job is expected to take long, or has done so."""
         return (self._expected(job) or 0.0) > LONG or (job.began > 0.0 and now - job.began > LONG)
 
-    async def _run(self, job: Job, process: Processes) -> None:
+    async def _run(self, job: _Job, process: Processes) -> None:
         reply: Reply
         lost, took = False, None
         call = process.submit(timed, job.work, *job.args)

@@ -13,92 +13,92 @@ from sandbox.serve.limits import CHANGES, KEY, NAME, WORD
 from sandbox.text import one_line
 from sandbox.units import parse
 
-Key = Annotated[str, StringConstraints(max_length=KEY)]
-Word = Annotated[str, StringConstraints(max_length=WORD)]
-Value = bool | Annotated[float, Field(allow_inf_nan=False)] | Word
-Changes = Annotated[dict[Key, Value], Field(max_length=CHANGES)]
-Number = Annotated[int, Field(ge=0, lt=2**53)]  # by which a browser recognises the answer
+_Key = Annotated[str, StringConstraints(max_length=KEY)]
+_Word = Annotated[str, StringConstraints(max_length=WORD)]
+_Value = bool | Annotated[float, Field(allow_inf_nan=False)] | _Word
+_Changes = Annotated[dict[_Key, _Value], Field(max_length=CHANGES)]
+_Number = Annotated[int, Field(ge=0, lt=2**53)]  # by which a browser recognises the answer
 
 
-class Message(BaseModel):
+class _Message(BaseModel):
     """Base of all messages: no unknown keys, no conversions."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
 
-class Hello(Message):
+class Hello(_Message):
     """The first message: who it is, again after a lost connection; and what a link asks for."""
 
     do: Literal["hello"]
-    session: Key = ""
+    session: _Key = ""
     name: Annotated[str, StringConstraints(max_length=4 * NAME)] = ""
-    source: Key = ""
-    changes: Changes = {}
+    source: _Key = ""
+    changes: _Changes = {}
 
 
-class Name(Message):
+class Name(_Message):
     """Another name."""
 
     do: Literal["name"]
     name: Annotated[str, StringConstraints(max_length=4 * NAME)]
 
 
-class Play(Message):
+class Play(_Message):
     """Another scene."""
 
     do: Literal["play"]
-    source: Key
-    changes: Changes = {}
+    source: _Key
+    changes: _Changes = {}
 
 
-class Aim(Message):
+class Aim(_Message):
     """Compute something with these parameters: the path, the place or the fan."""
 
     do: Literal["path", "stage", "fan"]
-    n: Number
-    changes: Changes
+    n: _Number
+    changes: _Changes
     narrow: bool = False
 
 
-class Shoot(Message):
+class Shoot(_Message):
     """Let go, with what the player predicts of it if the teacher asks."""
 
     do: Literal["shoot"]
-    n: Number
-    changes: Changes
+    n: _Number
+    changes: _Changes
     predicted: Annotated[float, Field(allow_inf_nan=False)] | None = None
 
 
-class Lead(Message):
+class Lead(_Message):
     """The teacher sets a scene for all, or lets everybody choose where ``source`` is empty."""
 
     do: Literal["lead"]
-    source: Key
-    changes: Changes = {}
+    source: _Key
+    changes: _Changes = {}
 
 
-class See(Message):
+class See(_Message):
     """The teacher looks at another scene, which nobody else notices."""
 
     do: Literal["see"]
-    source: Key
+    source: _Key
 
 
-class Freeze(Message):
+class Freeze(_Message):
     """The teacher stops everybody, or lets them go on."""
 
     do: Literal["freeze"]
     on: bool
 
 
-class Predict(Message):
+class Predict(_Message):
     """The teacher asks for a prediction of a result before each shot; of none where ``fact`` is empty."""
 
     do: Literal["predict"]
-    fact: Key
+    fact: _Key
 
 
-class Clear(Message):
+class Clear(_Message):
     """The teacher empties the table."""
 
     do: Literal["clear"]

@@ -25,7 +25,7 @@ class Listed(NamedTuple):
     is_task: bool = False
 
 
-class Row(NamedTuple):
+class _Row(NamedTuple):
     """One shot in the teacher's table."""
 
     number: int
@@ -58,7 +58,7 @@ class Player:
 
 
 @dataclass(eq=False)
-class Lead:
+class _Lead:
     """The teacher's settings."""
 
     source: str = ""  # the scene for all; "" where everybody chooses
@@ -78,8 +78,8 @@ class Room:
         self.first = next(iter(scenes))
         self.players: dict[str, Player] = {}  # by session
         self.teachers: dict[Connection, str] = {}  # the scene that each looks at; "" for that of all
-        self.lead = Lead()
-        self.rows: deque[Row] = deque(maxlen=ROWS)
+        self.lead = _Lead()
+        self.rows: deque[_Row] = deque(maxlen=ROWS)
         self.counted = 0
         self.seed = secrets.randbelow(2**31)  # of tasks: the same starts for all
         self._numbered = 0
@@ -297,7 +297,7 @@ class Room:
             seen = {key: kept.get(key) for key in ("line", "scored", "verdict", "task")}
             player.last = {**seen, "source": source}
             predicted = message.predicted if fact else None
-            self.rows.append(Row(self.counted, player.number, player.name, source, dict(message.changes),
+            self.rows.append(_Row(self.counted, player.number, player.name, source, dict(message.changes),
                                  kept["verdict"], kept["scored"], kept["facts"], fact, predicted))  # fmt: skip
             self._tell_teachers()
 
@@ -339,7 +339,7 @@ class Room:
             case messages.Lead():
                 if message.source:
                     await self._checked(message.source, message.changes)
-                self.lead = Lead(message.source, dict(message.changes), lead.frozen, "")
+                self.lead = _Lead(message.source, dict(message.changes), lead.frozen, "")
                 self.seed = secrets.randbelow(2**31)
                 for player in list(self.players.values()):
                     if message.source:

@@ -23,13 +23,13 @@ from sandbox.serve.room import Listed, Room
 from sandbox.serve.tokens import tokens
 from sandbox.tasks import find_task, is_task, tasks
 
-LOOPBACK, ALL = "127.0.0.1", "0.0.0.0"
+_LOOPBACK, _ALL = "127.0.0.1", "0.0.0.0"
 #: The port that is taken if it is free and no other is asked for, so that addresses stay the same.
-PORT = 8765
+_PORT = 8765
 #: At the end open connections are given so long, in s.
-GRACE = 1
+_GRACE = 1
 #: Scenes that every process imports before the first player comes.
-WARMED = 4
+_WARMED = 4
 
 
 class Address(NamedTuple):
@@ -41,7 +41,7 @@ class Address(NamedTuple):
     shared: bool
 
 
-def scenes_of(names: Sequence[str]) -> dict[str, Listed]:
+def _scenes_of(names: Sequence[str]) -> dict[str, Listed]:
     """The scenes that may be played, each with its presets, and tasks, by the names that are shown; all installed ones
     by default. Raises RequestError. No scene is imported for this."""
     if not names:
@@ -77,7 +77,7 @@ class Options:
 def serve(names: Sequence[str], options: Options, ready: Callable[[Address], None]) -> None:
     """Serve these scenes until a signal comes; ``ready`` is called once players can come. Raises RequestError if the
     scenes or the port cannot be used."""
-    scenes = scenes_of(names)
+    scenes = _scenes_of(names)
     listener = _listening(options.port, options.share)
     try:
         asyncio.run(_serve(scenes, listener, options, ready))
@@ -91,9 +91,9 @@ async def _serve(
     share = options.share
     own = tokens(options.fresh)
     port = listener.getsockname()[1]
-    host = _own_address() if share else LOOPBACK
-    hosts = {f"{name}:{port}" for name in (LOOPBACK, "localhost", host, *([socket.gethostname()] if share else []))}
-    sources = dict.fromkeys(each.source for each in list(scenes.values())[:WARMED] if not each.is_task)
+    host = _own_address() if share else _LOOPBACK
+    hosts = {f"{name}:{port}" for name in (_LOOPBACK, "localhost", host, *([socket.gethostname()] if share else []))}
+    sources = dict.fromkeys(each.source for each in list(scenes.values())[:_WARMED] if not each.is_task)
     lanes = Lanes(options.jobs, calls.warmed, list(sources))
     try:
         await _checked(lanes, scenes)
@@ -102,7 +102,7 @@ async def _serve(
             app_of(room, own, hosts), log_config=None, log_level="error", access_log=False, lifespan="off",
             http=Asking, ws=Talking,
             ws_max_size=MESSAGE, ws_max_queue=8, ws_per_message_deflate=False, limit_concurrency=CONNECTIONS,
-            timeout_graceful_shutdown=GRACE, h11_max_incomplete_event_size=MESSAGE, server_header=False,
+            timeout_graceful_shutdown=_GRACE, h11_max_incomplete_event_size=MESSAGE, server_header=False,
             proxy_headers=False,
         )  # fmt: skip
         server = uvicorn.Server(config)
@@ -124,13 +124,13 @@ async def _checked(lanes: Lanes, scenes: dict[str, Listed]) -> None:
 
 def _listening(port: int | None, share: bool) -> socket.socket:
     """A socket that listens on the port, by default on PORT or, where that is taken, on any. Raises RequestError."""
-    wanted = [port] if port is not None else [PORT, 0]
+    wanted = [port] if port is not None else [_PORT, 0]
     for number in wanted:
         listener = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
         if os.name == "posix":  # elsewhere it lets two programs have one port
             listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
-            listener.bind((ALL if share else LOOPBACK, number))
+            listener.bind((_ALL if share else _LOOPBACK, number))
             listener.listen(4 * PLAYERS)
             return listener
         except OSError as error:
@@ -147,4 +147,4 @@ def _own_address() -> str:
             probe.connect(("192.0.2.1", 9))  # reserved for documentation: only the route is looked up
             return str(probe.getsockname()[0])
         except OSError:
-            return LOOPBACK
+            return _LOOPBACK

@@ -13,7 +13,7 @@ from sandbox.serve.calls import Ask, Game
 from sandbox.tasks import Session, Task, load
 
 #: So many sessions are kept; another is played again up to where it is.
-KEPT = 64
+_KEPT = 64
 
 _sessions: dict[tuple[str, str], Session] = {}  # by task and game
 
@@ -65,7 +65,7 @@ def _key(ask: Ask, shots: int) -> tuple[str, str]:
 
 def _keep(key: tuple[str, str], session: Session) -> None:
     _sessions[key] = session
-    while len(_sessions) > KEPT:
+    while len(_sessions) > _KEPT:
         del _sessions[next(iter(_sessions))]
 
 

@@ -15,7 +15,7 @@ from sandbox.files import state_folder
 from sandbox.serve.limits import KEPT
 
 #: Bytes of a token: 72 bits cannot be guessed, and 12 letters can still be typed.
-BYTES = 9
+_BYTES = 9
 
 
 class Tokens(NamedTuple):
@@ -30,7 +30,7 @@ def tokens(fresh: bool = False) -> Tokens:
     they are new each time."""
     file = state_folder() / "serve.json"
     found = None if fresh else _read(file)
-    made = found or Tokens(secrets.token_urlsafe(BYTES), secrets.token_urlsafe(BYTES))
+    made = found or Tokens(secrets.token_urlsafe(_BYTES), secrets.token_urlsafe(_BYTES))
     _write(file, made)
     return made
 
@@ -41,7 +41,7 @@ def _read(file: Path) -> Tokens | None:
         state = file.stat()
         if state.st_mode & 0o077 == 0 and 0.0 <= time() - state.st_mtime < KEPT:
             found = Tokens(**json.loads(file.read_text("utf-8")))
-            if found.play != found.teach and all(re.fullmatch(rf"[\w-]{{{BYTES * 4 // 3}}}", each) for each in found):
+            if found.play != found.teach and all(re.fullmatch(rf"[\w-]{{{_BYTES * 4 // 3}}}", each) for each in found):
                 return found
     return None
 

@@ -43,22 +43,22 @@ from sandbox.window.panel import Setting
 from sandbox.window.shots import Shot, scene_without_controls
 
 #: Runs are sent with so many digits after the point: paths to 1 um.
-DIGITS = 6
+_DIGITS = 6
 #: A pull has the speeds at so many shares of it.
-PULLS = 101
+_PULLS = 101
 #: A line of a shot that others see has points to 1 cm, drawn for a picture of so many px.
-LINE_DIGITS, LINE_PIXELS = 2, 900
+_LINE_DIGITS, _LINE_PIXELS = 2, 900
 #: A parameter that would make a run slow without a player seeing more of it.
-KEPT = ("accuracy.",)
+_KEPT = ("accuracy.",)
 
-Arguments = ParamSpec("Arguments")
+_Arguments = ParamSpec("_Arguments")
 
 
-def replying(work: Callable[Arguments, Reply]) -> Callable[Arguments, Reply]:
+def _replying(work: Callable[_Arguments, Reply]) -> Callable[_Arguments, Reply]:
     """Return the function with errors caught: an exception becomes the error in the reply, in a line."""
 
     @wraps(work)
-    def safe(*args: Arguments.args, **named: Arguments.kwargs) -> Reply:
+    def safe(*args: _Arguments.args, **named: _Arguments.kwargs) -> Reply:
         _limit_memory()
         try:
             reply = work(*args, **named)
@@ -117,9 +117,9 @@ def _scene(source: str) -> Scene:
     return load(source)
 
 
-def packed(kind: str, **data: Any) -> bytes:
+def _packed(kind: str, **data: Any) -> bytes:
     """A message for the browser: JSON, deflated; a run with its numbers to so many DIGITS."""
-    ready = {key: json_ready(value, DIGITS if key == "run" else None) for key, value in data.items()}
+    ready = {key: json_ready(value, _DIGITS if key == "run" else None) for key, value in data.items()}
     text = json.dumps({"is": kind, **ready}, allow_nan=False, ensure_ascii=False, separators=(",", ":"))
     return zlib.compress(encodable(text).encode(), 1)
 
@@ -129,7 +129,7 @@ def packed(kind: str, **data: Any) -> bytes:
 # ---------------------------------------------------------------------------------------------------------------------
 
 
-@replying
+@_replying
 def described(source: str, is_task: bool) -> Reply:
     """A scene or task for the browser: its parameters with their bounds, what a pull does, the results to predict."""
     task = sessions.task_of(source) if is_task else None
@@ -162,7 +162,7 @@ def _may_change(parameter: Parameter) -> bool:
     number = parameter.unit is not None and isinstance(parameter.value, float)
     switch = isinstance(parameter.value, bool)
     words = len(parameter.choices) > 1 and parameter.value is not None
-    return (number or switch or words) and (not parameter.key.startswith(KEPT) or parameter.key == "accuracy.level")
+    return (number or switch or words) and (not parameter.key.startswith(_KEPT) or parameter.key == "accuracy.level")
 
 
 def _setting(parameter: Parameter, sliders: Sequence[str]) -> dict[str, Any]:
@@ -194,7 +194,7 @@ def _pull(scene: Scene, chosen: Mapping[str, Parameter], is_task: bool) -> dict[
         "speed": controls.speed,
         "angle": controls.angle,
         "sets": {} if is_task else dict(controls.set_on_pull),
-        "speeds": [float(f"{speeds.at(share):.4g}") for share in np.linspace(0.0, 1.0, PULLS).tolist()],
+        "speeds": [float(f"{speeds.at(share):.4g}") for share in np.linspace(0.0, 1.0, _PULLS).tolist()],
         "push": float(f"{PUSH * speeds.highest:.1g}"),
         "spins": [{"key": spin.key, "step": spin.step} for spin in controls.spins],
     }
@@ -205,25 +205,25 @@ def _pull(scene: Scene, chosen: Mapping[str, Parameter], is_task: bool) -> dict[
 # ---------------------------------------------------------------------------------------------------------------------
 
 
-@replying
+@_replying
 def path(ask: Ask) -> Reply:
     """The run while a player aims: its paths, verdict and numbers; as much of it as a task shows."""
     with shown_in(ask.units):
         scene, run, view, session = _flown(ask)
         until = sessions.shown_until(session, run, view.ball)
         data = _run_data(scene, run, view) if until is None else _start(scene, run, view, until)
-        return {"message": packed("path", n=ask.n, run=data | _standing(session))}
+        return {"message": _packed("path", n=ask.n, run=data | _standing(session))}
 
 
-@replying
-def hidden(ask: Ask) -> Reply:
+@_replying
+def _hidden(ask: Ask) -> Reply:
     """The run as far as a player knows it who is to predict it: where the balls begin."""
     with shown_in(ask.units):
         scene, run, view, session = _flown(ask)
-        return {"message": packed("path", n=ask.n, run=_start(scene, run, view, 0.0) | _standing(session))}
+        return {"message": _packed("path", n=ask.n, run=_start(scene, run, view, 0.0) | _standing(session))}
 
 
-@replying
+@_replying
 def shot(ask: Ask) -> Reply:
     """The run that a player let go: with forces, events and energy, and what the others see of it."""
     with shown_in(ask.units):
@@ -240,15 +240,15 @@ def shot(ask: Ask) -> Reply:
             "verdict": scene.verdict(run),
             "scored": Shot(scene, run).scored,
             "facts": {key: value for key, value in numbers.items() if isinstance(value, int | float)},
-            "line": _line(view, run.trajectory(view.ball)[:, 1:3], LINE_PIXELS),
+            "line": _line(view, run.trajectory(view.ball)[:, 1:3], _LINE_PIXELS),
             **standing,
         }
-        message = packed("shot", n=ask.n, run=_run_data(scene, run, view) | more)
-        return {"message": message, "kept": json_ready(kept, DIGITS)}
+        message = _packed("shot", n=ask.n, run=_run_data(scene, run, view) | more)
+        return {"message": message, "kept": json_ready(kept, _DIGITS)}
 
 
-@replying
-def stage(ask: Ask) -> Reply:
+@_replying
+def _stage(ask: Ask) -> Reply:
     """The place without the run, as it is seen from where the whole run is in sight; where the run is hidden, that of
     the scene's own shot."""
     size, density = LAYOUTS[ask.narrow]
@@ -261,24 +261,24 @@ def stage(ask: Ask) -> Reply:
         others = [(lighter(colour) if view.on_dark else colour, lighter(colour)) for colour in view.OTHER_TRACES]
         data["others"] = [tuple(map(css, both)) for both in others]  # on the picture and on the card
         data["good"] = css(CARD["good"])
-        return {"message": packed("stage", n=ask.n, stage=data)}
+        return {"message": _packed("stage", n=ask.n, stage=data)}
 
 
-@replying
-def fan(ask: Ask) -> Reply:
+@_replying
+def _fan(ask: Ask) -> Reply:
     """Similar shots as a player would play them, and how many of them score."""
     with shown_in(ask.units):
         session = sessions.session_of(ask)
         if session is not None and session.task.shown != "all":
-            return {"message": packed("fan", n=ask.n, said="no similar shots: this task does not show the whole path")}
+            return {"message": _packed("fan", n=ask.n, said="no similar shots: this task does not show the whole path")}
         scene, _, view, _ = _flown(ask)
         found = fan_of(scene, FAN)
         if found is None:
             said = "no fan: this shot does not start from the player's controls"
-            return {"message": packed("fan", n=ask.n, said=said)}
-        lines = [[bool(shot.scored), _line(view, shot.path, LINE_PIXELS)] for shot in found.shots]
+            return {"message": _packed("fan", n=ask.n, said=said)}
+        lines = [[bool(shot.scored), _line(view, shot.path, _LINE_PIXELS)] for shot in found.shots]
         bars = found.bars._asdict() if found.bars is not None else None
-        return {"message": packed("fan", n=ask.n, said=found.said, by=found.by, lines=lines, bars=bars)}
+        return {"message": _packed("fan", n=ask.n, said=found.said, by=found.by, lines=lines, bars=bars)}
 
 
 def _flown(ask: Ask, size: tuple[int, int] | None = None) -> tuple[Scene, SceneRun, View[Any], Session | None]:
@@ -330,7 +330,7 @@ def _line(view: View[Any], points: np.ndarray, pixels: float) -> list[float]:
         return []
     scale = pixels / max(float(np.ptp(view.points, axis=0).max()), 1e-6)
     thinned = simplify(points * scale) / scale
-    digits = max(LINE_DIGITS, int(np.ceil(np.log10(scale))) + 1)
+    digits = max(_LINE_DIGITS, int(np.ceil(np.log10(scale))) + 1)
     return [round(value, digits) for value in thinned.ravel().tolist()]
 
 
@@ -351,7 +351,7 @@ def _short(values: np.ndarray | None) -> list[float]:
     return [] if values is None else [float(f"{value:.5g}") for value in values.tolist()]
 
 
-@replying
+@_replying
 def warmed(sources: Sequence[str]) -> Reply:
     """Import what is needed, and run each scene once: the first player does not wait for that."""
     for source in sources:
@@ -362,4 +362,10 @@ def warmed(sources: Sequence[str]) -> Reply:
 
 
 #: What may be asked for.
-WORKS: dict[Kind, Callable[[Ask], Reply]] = {"path": path, "hidden": hidden, "stage": stage, "fan": fan, "shot": shot}
+WORKS: dict[Kind, Callable[[Ask], Reply]] = {
+    "path": path,
+    "hidden": _hidden,
+    "stage": _stage,
+    "fan": _fan,
+    "shot": shot,
+}

@@ -13,7 +13,7 @@ from sandbox import units
 from sandbox.errors import RequestError
 
 
-class Step(NamedTuple):
+class _Step(NamedTuple):
     """From ``least`` on, in the unit of its ladder, numbers are written in ``unit`` with so many ``digits`` after the
     point."""
 
@@ -22,49 +22,49 @@ class Step(NamedTuple):
     digits: int
 
 
-Ladder = Sequence[Step]
+_Ladder = Sequence[_Step]
 
 #: The steps by which numbers of a unit are written, the largest first; a unit that is not here has three figures.
-DISPLAY_UNITS: dict[str, Ladder] = {
-    "m": (Step(10_000, "km", 1), Step(10, "m", 1), Step(0.0995, "m", 2), Step(0.0005, "cm", 1), Step(0, "m", 2)),
-    "m/s": (Step(10, "m/s", 1), Step(0, "m/s", 2)),
-    "yd": (Step(20, "yd", 0), Step(0, "yd", 1)),
-    **{unit: (Step(0, unit, 0),) for unit in ("mph", "km/h", "rpm")},
-    "ft": (Step(100, "ft", 0), Step(0, "ft", 1)),
-    **{unit: (Step(0, unit, 1),) for unit in ("deg", "arcmin", "J", "in", "cm")},
-    "moa": (Step(0, "arcmin", 1),),
-    "s": (Step(0, "s", 2),),
-    "N": (Step(9995, "kN", 1), Step(9.995, "N", 1), Step(0.0995, "N", 2), Step(0, "mN", 0)),
+DISPLAY_UNITS: dict[str, _Ladder] = {
+    "m": (_Step(10_000, "km", 1), _Step(10, "m", 1), _Step(0.0995, "m", 2), _Step(0.0005, "cm", 1), _Step(0, "m", 2)),
+    "m/s": (_Step(10, "m/s", 1), _Step(0, "m/s", 2)),
+    "yd": (_Step(20, "yd", 0), _Step(0, "yd", 1)),
+    **{unit: (_Step(0, unit, 0),) for unit in ("mph", "km/h", "rpm")},
+    "ft": (_Step(100, "ft", 0), _Step(0, "ft", 1)),
+    **{unit: (_Step(0, unit, 1),) for unit in ("deg", "arcmin", "J", "in", "cm")},
+    "moa": (_Step(0, "arcmin", 1),),
+    "s": (_Step(0, "s", 2),),
+    "N": (_Step(9995, "kN", 1), _Step(9.995, "N", 1), _Step(0.0995, "N", 2), _Step(0, "mN", 0)),
 }
 
 #: The ladders that replace those, by kind of unit; they are in the kind's SI unit.
-SYSTEMS: dict[str, Mapping[str, Ladder]] = {
+_SYSTEMS: dict[str, Mapping[str, _Ladder]] = {
     "si": {},
     "us": {
         "length": (
-            *(Step(160, "yd", 0), Step(30, "ft", 0), Step(0.3, "ft", 1)),
-            *(Step(0.001, "in", 1), Step(0, "ft", 1)),
+            *(_Step(160, "yd", 0), _Step(30, "ft", 0), _Step(0.3, "ft", 1)),
+            *(_Step(0.001, "in", 1), _Step(0, "ft", 1)),
         ),
-        "speed": (Step(8.94, "mph", 0), Step(0, "mph", 1)),
-        "mass": (Step(0.4536, "lb", 2), Step(0, "oz", 2)),
-        "force": (Step(0, "lbf", 2),),
+        "speed": (_Step(8.94, "mph", 0), _Step(0, "mph", 1)),
+        "mass": (_Step(0.4536, "lb", 2), _Step(0, "oz", 2)),
+        "force": (_Step(0, "lbf", 2),),
     },
 }
 _chosen: ContextVar[str] = ContextVar("units", default="si")
 
 
 @cache
-def system_of(text: str) -> Mapping[str, Ladder]:
+def _system_of(text: str) -> Mapping[str, _Ladder]:
     """The ladders by kind that ``us``, ``si``, or a list of units such as ``ft,mph`` asks for. Raises RequestError."""
-    if text in SYSTEMS:
-        return SYSTEMS[text]
+    if text in _SYSTEMS:
+        return _SYSTEMS[text]
     names = [units.suggestion(name.strip()) for name in text.split(",")]
     for name, given in zip(names, text.split(","), strict=True):
         if name not in units.KIND_OF or not name:
             raise RequestError(
                 f'--units {text}: must be us, si or a list of units such as ft,mph, not "{given.strip()}"'
             )
-    found = {units.KIND_OF[name]: DISPLAY_UNITS.get(name, (Step(0, name, 2),)) for name in names}
+    found = {units.KIND_OF[name]: DISPLAY_UNITS.get(name, (_Step(0, name, 2),)) for name in names}
     if len(found) < len(names):
         raise RequestError(f"--units {text}: two are of one kind; give one unit for each kind")
     return found
@@ -76,7 +76,7 @@ def shown_in(text: str | None) -> Iterator[None]:
     if text is None:
         yield
         return
-    system_of(text)
+    _system_of(text)
     token = _chosen.set(text)
     try:
         yield
@@ -89,21 +89,21 @@ def chosen_units() -> str:
     return _chosen.get()
 
 
-def _ladders() -> Mapping[str, Ladder]:
+def _ladders() -> Mapping[str, _Ladder]:
     """The ladders by kind that were chosen."""
-    return system_of(_chosen.get())
+    return _system_of(_chosen.get())
 
 
-def ladder(unit: str) -> Ladder:
+def ladder(unit: str) -> _Ladder:
     """Return the steps by which numbers of a unit are written now; empty for one with three figures."""
     own = _ladders().get(units.KIND_OF.get(unit, ""))
     if own is None:
         return DISPLAY_UNITS.get(unit, ())
     first = next(iter(units.KINDS[units.KIND_OF[unit]])) if len(own) > 1 else unit
-    return [Step(units.convert(step.least, first, unit), *step[1:]) for step in own]
+    return [_Step(units.convert(step.least, first, unit), *step[1:]) for step in own]
 
 
-def written(value: float, unit: str, steps: Ladder, digits: int | None = None) -> str:
+def written(value: float, unit: str, steps: _Ladder, digits: int | None = None) -> str:
     """A number of ``unit`` on a ladder; ``digits`` in place of the ladder's."""
     step = next((step for step in steps if abs(value) >= step.least), steps[-1])
     number = units.convert(value, unit, step.unit) if step.unit != unit else value
@@ -121,7 +121,7 @@ def amount(value: float, unit: str = "", digits: int | None = None) -> str:
 
 def converted(value: float, unit: str, other: str) -> str:
     """A number of ``unit`` written in the unit ``other``, whatever was chosen."""
-    return written(units.convert(value, unit, other), other, DISPLAY_UNITS.get(other, (Step(0, other, 2),)))
+    return written(units.convert(value, unit, other), other, DISPLAY_UNITS.get(other, (_Step(0, other, 2),)))
 
 
 def exact(value: float, unit: str) -> str:

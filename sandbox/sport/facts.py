@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 #: ``"start"``, ``"end"``, the name of what must have been touched, or a function of the parameters that gives the
 #: condition.
 FinalWhen = str | Callable[[Any], "Until"]
-Value = TypeVar("Value")
+_Value = TypeVar("_Value")
 
 
 @dataclass(frozen=True)
@@ -88,12 +88,12 @@ class Fact:
         return " ".join(filter(None, words))
 
 
-def cached_per_run(compute: Callable[[Run, Any], Value]) -> Callable[[Run, Any], Value]:
+def cached_per_run(compute: Callable[[Run, Any], _Value]) -> Callable[[Run, Any], _Value]:
     """Cache a value that several facts are computed from, such as the landing: computed once for each run."""
-    last: list[tuple[ref[Run], Any, Value]] = []
+    last: list[tuple[ref[Run], Any, _Value]] = []
 
     @wraps(compute)
-    def remembered(run: Run, parameters: Any) -> Value:
+    def remembered(run: Run, parameters: Any) -> _Value:
         for known, by, value in last:
             if known() is run and by is parameters:
                 return value

@@ -21,7 +21,7 @@ RPM = pi / 30.0  # rad/s
 DEGREE = pi / 180.0  # rad
 
 #: Coefficients of drag or lift by name, or a group of parameters that has such ones.
-Laws = Mapping[str, Coefficient] | type[Model]
+_Laws = Mapping[str, Coefficient] | type[Model]
 
 
 class Directed(Group):
@@ -87,11 +87,11 @@ class Sphere(Group):
     drag: AnyDrag = one_of(..., "drag of the air")
     lift: AnyLift = one_of(..., "Magnus force")
 
-    def __init_subclass__(cls, drag: Laws | None = None, lift: Laws | None = None, **options: Any) -> None:
+    def __init_subclass__(cls, drag: _Laws | None = None, lift: _Laws | None = None, **options: Any) -> None:
         super().__init_subclass__(**options)
 
     @classmethod
-    def __pydantic_init_subclass__(cls, drag: Laws | None = None, lift: Laws | None = None, **options: Any) -> None:
+    def __pydantic_init_subclass__(cls, drag: _Laws | None = None, lift: _Laws | None = None, **options: Any) -> None:
         super().__pydantic_init_subclass__(**options)
         for name, laws, base in (("drag", drag, Model), ("lift", lift, Lift)):
             if laws is not None:

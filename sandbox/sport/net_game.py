@@ -22,14 +22,14 @@ from sandbox.sport.readings import Moment, apex, before, fact_from, passing_at
 from sandbox.sport.solids import Solid
 
 
-class Net(Solid):
+class _Net(Solid):
     """The net across the middle of the court."""
 
     height: float = quantity(..., "m", 0.05, 10, "of its upper edge above the court")
     depth: float = quantity(..., "m", 0.05, 5, "from its upper to its lower edge")
 
 
-class Court(Group):
+class _Court(Group):
     """The court and its ground."""
 
     length: float = quantity(..., "m", 1, 200, "from end line to end line")
@@ -40,8 +40,8 @@ class Court(Group):
 class NetGame(Flight):
     """Parameters of a ball that is played over a net; a sport adds its own."""
 
-    net: Net = group(..., "the net")
-    court: Court = group(..., "the court")
+    net: _Net = group(..., "the net")
+    court: _Court = group(..., "the court")
 
     @property
     def middle(self) -> float:
@@ -54,7 +54,7 @@ class NetGame(Flight):
         return self.court.length, "end line"
 
 
-class HardCourt(Court):
+class HardCourt(_Court):
     """Ground as hard as a tennis court; ``restitution`` is for a ball that arrives at 16 deg."""
 
     slope: float = quantity(..., "", 0, 0.01, "restitution less for each degree that the ball arrives at steeper")
@@ -86,7 +86,7 @@ def net_of(parameters: NetGame) -> Surface:
     return net.surface("net", Segment((middle, max(0.0, net.height - net.depth)), (middle, net.height), 0.01))
 
 
-def bounces(events: Sequence[Event]) -> list[Event]:
+def _bounces(events: Sequence[Event]) -> list[Event]:
     """Impacts on anything but the net."""
     return [event for event in events if event.kind == "impact" and event.partner != "net"]
 
@@ -98,7 +98,7 @@ class Bounces(Until):
     times: int = 1
 
     def over(self, events: Sequence[Event]) -> bool:
-        return len(bounces(events)) >= self.times
+        return len(_bounces(events)) >= self.times
 
 
 def is_down(parameters: Any) -> Until:
@@ -109,24 +109,24 @@ def is_down(parameters: Any) -> Until:
 @cached_per_run
 def landing(run: Run, parameters: Any) -> Moment | None:
     """The ball just before it comes down."""
-    return next((before(run, event.t) for event in bounces(run.events)), None)
+    return next((before(run, event.t) for event in _bounces(run.events)), None)
 
 
 def rebound(run: Run, parameters: Any) -> Moment | None:
     """The ball just after it came down."""
-    return next((Moment(event.t, *run.state("ball", event.t)) for event in bounces(run.events)), None)
+    return next((Moment(event.t, *run.state("ball", event.t)) for event in _bounces(run.events)), None)
 
 
 #: The ball as it passes the far end line; as it passes the net; and the gap in m between the two there, negative if it
 #: passes below the upper edge.
-at_baseline, at_net = passing_at(lambda it: it.court.length), passing_at(lambda it: it.middle)
-net_clearance = fact_from(at_net, lambda ball, it: ball.y - it.ball.radius - it.net.height)
+_at_baseline, _at_net = passing_at(lambda it: it.court.length), passing_at(lambda it: it.middle)
+_net_clearance = fact_from(_at_net, lambda ball, it: ball.y - it.ball.radius - it.net.height)
 
 
 def received_at(run: Run, parameters: Any) -> float:
     """The time in s at which the other player receives the ball: a little beyond the end line; the run's end if it does
     not get there, or only comes down beyond it."""
-    passed, landed = at_baseline(run, parameters), landing(run, parameters)
+    passed, landed = _at_baseline(run, parameters), landing(run, parameters)
     if passed is None or landed is None or landed.t > passed.t:
         return run.duration
     return min(run.duration, passed.t + 0.15)
@@ -135,7 +135,7 @@ def received_at(run: Run, parameters: Any) -> float:
 def outcome(run: Run, parameters: Any) -> str:
     """The outcome in a word: in; long, beyond the limit; net, into or under it; short, on the player's own side; gone,
     never down."""
-    landed, gap = landing(run, parameters), net_clearance(run, parameters)
+    landed, gap = landing(run, parameters), _net_clearance(run, parameters)
     if landed is None:
         return "gone"
     if landed.x < parameters.middle:
@@ -149,7 +149,7 @@ def outcome(run: Run, parameters: Any) -> str:
 FACTS = (
     Fact("in", "", "", lambda run, parameters: outcome(run, parameters) == "in", is_down),
     Fact("verdict", "", "", outcome, is_down),
-    Fact("net_clearance", "over the net", "m", net_clearance, is_down),
+    Fact("net_clearance", "over the net", "m", _net_clearance, is_down),
     Fact("landing", "landing", "m", fact_from(landing, "x"), is_down),
     Fact("landing_speed", "landing speed", "m/s", fact_from(landing, "speed"), is_down, also="km/h"),
     Fact("apex", "apex", "m", apex, is_down),
@@ -170,7 +170,7 @@ BOUNCE_FACTS = (
     Fact("bounce_angle", "rises at", "deg", fact_from(rebound, lambda ball, _: -ball.descent), is_down),
     Fact("bounce_spin", "", "rpm", fact_from(rebound, "rpm"), is_down),
     Fact("speed_kept", "", "", _kept, is_down),
-    Fact("baseline_speed", "", "m/s", fact_from(at_baseline, "speed")),
+    Fact("baseline_speed", "", "m/s", fact_from(_at_baseline, "speed")),
 )
 
 

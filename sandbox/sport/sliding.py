@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 #: Chords of a rounded corner: their directions are 0.7 deg off at most.
-CHORDS = 64
+_CHORDS = 64
 
 #: Bodies are removed up to this distance beyond a line, in m.
 _REACH = 2.0
@@ -85,7 +85,9 @@ def rounded(length: float, width: float, corner: float, opening: float) -> list[
     side of an ``opening`` in the middle of the end at +x to the other; lengths in m."""
     x, y, r = 0.5 * length, 0.5 * width, min(corner, 0.5 * length, 0.5 * width)
     middles = (x - r, y - r), (r - x, y - r), (r - x, r - y), (x - r, r - y)
-    turns = [(middle, 0.5 * pi * (i + step / CHORDS)) for i, middle in enumerate(middles) for step in range(CHORDS + 1)]
+    turns = [
+        (middle, 0.5 * pi * (i + step / _CHORDS)) for i, middle in enumerate(middles) for step in range(_CHORDS + 1)
+    ]
     corners = [(a + r * cos(turn), b + r * sin(turn)) for (a, b), turn in turns]
     return [*dict.fromkeys([(x, 0.5 * opening), *corners, (x, -0.5 * opening)])]  # corners may meet
 
@@ -145,10 +147,10 @@ def lateral_offset(run: Run, name: str, launch: Slide) -> float:
     return (y - y0) * cos(way) - (x - x0) * sin(way)
 
 
-def rest_time(run: Run, parameters: Any) -> float | None:
+def _rest_time(run: Run, parameters: Any) -> float | None:
     """Time in s after which nothing moves any more; None for a single ball that was caught: it did not come to rest."""
     caught_alone = len(run.arcs) == 1 and run.caught_at(*run.arcs) is not None
     return run.duration if run.ended == "rest" and not caught_alone else None
 
 
-REST_TIME = Fact("rest_time", "at rest after", "s", rest_time)
+REST_TIME = Fact("rest_time", "at rest after", "s", _rest_time)

@@ -14,10 +14,10 @@ from sandbox.parameters import Group, quantity, walk
 from sandbox.physics.elementwise import anywhere, maximum
 
 #: The ground reaches so far to either side, in m.
-FAR = 25_000.0
+_FAR = 25_000.0
 
 
-def level(y: float = 0.0, reach: float = FAR) -> Segment:
+def level(y: float = 0.0, reach: float = _FAR) -> Segment:
     """Level ground at a height in m, to either side farther than any ball gets."""
     return Segment((-reach, y), (reach, y))
 

@@ -16,17 +16,17 @@ from sandbox.tasks.scoring import KINDS
 from sandbox.toml import read_toml
 
 #: Most attempts at a task, and most shots of one attempt.
-MOST_ATTEMPTS = 100
+_MOST_ATTEMPTS = 100
 
 #: The parts of the path of which one is shown while the player aims.
-Shown = Literal["all", "first contact", "one metre", "nothing"]
-SHOWN: tuple[str, ...] = get_args(Shown)
+_Shown = Literal["all", "first contact", "one metre", "nothing"]
+SHOWN: tuple[str, ...] = get_args(_Shown)
 
 #: Keys that no scene file has: a file with one of them is taken for a task.
 _ONLY_OF_TASKS = ("attempts", "controls", "score", "stars", "pass", "shown")
 
 
-class StartEntry(Group):
+class _StartEntry(Group):
     """One parameter that is drawn anew for each attempt: evenly from a range, or one of several values."""
 
     key: str = Field(description="the parameter, such as hoop.distance")
@@ -35,7 +35,7 @@ class StartEntry(Group):
     values: list[Any] | None = Field(None, description="or the values, of which one is drawn")
 
 
-class ControlEntry(Group):
+class _ControlEntry(Group):
     """One parameter that the player sets."""
 
     key: str = Field(description="the parameter, such as launch.angle")
@@ -63,16 +63,16 @@ class TaskFile(Group):
     scene: str = Field(description="scene or preset, or the path of a scene of your own")
     goal: str = Field(description="the goal, in one sentence", min_length=1, max_length=120)
     level: int = Field(1, description="order among the tasks of its scene", ge=1, le=99, strict=True)
-    attempts: int = Field(description="how often the player may try", ge=1, le=MOST_ATTEMPTS, strict=True)
-    shots: int = Field(1, description="most shots of one attempt", ge=1, le=MOST_ATTEMPTS, strict=True)
-    shown: Shown = choice("all", "how much of the path is shown")
+    attempts: int = Field(description="how often the player may try", ge=1, le=_MOST_ATTEMPTS, strict=True)
+    shots: int = Field(1, description="most shots of one attempt", ge=1, le=_MOST_ATTEMPTS, strict=True)
+    shown: _Shown = choice("all", "how much of the path is shown")
     stars: list[Any] = Field(description="the scores for one, two and three stars", min_length=3, max_length=3)
     passing: Any = Field(description="the score that passes")
     goes_on: dict[str, Any] = Field(default_factory=dict, description="facts without which the attempt ends")
     ends: dict[str, Any] = Field(default_factory=dict, description="facts with which the attempt ends")
     set: dict[str, Any] = Field(default_factory=dict, description="what is not as in the scene, as in a scene file")
-    start: list[StartEntry] = groups([], "what is drawn anew for each attempt")
-    controls: list[ControlEntry] = groups(..., "what the player sets")
+    start: list[_StartEntry] = groups([], "what is drawn anew for each attempt")
+    controls: list[_ControlEntry] = groups(..., "what the player sets")
     score: ScoreEntry = group(..., "what counts")
 
 

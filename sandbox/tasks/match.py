@@ -14,7 +14,7 @@ from typing import Any, ClassVar, TypeVar
 #: The facts of a run, by their keys.
 Outcome = Mapping[str, Any]
 PLAYERS = ("Player 1", "Player 2")
-Same = TypeVar("Same", bound="Match")
+_Same = TypeVar("_Same", bound="Match")
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class Match:
     finished: bool = False
     winner: int | None = None  # 0 or 1; None for a draw, and before the end
 
-    def after(self: Same, outcome: Outcome) -> Same:
+    def after(self: _Same, outcome: Outcome) -> _Same:
         """The match after the shot of the player whose turn it is."""
         raise NotImplementedError
 
@@ -76,11 +76,11 @@ class Match:
             return f"{self.player} to play"
         return "A draw" if self.winner is None else f"{self.players[self.winner]} wins"
 
-    def going_on(self: Same, said: str, turn: int, **changes: Any) -> Same:
+    def going_on(self: _Same, said: str, turn: int, **changes: Any) -> _Same:
         """The match with another shot to be played, by the player ``turn``."""
         return replace(self, said=said, turn=turn, **{"foul": "", **changes})
 
-    def won_by(self: Same, winner: int | None, said: str, **changes: Any) -> Same:
+    def won_by(self: _Same, winner: int | None, said: str, **changes: Any) -> _Same:
         """The match at its end; without a winner it is a draw."""
         return replace(self, said=said, finished=True, winner=winner, **{"foul": "", **changes})
 

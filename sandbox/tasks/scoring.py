@@ -12,7 +12,7 @@ from sandbox.errors import RequestError
 from sandbox.sport.amounts import amount
 
 #: The distance from a target, over the one that passes, that counts for a shot that has none.
-FARTHEST = 10.0
+_FARTHEST = 10.0
 
 
 @dataclass(frozen=True)
@@ -202,8 +202,8 @@ class Nearest(Greatest):
         return 0.0
 
     def reward(self, worth: float | None, passing: float, missed: bool = False) -> float:
-        """Minus the distance; at most ``FARTHEST`` times the one that passes."""
-        farthest = FARTHEST * passing
+        """Minus the distance; at most ``_FARTHEST`` times the one that passes."""
+        farthest = _FARTHEST * passing
         return -min(farthest if worth is None else worth, farthest)
 
     def shot_text(self, worth: float | None) -> str:

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 if TYPE_CHECKING:
     from sandbox.workers import Processes
 
-_T = TypeVar("T")
+_T = TypeVar("_T")
 
 #: How long a frame waits for a run, in s: the rest of a frame is for drawing.
 PATIENCE = 0.005

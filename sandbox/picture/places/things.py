@@ -1,5 +1,5 @@
-"""Things that stand on the ground: nets, posts, people, a goal. Each is described once and seen by an ``_Eye``: from the
-side, or from above."""
+"""Things that stand on the ground: nets, posts, people, a goal. Each is described once and seen by an ``_Eye``: from
+the side, or from above."""
 
 from __future__ import annotations
 
