@@ -18,9 +18,8 @@ import pytest
 
 import sandbox
 from sandbox import tasks
-from sandbox.cli import serve as cli
 from sandbox.page.replay import LAYOUTS
-from sandbox.serve import calls, server, sessions, tokens, work
+from sandbox.serve import calls, command, server, sessions, tokens, work
 from sandbox.serve.limits import AWAY, PLAYERS
 from sandbox.serve.room import Listed, Player, Room
 from tests.own_scene import DROP, copy_of
@@ -312,7 +311,7 @@ def test_sharing_says_what_it_means(capsys: pytest.CaptureFixture[str]):
         with server._listening(0, shared) as listener:
             assert listener.getsockname()[0] == host
         url = f"http://192.168.100.100:54321/{'x' * 12}/"
-        cli._text(server.Address(url, url, 54321, shared))
+        command._text(server.Address(url, url, 54321, shared))
         said = capsys.readouterr().out
         assert ("not encrypted" in said, "Only browsers on this computer" in said) == (shared, not shared)
         assert url in said
