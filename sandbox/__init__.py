@@ -156,7 +156,8 @@ if not TYPE_CHECKING:  # or a misspelt name would pass as one of any type
             raise AttributeError(f"module 'sandbox' has no attribute {name!r}")
         from importlib import import_module
 
-        return getattr(import_module(_MODULES[name]), name)
+        found = globals()[name] = getattr(import_module(_MODULES[name]), name)
+        return found
 
 
 def __dir__() -> list[str]:

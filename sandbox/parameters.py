@@ -20,7 +20,7 @@ import math
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Sized
 from dataclasses import dataclass
-from functools import partial
+from functools import lru_cache, partial
 from itertools import takewhile
 from numbers import Real
 from types import EllipsisType
@@ -315,6 +315,7 @@ def words_of(annotation: Any) -> tuple[Any, ...]:
     return tuple(word for part in get_args(annotation) for word in words_of(part))
 
 
+@lru_cache(maxsize=4096)
 def groups_of(annotation: Any) -> tuple[type[Group], ...]:
     """The groups that a field of this type may hold: one, several to choose from, or those of a list."""
     if isinstance(annotation, type) and issubclass(annotation, Group):
@@ -424,8 +425,9 @@ def without_indices(parameters: Group, changes: Mapping[str, Any], by: str = "ov
     }
 
 
-def _defaults(schema: type[Group]) -> dict[str, Any]:
-    """Return the defaults, which a file may leave out."""
+@lru_cache(maxsize=1024)
+def _defaults(schema: type[Group]) -> Mapping[str, Any]:
+    """Return the defaults, which a file may leave out; not to be changed."""
     tables = {}
     for name, field in schema.model_fields.items():
         if isinstance(field.default, Group):

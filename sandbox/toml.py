@@ -6,6 +6,8 @@ import json
 import re
 import sys
 import tomllib
+from collections.abc import Mapping
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -21,26 +23,35 @@ _LARGEST = 1_000_000
 _DEEPEST = 100
 
 
-def read_toml(path: Path) -> dict[str, Any]:
-    """The nested tables of a TOML file; RequestError says in one line why it cannot be read."""
+def read_toml(path: Path) -> Mapping[str, Any]:
+    """The nested tables of a TOML file, not to be changed; RequestError says in one line why it cannot be read."""
     try:
         text = read_given(path, _LARGEST).decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise RequestError(f"{path}: not a text file in UTF-8 (byte {error.start})") from None
+    try:
+        return _tables(text)
+    except ValueError as error:
+        raise RequestError(f"{path}: {error}") from None
+
+
+@lru_cache(maxsize=256)
+def _tables(text: str) -> Mapping[str, Any]:
+    """The tables of a text, parsed once in a process. Raises ValueError, which says what is wrong with it."""
     deep = next((n for n, line in enumerate(text.splitlines(), 1) if _parts_of_key(line) > _DEEPEST), None)
     if deep is not None:
-        raise RequestError(f"{path}: line {deep}: a key has at most {_DEEPEST} parts")
+        raise ValueError(f"line {deep}: a key has at most {_DEEPEST} parts")
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise RequestError(f"{path}: broken TOML: {error}{_toml_hint(text, str(error))}") from None
+        raise ValueError(f"broken TOML: {error}{_toml_hint(text, str(error))}") from None
     except RecursionError:
-        raise RequestError(f"{path}: its lists or tables are nested too deeply") from None
+        raise ValueError("its lists or tables are nested too deeply") from None
     except ValueError as error:  # Python's limit for whole numbers
         digits = max(map(len, re.findall(r"\d+", text)), default=0)
         if digits <= sys.int_info.default_max_str_digits:
-            raise RequestError(f"{path}: cannot be read as TOML: {error}") from None
-        raise RequestError(f"{path}: a number in it has {digits:,} digits, too many") from None
+            raise ValueError(f"cannot be read as TOML: {error}") from None
+        raise ValueError(f"a number in it has {digits:,} digits, too many") from None
 
 
 def _parts_of_key(line: str) -> int:

@@ -21,6 +21,7 @@ from sandbox.new import new_scene
 from sandbox.parameters import Group, walk
 from sandbox.scene import listings, reference
 from sandbox.scene.finding import folder_of, is_installed
+from sandbox.scene.modules import read_again
 from sandbox.toml import read_toml
 from tests.own_scene import DROP, change
 from tests.scenes.play import run_of
@@ -162,6 +163,21 @@ def test_a_folder_is_a_scene(drop: Path):
 def test_a_folder_without_a_scene_file_takes_the_defaults(drop: Path):
     (drop / "drop.toml").unlink()
     assert sandbox.load(drop).parameters == sandbox.load(drop).module.Parameters()
+
+
+def test_a_scene_is_checked_once_and_its_file_read_each_time(drop: Path, monkeypatch: pytest.MonkeyPatch):
+    sandbox.load(drop)
+    with monkeypatch.context() as patched:
+        patched.setattr("inspect.signature", lambda function: pytest.fail("checked again"))
+        patched.setattr("tomllib.loads", lambda text: pytest.fail("parsed again"))
+        sandbox.load(drop)
+    change(drop / "drop.toml", "height = 2.0", "height = 4.0")  # of the same length, at once
+    assert sandbox.load(drop).parameters.launch.height == 4.0
+    change(drop / "scene.py", "def build(parameters:", "def build(wrong, parameters:")
+    assert sandbox.load(drop).parameters.launch.height == 4.0  # the module is as it was read
+    with pytest.raises(RequestError, match="build is called as build"), read_again(drop):
+        sandbox.load(drop)
+    assert sandbox.load(drop).parameters.launch.height == 4.0
 
 
 def test_a_preset_lies_over_the_scenes_own_file(drop: Path):

@@ -23,5 +23,6 @@ _MODULES = {
 def __getattr__(name: str) -> Any:
     for module, names in _MODULES.items():
         if name in names:
-            return getattr(import_module(f"sandbox.scene.{module}"), name)
+            found = globals()[name] = getattr(import_module(f"sandbox.scene.{module}"), name)
+            return found
     raise AttributeError(f"module 'sandbox.scene' has no attribute {name!r}")

@@ -12,7 +12,7 @@ import ast
 import importlib.util
 import os
 import tokenize
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import takewhile
 from pathlib import Path
@@ -39,7 +39,7 @@ class SceneSource:
 
     name: str
     folder: Path
-    files: Sequence[tuple[Path, dict[str, Any]]] = ()  # with what is written in them; none for a folder without one
+    files: Sequence[tuple[Path, Mapping[str, Any]]] = ()  # with what is written in them; none for a folder without one
     preset: str | None = None  # which preset the last file is
 
 
@@ -238,7 +238,7 @@ def _of_file(path: Path) -> SceneSource:
 
 def _files(
     file: Path, own: tuple[str, Path] | None = None, after: Sequence[Path] = ()
-) -> tuple[str, Path, list[tuple[Path, dict[str, Any]]]]:
+) -> tuple[str, Path, list[tuple[Path, Mapping[str, Any]]]]:
     """Name and folder of the scene that a file is for, and the file with what is written in it, after those of the
     preset or the file that it begins from. In the folder of its ``own`` scene it need not name it."""
     values = read_toml(file)

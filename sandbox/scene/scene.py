@@ -10,6 +10,7 @@ import inspect
 import os
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from math import isfinite
 from pathlib import Path
 from types import ModuleType
@@ -261,7 +262,12 @@ def _revived(
 
 def _parameters_class(folder: Path) -> type[declared.SceneParameters]:
     """The Parameters of the scene in a folder. Raises RequestError where the scene is not as the sandbox uses it."""
-    file, module = folder / "scene.py", module_in(folder, "scene")
+    return _checked(folder / "scene.py", module_in(folder, "scene"))
+
+
+@lru_cache(maxsize=64)
+def _checked(file: Path, module: ModuleType) -> type[declared.SceneParameters]:
+    """The same, checked once for each module: a scene that is read again is another one."""
     missing = [name for name in _REQUIRED if not callable(getattr(module, name, None))]
     if missing:
         raise RequestError(f"{file}: a scene needs {', '.join(_REQUIRED)}; {missing[0]} is missing")

@@ -83,7 +83,7 @@ def looks_like_task(values: Mapping[str, Any]) -> bool:
 
 def read_task_file(path: Path) -> TaskFile:
     """The task in a file. Raises RequestError, in a line with file, key and bound."""
-    values, where = read_toml(path), from_here(path)
+    values, where = dict(read_toml(path)), from_here(path)
     score = values.get("score")
     if isinstance(score, str):  # score = "made"
         values["score"] = {"fact": score}
