@@ -3,12 +3,9 @@ place of a file that the same command reads; what they replace is kept with ``~`
 
 from __future__ import annotations
 
-import filecmp
 import operator
 import os
-import shutil
 import signal
-import tempfile
 import threading
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
@@ -290,6 +287,8 @@ def keep(path: Path) -> None:
 
 def _put(part: Path, target: Path, kept: bool) -> None:
     """Give a finished file its name; other content that has it is ``kept``, or else replaced."""
+    import filecmp  # here, as others below: no start of the program needs it
+
     if not kept or not target.exists() or filecmp.cmp(part, target, shallow=False):
         part.replace(target)
         return
@@ -366,6 +365,9 @@ def _interrupts_wait() -> Iterator[None]:
 @contextmanager
 def folder_of_parts(folder: Path, name: str) -> Iterator[Path]:
     """A folder in this one for what is not finished; in the end it is removed, even if that is interrupted."""
+    import shutil
+    import tempfile
+
     part = Path(tempfile.mkdtemp(prefix=f".{name}-", dir=folder))
     try:
         yield part

@@ -23,6 +23,7 @@ from dataclasses import dataclass
 from functools import lru_cache, partial
 from itertools import takewhile
 from numbers import Real
+from pathlib import Path
 from types import EllipsisType
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, TypeVar, get_args, get_origin
 
@@ -32,6 +33,7 @@ from pydantic.fields import FieldInfo
 
 from sandbox import units
 from sandbox.errors import RequestError
+from sandbox.files import from_here
 from sandbox.physics.integrators import INTEGRATORS
 from sandbox.text import check_mapping, nearest
 from sandbox.toml import shown, toml_value
@@ -389,11 +391,11 @@ _Schema = TypeVar("_Schema", bound=Group)
 def validate(
     schema: type[_Schema],
     values: Mapping[str, Any],
-    source: str = "",
+    source: str | Path = "",
     changes: Mapping[str, Any] | None = None,
     changed_by: str = "override",
 ) -> _Schema:
-    """Check the nested ``values`` of ``source`` (a file's name) with ``changes`` applied.
+    """Check the nested ``values`` of ``source`` (a file, or its name in messages) with ``changes`` applied.
 
     Raises RequestError with a line that names file (or ``changed_by``), key, value, bound and unit.
     """
@@ -404,6 +406,7 @@ def validate(
         return schema.model_validate(combined)
     except ValidationError as failure:
         errors = failure.errors(include_url=False)
+    source = from_here(source) if isinstance(source, Path) else source
     lines = dict.fromkeys(_explained(schema, error, combined, source, changes, changed_by) for error in errors)
     first, *others = lines
     more = f"\n(and {len(others)} more: {others[0]}{', ...' if len(others) > 1 else ''})" if others else ""

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import sysconfig
-import traceback
 from pathlib import Path
 
 from sandbox import resources
@@ -16,6 +14,8 @@ _LONGEST = 500
 
 def of_user_code(error: BaseException) -> str | None:
     """The traceback from the first frame of the user's code, without the sandbox's own frames; None without any."""
+    import traceback  # here, as others below: no start of the program needs it
+
     if isinstance(error, RuntimeError) and isinstance(error.__cause__, StopIteration):
         error = error.__cause__  # raised in a generator of the sandbox's, which Python reports instead
     frames = traceback.extract_tb(error.__traceback__)
@@ -32,6 +32,8 @@ def of_user_code(error: BaseException) -> str | None:
 def one_line_error(error: BaseException) -> str:
     """The error on one line, for a table cell; for a user's code with file and line: ``"ZeroDivisionError: division by
     zero (volleyball/scene.py, line 12)"``."""
+    import traceback
+
     text = shortened(one_line(" ".join(str(error).split())), _LONGEST)
     if isinstance(error, SandboxError):
         return text
@@ -52,6 +54,8 @@ def is_ours(filename: str) -> bool:
 
 def is_of_library(filename: str | Path) -> bool:
     """True if a file came with Python or an installed package, in this environment or another."""
+    import sysconfig
+
     if not {"site-packages", "dist-packages"}.isdisjoint(Path(filename).parts):
         return True
     return any(_inside(filename, sysconfig.get_path(name)) for name in ("stdlib", "purelib", "platlib"))

@@ -146,33 +146,31 @@ class Scene:
 
     def reader(self, asked: Collection[str] = ()) -> Callable[[Run, Any], dict[str, Any]]:
         """The function that reads these facts from a run of this scene with any parameters; all facts by default."""
-        computed = [(key, fact.compute) for key, fact in self.facts.items() if not asked or key in asked]
-        measured = {key for key, fact in self.facts.items() if fact.unit}
+        facts = {key: fact for key, fact in self.facts.items() if not asked or key in asked}
 
         def read(run: Run, parameters: Any) -> dict[str, Any]:
             with sys_exit_as_error():
-                result = {key: compute(run, parameters) for key, compute in computed}
+                result = {key: fact.compute(run, parameters) for key, fact in facts.items()}
             for key, value in result.items():
                 if type(value) is float:
                     if not isfinite(value):
                         result[key] = None
-                elif value is not None and (type(value) is not bool or key in measured):
-                    result[key] = self._reported(key, value)
+                elif value is not None and (type(value) is not bool or facts[key].unit):
+                    result[key] = self._reported(facts[key], value)
             return result
 
         return read
 
-    def _reported(self, key: str, value: Any) -> Any:
+    def _reported(self, fact: Fact, value: Any) -> Any:
         """The value of a fact as a result has it. Raises RunError if it cannot be shown."""
         if hasattr(value, "tolist"):  # numpy's numbers and arrays
             value = value.tolist()
         if isinstance(value, float) and not isfinite(value):
             return None
-        fact = self.facts[key]
         if not _is_reportable(value):
-            raise self._wrong(f"the fact {key}", _REPORTABLE, value)
+            raise self._wrong(f"the fact {fact.key}", _REPORTABLE, value)
         if fact.unit and not (_is_numeric(value) and not (fact.label and isinstance(value, Mapping))):
-            raise self._wrong(f"the fact {key}", f"a number in {fact.unit}, a list of them, or None", value)
+            raise self._wrong(f"the fact {fact.key}", f"a number in {fact.unit}, a list of them, or None", value)
         return value
 
     def final_when(self, asked: Collection[str]) -> frozenset[FinalWhen] | None:
@@ -342,13 +340,13 @@ def _parameters(
             values = schema.layered(values, {key: value for key, value in layer.items() if key not in _NOT_PARAMETERS})
         return values
 
-    where = from_here(files[-1][0] if files else found.folder)
+    last = files[-1][0] if files else found.folder
     try:
-        return declared.validate(schema, first(len(files)), where, overrides, overrides_from)
+        return declared.validate(schema, first(len(files)), last, overrides, overrides_from)
     except RequestError:
         for count, (file, _) in enumerate(files[:-1], 1):
-            declared.validate(schema, first(count), from_here(file))
-        named, *_ = *sorted(found.folder.glob("*.toml")), None
+            declared.validate(schema, first(count), file)
+        where, named, *_ = from_here(last), *sorted(found.folder.glob("*.toml")), None
         if not files and named is not None:
             expected = f"{found.folder.resolve().name}.toml"
             raise RequestError(f"{where}: its numbers belong in {expected}; is {named.name} that file?") from None
