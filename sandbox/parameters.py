@@ -317,12 +317,17 @@ def words_of(annotation: Any) -> tuple[Any, ...]:
     return tuple(word for part in get_args(annotation) for word in words_of(part))
 
 
-@lru_cache(maxsize=4096)
 def groups_of(annotation: Any) -> tuple[type[Group], ...]:
     """The groups that a field of this type may hold: one, several to choose from, or those of a list."""
+    hashable: Any = annotation
+    return _groups_in(hashable)
+
+
+@lru_cache(maxsize=4096)
+def _groups_in(annotation: Any) -> tuple[type[Group], ...]:
     if isinstance(annotation, type) and issubclass(annotation, Group):
         return (annotation,)
-    return tuple(found for part in get_args(annotation) for found in groups_of(part))
+    return tuple(found for part in get_args(annotation) for found in _groups_in(part))
 
 
 def known_keys(schema: type[Group], values: Any = None, prefix: str = "") -> list[str]:
@@ -431,7 +436,7 @@ def without_indices(parameters: Group, changes: Mapping[str, Any], by: str = "ov
 @lru_cache(maxsize=1024)
 def _defaults(schema: type[Group]) -> Mapping[str, Any]:
     """Return the defaults, which a file may leave out; not to be changed."""
-    tables = {}
+    tables: dict[str, Any] = {}
     for name, field in schema.model_fields.items():
         if isinstance(field.default, Group):
             tables[name] = field.default.model_dump()
