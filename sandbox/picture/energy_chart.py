@@ -122,13 +122,15 @@ def held_at_the_end(run: SceneRun) -> Course:
 
 
 def _name(sheet: Sheet, plot: Plot, bands: Sequence[Curve], lines: Sequence[Curve]) -> None:
-    """Each band's and line's name at its right end, moved apart where they are close; a band's inside it where it has
-    no right end."""
+    """Each band's and line's name at its right end, moved apart where they are close, the largest where there is no room
+    for all; a band's inside it where it has no right end."""
     tall, gap, rect = sheet.lettering.height("small"), sheet.gap, plot.rect
     edges = [(curve, plot.row(curve.foot), plot.row(curve.values)) for curve in (*bands, *lines)]
     ends = [high[-1] if i >= len(bands) else (low[-1] + high[-1]) / 2 for i, (_, low, high) in enumerate(edges)]
-    thick = [low[-1] - high[-1] >= 1.0 for _, low, high in edges]
-    lasting = [(curve, end) for (curve, *_), end, seen in zip(edges, ends, thick, strict=True) if seen]
+    heights = [low[-1] - high[-1] for _, low, high in edges]
+    thick = [height >= 1.0 for height in heights]
+    largest = sorted((i for i, seen in enumerate(thick) if seen), key=lambda i: -heights[i])
+    lasting = [(edges[i][0], ends[i]) for i in sorted(largest[: (rect.height - gap) // tall])]
     row = rect.bottom - gap + tall // 2
     for i, (curve, end) in enumerate(lasting):  # from the lowest up
         row = max(min(round(end), row - tall), rect.top + tall * (len(lasting) - i) - tall // 2)
