@@ -122,7 +122,7 @@ def held_at_the_end(run: SceneRun) -> Course:
 
 
 def _name(sheet: Sheet, plot: Plot, bands: Sequence[Curve], lines: Sequence[Curve]) -> None:
-    """Each band's and line's name at its right end, moved apart where they are close, the largest where there is no room
+    """Each band's and line's name at its right end, moved apart where they are close, the largest if there is no room
     for all; a band's inside it where it has no right end."""
     tall, gap, rect = sheet.lettering.height("small"), sheet.gap, plot.rect
     edges = [(curve, plot.row(curve.foot), plot.row(curve.values)) for curve in (*bands, *lines)]

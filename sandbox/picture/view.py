@@ -207,7 +207,9 @@ class View(BallDrawing[P]):
         self._trails(sheet, camera, t)
         self.draw_measured(painter, camera)
         if self.ball in placed and t < self.caught[self.ball]:
+            sheet.surface.set_clip((0, sheet.top_row, *self.size))
             self.vectors.draw(sheet, *placed[self.ball], t)
+            sheet.surface.set_clip(None)
         for name, spot in placed.items():
             self.draw_ball(painter, camera, name, t, *spot)
         self.before(painter, camera, t)

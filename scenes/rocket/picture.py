@@ -10,6 +10,7 @@ import numpy as np
 from sandbox.kit import (
     Box,
     Camera,
+    Entry,
     Ground,
     Landscape,
     Length,
@@ -75,6 +76,9 @@ class Picture(SideView[Parameters]):
         if motor_of(self.parameters).thrust(t) > 0.0:
             FLAME.draw(painter, at, radius, self.turn(name, t), self.unit)
         super().draw_ball(painter, camera, name, t, at, radius)
+
+    def position(self, t: float) -> list[Entry]:
+        return [("height", self.progress(t)[0])]  # as the apex, of its middle
 
     def progress(self, t: float) -> tuple[str, str]:
         return metres(self.run.state(self.ball, t)[1]), "above the ground"
