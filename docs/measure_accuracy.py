@@ -22,13 +22,14 @@ from sandbox.engine import simulate
 from sandbox.engine.model.accuracy import LEVELS
 from sandbox.errors import RunError
 from sandbox.lab import chart
+from sandbox.lab.published import COUNTED, KINDS
 from sandbox.lab.reference import REFERENCE, apart, places
 from sandbox.lab.stress import FAILED, Outcome, stress, summary
 from sandbox.lab.tables import length, length_or_below, time
 from sandbox.lab.teeth import summary as summary_of_teeth
 from sandbox.lab.teeth import teeth
 from sandbox.lab.trade import TARGETS, Trade, trade
-from sandbox.lab.validate import COUNTED, KINDS, Compared, cells, counted, validate
+from sandbox.lab.validate import Compared, cells, counted, validate
 from sandbox.lab.verdicts import Verdicts
 from sandbox.parameters import walk
 from sandbox.scene import check, compare, listings, load

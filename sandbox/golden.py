@@ -346,6 +346,15 @@ def _selection(config: pytest.Config) -> str | None:
     return next(chosen, next((arg for arg in config.args if "::" in arg or Path(arg).is_file()), None))
 
 
+def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
+    """The shots of a scene whose outcome is known are tests."""
+    if file_path.name != "shots.toml" or not (file_path.parent / "scene.py").is_file():
+        return None
+    from sandbox.shots import ShotsFile
+
+    return ShotsFile.from_parent(parent, path=file_path)
+
+
 @pytest.hookimpl(tryfirst=True)
 def pytest_runtest_makereport(item: pytest.Item, call: pytest.CallInfo[None]) -> None:
     """Hide the sandbox's own frames, so that a traceback shows the author's; --full-trace shows all of them."""
@@ -358,13 +367,18 @@ def pytest_runtest_makereport(item: pytest.Item, call: pytest.CallInfo[None]) ->
 @pytest.fixture
 def golden(request: pytest.FixtureRequest) -> Golden:
     """Compares runs and pictures with golden ones: ``golden.check("name", run)``."""
+    return golden_of(request.node)
+
+
+def golden_of(test: pytest.Item) -> Golden:
+    """What compares with the golden pictures of a test."""
 
     def note(kind: str, line: str) -> None:
         # Part of the test's report, which pytest-xdist sends back from its processes.
-        request.node.user_properties.append((kind, line))
+        test.user_properties.append((kind, line))
 
-    config = request.config
-    folder = _folder_for(request.path, config.rootpath)
+    config = test.config
+    folder = _folder_for(test.path, config.rootpath)
     return Golden(folder, config.rootpath / REPORT, bool(config.getoption("--golden-update")), note,
                   bool(config.getoption("--golden-report")))  # fmt: skip
 

@@ -46,24 +46,6 @@ def new_scene(folder: Path, template: str = FROM_SIDE, copied: str | None = None
     return sorted(file for file in folder.rglob("*") if file.is_file())
 
 
-#: The test of a scene that is copied; ``until`` ends a chaotic run where it is still reproducible.
-_TEST = '''"""Tests of the scene; ``pytest --golden-update`` makes the golden files, or makes them anew."""
-
-from __future__ import annotations
-
-from pathlib import Path
-
-import sandbox
-from sandbox.golden import Golden
-
-SCENE = Path(__file__).parent
-
-
-def test_run(golden: Golden) -> None:
-    golden.check("{name}", sandbox.simulate(sandbox.load(SCENE)){until})
-'''
-
-
 def _to_copy(source: str) -> Path:
     """The folder of a scene that was named. Raises RequestError."""
     found = find(source)
@@ -74,14 +56,14 @@ def _to_copy(source: str) -> Path:
 
 def _files(source: Path, has_tests: bool) -> list[Path]:
     """The files of a scene that make a new one: its code, numbers and data, without what is made from them."""
-    made = (".schema.json", ".pyc", "tile.jpg")
+    made = (".schema.json", ".pyc", "tile.jpg", "shots.toml")
     files = [file for file in source.rglob("*") if file.is_file() and not file.name.endswith(made)]
     kept = [file for file in files if {"golden", "tasks"}.isdisjoint(file.relative_to(source).parts)]
     return [file for file in kept if has_tests or not file.name.startswith("test_")]
 
 
 def _make_golden(scene: Path, name: str) -> None:
-    """Write the golden files with which the scene's test passes at once, and a test where it has none."""
+    """Write the golden files with which the scene's tests pass at once; its shots where it has no test of its own."""
     from sandbox import record
     from sandbox.picture.difference import SIZE, as_png, coarser
     from sandbox.picture.frames import to_image
@@ -90,10 +72,9 @@ def _make_golden(scene: Path, name: str) -> None:
     run = simulate(loaded)
     diverges = record.diverges(run)
     until = None if diverges is None else float(f"{0.8 * diverges:.2g}")
-    test = scene / f"test_{name.replace('-', '_')}.py"
-    if not test.exists():
-        given = "" if until is None else f", until={until}"
-        _write(test, _TEST.format(name=name, until=given))
+    if not any(scene.glob("test_*.py")):
+        given = "" if until is None else f"until = {until}  # s; later, rounding decides\n"
+        _write(scene / "shots.toml", f'# pytest checks these shots.\n\n[[shot]]\ngolden = "{name}"\n{given}')
     picture = loaded.picture(run, SIZE)
     image = coarser(to_image(picture.poster() if until is None else picture.frame(until)))
     (scene / "golden").mkdir()

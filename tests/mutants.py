@@ -51,7 +51,7 @@ Reach = dict[str, tuple[float, dict[str, list[str]]]]
 LEFT_OUT = {"__init__"}
 
 #: Tests that compare all that is seen of something with what is kept of it.
-KEPT = ("tests/test_golden_runs.py", "tests/test_printed.py", "tests/picture/test_other_pictures.py",
+KEPT = ("scenes/", "tests/test_printed.py", "tests/picture/test_other_pictures.py",
         "tests/window/test_look.py")  # fmt: skip
 
 #: Tests of what modules declare when they are loaded, which calls no function.
@@ -174,7 +174,9 @@ def tests_of(reach: Reach, module: str, function: str, most: float) -> list[str]
     declared = [
         test
         for test in by_time
-        if not function and test.startswith(DECLARED) and test.endswith(f"[{Path(module).parent.name}]")
+        if not function
+        and test.startswith(DECLARED)
+        and test.endswith((f"[{Path(module).parent.name}]", f"::{Path(module).parent.name}"))
     ]
     usual = _within(0.5 * most, reach, called)
     return list(

@@ -129,7 +129,7 @@ def test_a_scene_may_be_copied_to_begin_from(call, copied: str):
     for preset in sorted(own):
         assert sandbox.load(f"./my-own/{preset}").name == "my-own"
     assert Path("my-own/my-own.toml").read_text().startswith("#:schema ./my-own.schema.json\n")
-    assert ("until=" in Path("my-own/test_my_own.py").read_text()) == (copied == "pinball")
+    assert ("until = " in Path("my-own/shots.toml").read_text()) == (copied == "pinball")
     done = pytest_in(Path().resolve(), "my-own")
     assert done.returncode == 0, done.stdout
 

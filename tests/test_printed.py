@@ -24,13 +24,14 @@ from sandbox.lab.stress import FAILED, HELD, REFUSED, SENSELESS, Outcome
 from sandbox.lab.sweep import sweep_to_file, workers
 from sandbox.lab.verdicts import VerdictChanges, Verdicts
 from sandbox.scene import listings, load
+from sandbox.scene.finding import installed_folders
+from sandbox.shots import known_shots
 from tests.own_scene import DROP
 from tests.scenes.play import run_of
-from tests.test_golden_runs import RUNS
 
 SCENES = sorted({listing.name for listing in listings() if "/" not in listing.name})
 #: Where rounding has no say in what is told.
-CARDS = [*(name for name in SCENES if RUNS[name] is None), "billiards/bank"]
+CARDS = [*(name for name in SCENES if known_shots(installed_folders()[name]).shot[0].until is None), "billiards/bank"]
 
 
 # Scenes ---------------------------------------------------------------------------------------------------------------
@@ -90,7 +91,7 @@ def compared(value: str, computed: Any, tolerance: float | None, unit: str = "m"
     holds = computed == value if difference is None else abs(difference) <= (tolerance or 0.0)
     case = "golf/driver", "", "long drive", "landing_speed", value, tolerance, unit, "a table of 2012", reason
     case = *case, "measured", "drag", "the last digit"
-    return validate.Compared(*case, computed=computed, difference=difference, holds=holds)
+    return validate.Compared(*case, computed=computed, difference=difference, holds=holds, preset="driver")
 
 
 def test_the_table_of_validate(printed):
@@ -105,7 +106,7 @@ def test_the_table_of_validate(printed):
         compared("12", 12.0, 250.0, ""),
         compared("in", "in", None, ""),
         compared("in", None, None, ""),
-        replace(compared("5", 5.0, 1.0), scene="throws", source="another", kind="exact"),
+        replace(compared("5", 5.0, 1.0), scene="throws", preset="", source="another", kind="exact"),
     ]
     printed("validate", "\n".join(validate.as_text(rows)))
 

@@ -8,18 +8,20 @@ from typing import NamedTuple
 
 from sandbox import units
 from sandbox.errors import RequestError
+from sandbox.files import from_here
 from sandbox.lab.formats import Entry, recognized, stated
 from sandbox.lab.mapped import Quantity, mapped
+from sandbox.lab.published import KINDS, Case, assignments, cases_by_form, form_of, tables_of, with_preset
 from sandbox.lab.selection import used
 from sandbox.lab.table_file import Table, read_table
-from sandbox.lab.validate import KINDS, Case, assignments
 from sandbox.scene import Scene, load
+from sandbox.scene.finding import is_path
 from sandbox.text import argument, no_such_result, shortened
 
 #: The columns that such a table needs, and what the others are where they are missing.
 NEEDED = ("result", "value", "tolerance")
-OTHERS = {"scene": "", "case": "", "set": "", "unit": "", "source": "", "reason": "", "kind": "measured", "tests": "",
-          "tolerance_from": ""}  # fmt: skip
+OTHERS = {"scene": "", "preset": "", "case": "", "set": "", "unit": "", "source": "", "reason": "", "kind": "measured",
+          "tests": "", "tolerance_from": ""}  # fmt: skip
 
 
 class Given(NamedTuple):
@@ -72,6 +74,22 @@ def cases_against(
     return Given(cases, left_out, tuple(filter(None, (*found.notes, unused))))
 
 
+def own_cases(scene: str, folder: Path) -> list[Case]:
+    """The published numbers in the folder of a user's own scene, checked. Raises RequestError."""
+    found: list[Case] = []
+    for path in tables_of(folder):
+        form = form_of(path)
+        if form is not None:
+            found += cases_by_form(scene, path, form)
+            continue
+        table = read_table("", Path(from_here(path)))
+        missing = next((name for name in NEEDED if name not in table.names), None)
+        if missing is not None:
+            raise RequestError(f"{table.where}: has no column {missing}")
+        found += _published(table, path, scene)
+    return found
+
+
 def _settings(given: Mapping[str, Quantity], place: int) -> str:
     return "; ".join(f"{key}={argument(float(one.values[place]))}" for key, one in given.items())
 
@@ -114,7 +132,7 @@ def _published(table: Table, path: Path, source: str | None) -> list[Case]:
     for place in range(len(table)):
         row = {name: columns[name][place].strip() for name in columns}
         case = _row(table, place + 1, {**OTHERS, **row}, path, source)
-        if source is None or source in (case.scene, case.scene.partition("/")[0]):
+        if source is None or source in (case.scene, case.sport):
             found.append(case)
     if not found:
         raise RequestError(f"{table.where}: has no rows" + (f" of {source}" if source is not None else ""))
@@ -124,7 +142,8 @@ def _published(table: Table, path: Path, source: str | None) -> list[Case]:
 def _row(table: Table, number: int, row: dict[str, str], path: Path, source: str | None) -> Case:
     """One number of the user's, checked. Raises RequestError."""
     at = f"{table.where}: row {number},"
-    row["scene"] = row["scene"] or source or ""
+    row["scene"] = with_preset(row["scene"] or source or "", row["preset"])
+    row["preset"] = row["preset"] or ("" if is_path(row["scene"]) else row["scene"].partition("/")[2])
     row["source"], row["case"] = row["source"] or path.name, row["case"] or f"row {number}"
     if not row["scene"]:
         raise RequestError(f"{at} names no scene; give one: sandbox validate SCENE --against {path}")

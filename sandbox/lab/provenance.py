@@ -26,8 +26,8 @@ from sandbox.tracebacks import is_of_library
 #: Files that the program writes; one of these kinds that a scene reads is not noticed.
 _OUTPUTS = (".png", ".gif", ".webp", ".replay.json", ".resume", ".part", "~")
 
-#: Folders that no run depends on.
-_IGNORED = {"__pycache__", "golden", "out"}
+#: Folders and files that no run depends on.
+_IGNORED = {"__pycache__", "golden", "out", "published", "shots.toml", "tasks"}
 
 _LIBRARIES = ("numpy", "pymunk")
 
@@ -96,7 +96,8 @@ def _files(folder: Path) -> Iterator[Path]:
             for name in folders
             if not name.startswith(".") and name not in _IGNORED and os.path.realpath(f"{place}/{name}") not in seen
         ]
-        for file in (Path(place, name) for name in names if not name.startswith(".") and not name.endswith(_OUTPUTS)):
+        kept = (name for name in names if not name.startswith(".") and not name.endswith(_OUTPUTS))
+        for file in (Path(place, name) for name in kept if name not in _IGNORED):
             if file.is_file() and not is_our_table(file):
                 yield file
 

@@ -20,9 +20,10 @@ from sandbox.engine.model.ball import Ball
 from sandbox.engine.model.setup import Setup
 from sandbox.engine.motion.forces_on_ball import cause
 from sandbox.errors import RequestError, SandboxError
+from sandbox.lab.published import assignments
 from sandbox.lab.runs import Progress, no_progress
 from sandbox.lab.tables import paragraph, table
-from sandbox.lab.validate import Compared, assignments, cells, compare, scene_of
+from sandbox.lab.validate import Compared, cells, compare, scene_of
 from sandbox.parameters import walk
 from sandbox.scene import Scene
 from sandbox.scene.running import simulate_at
@@ -173,4 +174,4 @@ def summary(tried: Sequence[Tried]) -> str:
 
 def _cells(one: Tried, effects: Sequence[str]) -> tuple[str, ...]:
     case, result, *_ = cells(one.row)
-    return f"{one.row.scene.partition('/')[0]} {case}", result, ", ".join(effects) or "none named"
+    return f"{one.row.sport} {case}", result, ", ".join(effects) or "none named"

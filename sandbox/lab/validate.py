@@ -1,61 +1,22 @@
-"""Comparison with published numbers: the tables in published/, each row with its source.
-
-A table is ``NAME.csv`` with the columns scene, case, set, result, value, tolerance, unit, source, reason, kind, tests,
-tolerance_from: ``set`` holds ``key=value`` separated by ``;``, ``result`` is a key of the scene's result, with dots
-into lists and tables, ``kind`` is one of KINDS, ``tests`` names the effects that the number is to show (see teeth.py),
-and ``tolerance_from`` says what the tolerance is: the uncertainty of the measurement, or why it is not. A table in
-another format has a ``NAME.toml`` next to it that maps its columns to such rows.
-"""
+"""Comparison with published numbers, those of the scenes or a user's own."""
 
 from __future__ import annotations
 
-import csv
 import math
-import tomllib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 from sandbox import units
 from sandbox.errors import RequestError
+from sandbox.lab.against import own_cases
+from sandbox.lab.published import COUNTED, KINDS, Case, assignments, cases, cases_of
 from sandbox.lab.runs import Progress, no_progress
 from sandbox.lab.tables import paragraph, table
-from sandbox.parameters import parse_assignment
-from sandbox.scene import Scene, load, parameters_of, simulate
+from sandbox.scene import Scene, load, simulate
+from sandbox.scene.finding import as_path, find, is_installed
 from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.amounts import significant
-
-PUBLISHED = Path(__file__).resolve().parent / "published"
-
-#: What a published number is. Only those of COUNTED say how true a model is.
-KINDS = {
-    "exact": "a closed form, or a solution to many digits",
-    "fitted": "a constant of the model, or of the scene, was chosen to meet it",
-    "program": "computed by another program",
-    "model": "computed by another model, or a rule of thumb",
-    "measured": "measured, and used for no constant",
-    "held-out": "measured; others of the same set were fitted, this one was not",
-}
-COUNTED = ("measured", "held-out")
-
-
-@dataclass(frozen=True)
-class Case:
-    """One published number, or one published word."""
-
-    scene: str  # with its preset
-    set: str  # changed parameters, as written in the table
-    name: str  # as shown
-    result: str
-    value: str
-    tolerance: float | None  # in ``unit``; None for words
-    unit: str
-    source: str
-    reason: str  # why it does not match, if known
-    kind: str  # of KINDS
-    tests: str  # effects that it is to show: causes of forces, keys of parameters, or key=value; separated by ``;``
-    tolerance_from: str  # what the tolerance is
 
 
 @dataclass(frozen=True)
@@ -65,45 +26,6 @@ class Compared(Case):
     computed: Any
     difference: float | None  # None for words
     holds: bool
-
-
-def cases() -> Iterator[Case]:
-    """Every published number."""
-    for path in sorted(PUBLISHED.glob("*.csv")):
-        with path.open(newline="", encoding="utf-8") as file:
-            rows = list(csv.DictReader(file))
-        form = path.with_suffix(".toml")
-        if form.is_file():
-            yield from _by_form(rows, tomllib.loads(form.read_text("utf-8")))
-        else:
-            yield from (_case(row) for row in rows)
-
-
-def _case(row: Mapping[str, str]) -> Case:
-    given = dict(row)
-    name = given.pop("case")
-    tolerance = given.pop("tolerance")
-    return Case(name=name, tolerance=float(tolerance) if tolerance else None, **given)
-
-
-def _by_form(rows: Sequence[Mapping[str, str]], form: Mapping[str, Any]) -> Iterator[Case]:
-    """The cases of a table in another format. In ``form``, ``{column}`` stands for the row's value in that column.
-
-    It has ``scene``, ``name``, ``source``, ``kind``, ``set``; ``value``, ``unit``, ``tolerance``, ``tests`` and
-    ``tolerance_from`` of each of ``results``, with the rows that it does not have as ``unless``, words by column; and
-    ``reasons`` by name and result.
-    """
-    for row in rows:
-        name = form["name"].format(**row)
-        settings = "; ".join(f"{key}={value.format(**row)}" for key, value in form["set"].items())
-        for result, how in form["results"].items():
-            if any(row[column] in words for column, words in how.get("unless", {}).items()):
-                continue
-            reason = form.get("reasons", {}).get(f"{name} {result}", "")
-            value, source, kind = (text.format(**row) for text in (how["value"], form["source"], form["kind"]))
-            allowed = float(str(how["tolerance"]).format(**row)), how["unit"]
-            last = kind, how["tests"].format(**row), how["tolerance_from"]
-            yield Case(form["scene"], settings, name, result, value, *allowed, source, reason, *last)
 
 
 def validate(
@@ -132,17 +54,17 @@ def scene_of(case: Case, changes: Mapping[str, Any] | None = None) -> Scene:
     return load(case.scene, assignments(case.set)).changed(changes or {}, "--set")
 
 
-def assignments(text: str) -> dict[str, Any]:
-    """``key=value; key=value`` as a dictionary."""
-    return dict(parse_assignment(part) for part in text.split(";") if part.strip())
-
-
 def _of(source: str) -> list[Case]:
-    name = source if source in {case.scene for case in cases()} else parameters_of(source)[0]
-    found = [case for case in cases() if name in (case.scene, case.scene.partition("/")[0])]
-    if not found:
+    """The published numbers of a preset, or of a scene with its presets, also of a user's own."""
+    found = find(source)
+    if is_installed(found.folder):
+        every = list(cases_of(found.name, found.folder))
+    else:
+        every = own_cases(as_path(found.folder), found.folder)
+    own = [case for case in every if found.preset and case.preset == found.preset] or every
+    if not own:
         raise RequestError(f"{source}: no published numbers; sandbox validate lists all there are")
-    return found
+    return own
 
 
 def _inside(result: Any, key: str) -> Any:
@@ -179,7 +101,7 @@ def as_text(rows: Sequence[Compared], given: str = "published") -> list[str]:
     """A table for each source; what the numbers are is said by ``given``."""
     tables: dict[str, list[Compared]] = {}
     for row in rows:
-        tables.setdefault(f"{row.scene.partition('/')[0]}, {row.kind}: {row.source}", []).append(row)
+        tables.setdefault(f"{row.sport}, {row.kind}: {row.source}", []).append(row)
     headings = ("case", "result", given, "computed", "off by", "allowed", "")
     lines = [*counts_by_kind(rows), ""]
     for title, own in tables.items():
@@ -213,7 +135,7 @@ def _holding(rows: Sequence[Compared]) -> str:
 
 def cells(row: Compared) -> tuple[str, ...]:
     """A row of the table."""
-    about = f"{row.scene.partition('/')[2]} {row.name}".strip(), row.result.replace("_", " ")
+    about = f"{row.preset} {row.name}".strip(), row.result.replace("_", " ")
     verdict = "holds" if row.holds else "does not"
     if row.difference is None:
         return *about, row.value, "none" if row.computed is None else row.computed, "", "", verdict

@@ -123,7 +123,7 @@ def spin_ratio_lift(reynolds: Any, spin_ratio: Any) -> Any:
 
 # -------------------------------------------------------------------------------------------------------- golf ball
 
-# Drag and lift of one name belong together: their rms errors on the PGA Tour averages of lab/published/golf_tour.csv
+# Drag and lift of one name belong together: their rms errors on the PGA Tour averages of scenes/golf/published/tour.csv
 # are (height in yd, landing angle in deg, carry in yd) 1.8/1.7/3.1 for tour-fit, 3.2/2.8/3.7 for quadratic, 2.3/4.2/5.9
 # for power-law, 3.8/6.6/11.9 for smits-smith, 2.5/2.4/16.4 for usga, and 12.9/4.8/59.2 for lyu, which has no
 # spin-induced drag.
@@ -146,7 +146,7 @@ def tour_fit_drag(reynolds: Any, spin_ratio: Any) -> Any:
     tunnels), a smooth crisis between, and drag induced by lift. Cd lies between 0.20 and 0.62, falls with Re, rises
     with S.
 
-    Fitted here, with tour_fit_lift, to the 12 PGA Tour averages of lab/published/golf_tour.csv (height, landing
+    Fitted here, with tour_fit_lift, to the 12 PGA Tour averages of scenes/golf/published/tour.csv (height, landing
     angle and carry together, each in the unit of 2.9 yd, 3.0 deg, 3.5 yd): the crisis, the induced drag and the two
     numbers of the lift are free, the rest is fixed. Its rms errors are
 

@@ -134,7 +134,7 @@ def _named(source: str) -> SceneSource:
     if not source:
         raise RequestError(_unknown('""'))
     path = Path(source)
-    if not _is_path(source) and path.suffix != ".toml":
+    if not is_path(source) and path.suffix != ".toml":
         here = path if (path / "scene.py").is_file() else path.parent
         if here != Path() and (here / "scene.py").is_file():
             raise RequestError(f"unknown scene {shortened(source)}; for the one in this folder write ./{source}")
@@ -143,7 +143,7 @@ def _named(source: str) -> SceneSource:
     return _at(path, source)
 
 
-def _is_path(text: str) -> bool:
+def is_path(text: str) -> bool:
     """True if a text is a path and not a name: ``.``, ``..``, ``./volleyball``, ``../volleyball``, ``/scenes/golf``."""
     return text in (".", "..") or text.startswith(("./", "../")) or Path(text).is_absolute()
 
@@ -247,7 +247,7 @@ def _files(
     if isinstance(values.get("goal"), str) and "attempts" in values:
         raise RequestError(f"{file}: {_TASK}")
     written = values.get("scene", own and own[0])
-    if isinstance(written, str) and _is_path(written) and written.endswith(".toml"):
+    if isinstance(written, str) and is_path(written) and written.endswith(".toml"):
         base: Path | None = file.parent / written
         name, folder = own or ("", Path())
         if not is_given(file.parent / written):
@@ -271,7 +271,7 @@ def _files(
 def _meant(file: Path, written: Any, own: tuple[str, Path]) -> tuple[str, Path, str]:
     """Name, folder and preset of the scene that a file names. A name means an installed scene, whatever is next to the
     file, or the file's ``own``; a path means the user's own."""
-    if isinstance(written, str) and _is_path(written):
+    if isinstance(written, str) and is_path(written):
         place = file.parent / written
         folder, preset = (place, "") if (place / "scene.py").is_file() else (place.parent, place.name)
         if not (folder / "scene.py").is_file():

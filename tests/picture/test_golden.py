@@ -17,6 +17,7 @@ from sandbox.picture.frames import to_image
 from sandbox.picture.painter import Painter, blank
 from sandbox.record import SAMPLES, TOLERANCE, as_text, changed_results, first_change, known_part, merged, record
 from sandbox.sport.facts import Fact
+from tests.own_scene import copy_of
 
 pytest_plugins = ["pytester"]
 
@@ -661,6 +662,25 @@ class TestThePlugin:
 
 
 def test_golden_pictures_are_small():
-    files = [file for kind in ("png", "json") for file in (Path(__file__).parents[1] / "golden").glob(f"*.{kind}")]
-    assert files
+    root = Path(__file__).parents[2]
+    files = [*root.glob("tests/golden/*.*"), *root.glob("scenes/*/golden/*.*")]
+    assert len(files) > 100
     assert [file.name for file in files if file.stat().st_size >= 64_000] == []
+
+
+def test_the_shots_of_a_scene_of_ones_own_are_tests(project):
+    folder = copy_of(DROP, project.path / "drop")
+    file = folder / "shots.toml"
+    file.write_text(
+        '[[shot]]\ngolden = "drop"\n'
+        '[[shot]]\nset = { "launch.height" = 1.0 }\nsays = "never"\ncard = { bounces = false }\n'
+        '[[shot]]\nset = { "launch.height" = -1.0 }\nrefused = ["launch.height"]\n'
+        '[[trend]]\nkey = "launch.height"\nvalues = [1, 2]\nresult = "bounces"\nleast = 1000.0\n'
+    )
+    done = run(project, "drop", "--golden-update")
+    done.assert_outcomes(passed=2, failed=2)
+    done.stdout.fnmatch_lines_random(["*not 'never'", "the card has bounces = *", "bounces = * for launch.height = *"])
+    assert (folder / "golden" / "drop.json").exists()
+    run(project, "drop").assert_outcomes(passed=2, failed=2)
+    file.write_text("[[shot]]\ngolden = 3\n")
+    run(project, "drop").stdout.fnmatch_lines_random(["*shots.toml: shot?0?.golden: Input should be a valid string*"])

@@ -1,7 +1,7 @@
 """Where the stiffness and damping of club on ball come from: fits them to irons again, and predicts the other clubs.
 
 ``python tests/reference/fit_club.py`` fits the spins of the eight irons of the PGA Tour averages to 2018, kind "fitted"
-in sandbox/lab/published/golf_club.csv, and prints the errors of all groups of that table, with irons and drivers apart;
+in scenes/golf/published/club.csv, and prints the errors of all groups of that table, with irons and drivers apart;
 what a driver's face and a tenth more stiffness change; and how far beside the ball's centre the force across the face
 would have to act for the rows whose loft was published. A few seconds.
 """
@@ -15,7 +15,8 @@ from math import atan2, cos, degrees, hypot, inf, pi, radians, sin
 import numpy as np
 from scipy.optimize import least_squares
 
-from sandbox.lab.validate import COUNTED, PUBLISHED
+from sandbox import resources
+from sandbox.lab.published import COUNTED
 from sandbox.physics.club import Head, LaunchConditions, strike
 
 MASS, RADIUS, MPH, RPM = 0.04593, 0.021335, 0.44704, pi / 30.0  # kg, m, m/s, rad/s
@@ -30,7 +31,7 @@ Row = dict[str, str]
 
 
 def read() -> list[Row]:
-    with (PUBLISHED / "golf_club.csv").open(newline="", encoding="utf-8") as file:
+    with (resources.folder("scenes") / "golf" / "published" / "club.csv").open(newline="", encoding="utf-8") as file:
         return list(csv.DictReader(file))
 
 

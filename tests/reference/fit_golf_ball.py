@@ -11,7 +11,7 @@ import csv
 import numpy as np
 from scipy.optimize import least_squares
 
-from sandbox.lab.validate import PUBLISHED
+from sandbox import resources
 from sandbox.physics.coefficients import Coefficient
 from sandbox.physics.forces import Drag, Gravity, Magnus, SpinDecay
 from sandbox.physics.integrators import INTEGRATORS
@@ -31,7 +31,7 @@ FIRST_GUESS = (0.70, 1.0, 0.32, 0.13)
 
 def read(tour: str) -> np.ndarray:
     """Shape (6, clubs): speed in m/s, launch angle in rad, spin in rad/s; height in yd, landing in deg, carry in yd."""
-    with (PUBLISHED / "golf_tour.csv").open(newline="", encoding="utf-8") as file:
+    with (resources.folder("scenes") / "golf" / "published" / "tour.csv").open(newline="", encoding="utf-8") as file:
         rows = [row for row in csv.DictReader(file) if row["tour"] == tour]
     columns = ("ball_speed_mph", "launch_deg", "spin_rpm", "max_height_yd", "land_deg", "carry_yd")
     table = np.array([[float(row[column]) for row in rows] for column in columns])

@@ -4,7 +4,7 @@
 are from the 2,507 pitches of 3 September 2020: tests/pybaseball/data/small_request_raw.csv of jldbc/pybaseball. Every
 second pitch of each pitcher and type is fitted, the others are held out. It prints the drag polar; for each type active
 share and tilt, and how far off the held-out pitches are at the plate, one by one; the same with the axis of each
-pitcher's own other pitches; and the mean held-out pitches as rows of sandbox/lab/published/baseball_pitch.csv.
+pitcher's own other pitches; and the mean held-out pitches as rows of scenes/baseball-pitch/published/pitch.csv.
 
 Of each pitch the file has a fit of constant acceleration to its track. Its air is taken as 70 F at sea level.
 """

@@ -9,7 +9,7 @@ scene's.
 
 It prints the errors, what they are for who does not know the spray (the spin of a ball straight away) and without
 sidespin, and the means of groups of some eight balls as rows of
-sandbox/lab/published/baseball_fly.csv.
+scenes/baseball/published/fly.csv.
 """
 
 from __future__ import annotations

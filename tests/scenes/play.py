@@ -2,23 +2,14 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Mapping
-from functools import cache
 from typing import Any
 
 import sandbox
 from sandbox.scene.scene_run import SceneRun
+from sandbox.shots import run_of
 
-
-def run_of(source: str, changes: Mapping[str, Any] | None = None) -> SceneRun:
-    """The run of a scene or preset: computed once in a process, for all tests that only look at it."""
-    return _computed(source, json.dumps(changes))
-
-
-@cache
-def _computed(source: str, changes: str) -> SceneRun:
-    return sandbox.simulate(sandbox.load(source, json.loads(changes)))
+__all__ = ["playing", "results_of", "run_of"]
 
 
 def dotted(changes: Mapping[str, Any]) -> dict[str, Any]:

@@ -18,7 +18,6 @@ from sandbox.engine import simulate
 from sandbox.engine.model.accuracy import resolve
 from sandbox.engine.paths.phase import Phase
 from sandbox.engine.paths.run import Run
-from sandbox.lab.validate import PUBLISHED
 from sandbox.physics import coefficients
 from sandbox.physics.club import Head, strike
 from sandbox.physics.forces import Magnus
@@ -29,7 +28,8 @@ from tests.scenes.play import playing
 YARD, FOOT, RPM = 0.9144, 0.3048, pi / 30.0
 RADIUS, G = 0.021335, 9.81
 REFERENCE = Path(__file__).parent.parent / "reference"
-PRESETS = Path(sandbox.__file__).parent.parent / "scenes" / "golf" / "presets"
+FOLDER = Path(sandbox.__file__).parent.parent / "scenes" / "golf"
+PRESETS, PUBLISHED = FOLDER / "presets", FOLDER / "published"
 
 #: Air of the tour averages: dry, 25 C, sea level.
 TOUR_AIR = {"air.density": 1.1839}
@@ -61,7 +61,7 @@ def table(name: str) -> list[dict[str, str]]:
 def misfit(tour: str, **changes: Any) -> np.ndarray:
     """Rms errors on a tour's averages: height in yd, landing angle in deg, carry in yd."""
     errors = []
-    for row in table("golf_tour.csv"):
+    for row in table("tour.csv"):
         if row["tour"] == tour:
             launch = {
                 "launch.speed": f"{row['ball_speed_mph']} mph",
@@ -102,7 +102,7 @@ def test_errors_of_all_models_are_as_stated(row: dict[str, str]):
 
 
 def test_the_rows_of_the_tour_averages_say_where_they_come_from():
-    assert all(row["source"] for row in table("golf_tour.csv") + table("golf_models.csv"))
+    assert all(row["source"] for row in table("tour.csv") + table("golf_models.csv"))
 
 
 def test_a_drive_in_denver_and_into_the_wind():
@@ -403,7 +403,7 @@ def test_presets_end_the_same_at_every_accuracy(name: str):
 
 def test_there_is_a_preset_for_every_club_of_the_tour():
     names = {"Dr": "driver", "3w": "3-wood", "5w": "5-wood", "Hy": "hybrid", "PW": "pitching-wedge"}
-    for row in table("golf_tour.csv"):
+    for row in table("tour.csv"):
         if row["tour"] == "PGA":
             launch = sandbox.load("golf/" + names.get(row["club"], f"{row['club'][0]}-iron")).parameters.launch
             assert launch.speed == pytest.approx(0.44704 * float(row["ball_speed_mph"]))

@@ -1,16 +1,19 @@
-"""Published cases: every row of sandbox/lab/published beside ours. The tables are those of ``sandbox validate``."""
+"""Published cases: every row of scenes/*/published beside ours. The tables are those of ``sandbox validate``."""
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from sandbox.lab.published import KINDS, cases
 from sandbox.lab.teeth import as_json, teeth
 from sandbox.lab.teeth import as_text as as_text_of_teeth
-from sandbox.lab.validate import KINDS, Compared, as_text, cases, counted, validate
+from sandbox.lab.validate import Compared, as_text, counted, validate
 from sandbox.scene import listings
+from tests.own_scene import DROP, assert_refused, copy_of
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -82,3 +85,14 @@ def test_another_model_takes_the_place_of_the_one_in_a_case():
     """A case with a constant coefficient, too, is computed with the model that is asked for."""
     rows = validate("golf", {"ball.drag.model": "usga", "ball.lift.model": "usga"})
     assert not any(row.holds for row in rows if row.name == "p = 1, 45 deg")
+
+
+def test_a_scene_of_ones_own_has_published_numbers_in_its_folder(tmp_path, call, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    table = copy_of(DROP, tmp_path / "drop") / "published" / "numbers.csv"
+    table.parent.mkdir()
+    table.write_text("preset,set,result,value,tolerance,unit\n,launch.height=5,final_height,2.5,2.5,m\n")
+    (row,) = json.loads(call("validate", "./drop", "--json").out)
+    assert (row["scene"], row["holds"], row["kind"]) == ("./drop", True, "measured")
+    table.write_text(table.read_text().replace("final_height", "height"))
+    assert_refused(call("validate", "./drop"), "drop/published/numbers.csv: row 1, result = height: no such result")

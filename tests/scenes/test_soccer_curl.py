@@ -10,6 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import sandbox
+from sandbox.record import first_change, record
 from sandbox.sport.amounts import roughly
 from tests.reference.fit_soccer_lift import flight
 from tests.scenes.play import playing
@@ -195,3 +197,15 @@ def test_a_dive_in_a_mirror():
     )  # fmt: skip
     assert [event.t for event in left.events] == pytest.approx([event.t for event in right.events], abs=1e-9)
     assert left.result["verdict"] == right.result["verdict"]
+
+
+#: A kick that clips the keeper: in no preset does the ball meet him.
+OFF_THE_KEEPER = {"keeper.offset": -1.67}
+
+
+@pytest.mark.parametrize("key", ["restitution", "friction", "mass", "radius"])
+def test_a_thousandth_more_of_the_keeper_is_noticed(key: str):
+    before = sandbox.load("soccer-curl", OFF_THE_KEEPER)
+    more = 1.001 * getattr(before.parameters.keeper, key)
+    after = sandbox.load("soccer-curl", {**OFF_THE_KEEPER, f"keeper.{key}": more})
+    assert first_change(record(sandbox.simulate(before)), record(sandbox.simulate(after))) is not None
