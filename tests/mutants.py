@@ -272,7 +272,7 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         tree = Path(folder) / "tree"
         shutil.copytree(ROOT, tree, ignore=shutil.ignore_patterns(".git", ".venv", "__pycache__", "dist"))
-        if not REACH.exists() and exit_code(tree, ["tests"], plugins=[Recorder(tree)]):
+        if not REACH.exists() and exit_code(tree, ["tests", "scenes"], plugins=[Recorder(tree)]):
             sys.exit("some tests fail without any mutant")
         reach = json.loads(REACH.read_text("utf-8"))
         chosen = []

@@ -13,6 +13,7 @@ from sandbox import scene as scenes
 from sandbox import units
 from sandbox.errors import RequestError
 from sandbox.files import from_here
+from sandbox.scene.finding import is_installed
 from sandbox.tasks.file import ScoreEntry, TaskFile, read_task_file
 from sandbox.tasks.finding import find_task, tasks
 from sandbox.tasks.scoring import KINDS, Score, Wanted
@@ -34,8 +35,12 @@ class _Reader:
         self.file, self.path, self.where = file, path, from_here(path)
         if not file.goal.isprintable():
             raise self.wrong(f"goal = {shown(file.goal)}: must be one line of printable characters")
-        written = file.scene
-        source = path.parent / written if written.startswith(("./", "../")) else written
+        written, own = file.scene, path.resolve().parent.parent
+        source: str | Path = path.parent / written if written.startswith(("./", "../")) else written
+        name, _, preset = written.partition("/")
+        if name == own.name and path.resolve().parent.name == "tasks" and (own / "scene.py").is_file():
+            source = name if is_installed(own) else str(own)  # in the folder of its own scene
+            source += f"/{preset}" if preset else ""
         try:
             base = scenes.load(source)
         except RequestError as error:

@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Callable, Sequence
 from functools import cache
+from math import inf
 from pathlib import Path
 from typing import NamedTuple
 
 import pygame
 
 from sandbox.errors import RequestError
-from sandbox.picture.palette import ASSETS, palette
+from sandbox.picture.palette import palette
 from sandbox.scene import load as load_scene
-from sandbox.scene.finding import docstring, installed_folders
+from sandbox.scene.finding import docstring, installed_folders, listings_in
 from sandbox.tasks import Task, load
 from sandbox.tasks.file import read_task_file
 from sandbox.tasks.games import game_names, game_of
 from sandbox.text import title_of
+from sandbox.toml import read_toml
 from sandbox.window.best import BestList
 from sandbox.window.contest import AtMatch, AtTask, Contest
 from sandbox.window.game import Game
@@ -49,46 +50,58 @@ class Entry(NamedTuple):
 class _Sport(NamedTuple):
     """A scene on the first screen."""
 
-    name: str
+    name: str  # or the path of a user's own, such as ./beachvolley
     folder: Path
-    tasks: Sequence[str]  # their names, in no order
+    tasks: Sequence[str]  # their names, or the paths of a user's own, in no order
 
     @property
     def title(self) -> str:
         """Its name for people."""
-        return title_of(self.name)
-
-
-@cache
-def _order() -> tuple[str, list[str]]:
-    """The task to begin with, and the sports that come first."""
-    kept = tomllib.loads((ASSETS / "tiles.toml").read_text("utf-8"))
-    return kept["first"], kept["sports"]
+        return title_of(self.folder.name)
 
 
 def first_task() -> Task:
-    """The task to begin with."""
-    return load(_order()[0])
+    """The task to begin with: the easiest of the first sport that has one."""
+    return load(_easiest(next(sport for sport in sports() if sport.tasks)))
+
+
+def _easiest(sport: _Sport) -> str:
+    tasks = zip(sport.tasks, _task_files(sport.folder), strict=True)
+    return min(tasks, key=lambda task: read_task_file(task[1]).level)[0]
 
 
 def sports() -> list[_Sport]:
-    """All installed scenes, in the order of their tiles."""
-    folders, (_, order) = installed_folders(), _order()
-    names = [*(name for name in order if name in folders), *sorted(folders.keys() - set(order))]
-    return [_Sport(name, folders[name], [file.stem for file in (folders[name] / "tasks").glob("*.toml")])
-            for name in names]  # fmt: skip
+    """All installed scenes, in the order of their tiles, and after them the user's own in this folder."""
+    installed = sorted(installed_folders().items(), key=lambda item: (_place(item[1]), item[0]))
+    own = [(item.name, Path(item.name).resolve()) for item in listings_in(Path()) if item.name.count("/") == 1]
+    return [
+        *(_Sport(name, folder, [file.stem for file in _task_files(folder)]) for name, folder in installed),
+        *(_Sport(name, folder, [str(file) for file in _task_files(folder)]) for name, folder in own),
+    ]
+
+
+def _task_files(folder: Path) -> list[Path]:
+    return sorted((folder / "tasks").glob("*.toml"))
+
+
+@cache
+def _place(folder: Path) -> float:
+    """The place of an installed scene's tile in ``tile.toml``; after all others without one."""
+    file = folder / "tile.toml"
+    place = read_toml(file).get("place") if file.is_file() else None
+    return float(place) if isinstance(place, int | float) else inf
 
 
 def entries_of(sport: _Sport) -> list[Entry]:
     """All that can be played in a sport: its tasks in rising order, games for two, and the scene. A task or a game that
     is damaged says so instead of what it is about."""
     found = []
-    for name in sport.tasks:
+    for name, path in zip(sport.tasks, _task_files(sport.folder), strict=True):
         try:
-            file = read_task_file(sport.folder / "tasks" / f"{name}.toml")
-            found.append((file.level, Entry("task", name, "", title_of(name), file.goal)))
+            file = read_task_file(path)
+            found.append((file.level, Entry("task", name, "", title_of(path.stem), file.goal)))
         except RequestError as error:
-            found.append((99, Entry("task", name, "", title_of(name), str(error))))
+            found.append((99, Entry("task", name, "", title_of(path.stem), str(error))))
     entries = [entry for _, entry in sorted(found)]
     for name in game_names(sport.folder):
         try:
@@ -109,7 +122,7 @@ def begin(game: Game, entry: Entry) -> None:
 
     def made() -> Contest:
         if entry.kind == "game":
-            return AtMatch(installed_folders()[entry.source], entry.game)
+            return AtMatch(installed_folders().get(entry.source, Path(entry.source)), entry.game)
         if entry.kind == "predict":
             return Prediction(load_scene(entry.source))
         return AtTask(load(entry.source), 2 if entry.kind == "two" else 1)
@@ -126,9 +139,8 @@ class Front(Overlay):
         self.sport: _Sport | None = None
         self.entries: list[Entry] = []
         self.across = 1  # tiles in a row
-        first = _order()[0]
-        self.first_sport = next((sport for sport in self.all if first in sport.tasks), None)
-        if self.best.of(first):
+        self.first_sport = next((sport for sport in self.all if sport.tasks), None)
+        if self.first_sport is not None and self.best.of(_easiest(self.first_sport)):
             self.first_sport = None  # it was played
         self.chosen = self.all[0]
         self._images: dict[tuple[str, tuple[int, int]], pygame.Surface | None] = {}
@@ -140,7 +152,7 @@ class Front(Overlay):
     def do(self, what: _Sport | Entry | str) -> bool:
         if isinstance(what, _Sport):
             if what is self.first_sport:
-                self.begin(Entry("task", _order()[0]))
+                self.begin(Entry("task", _easiest(self.first_sport)))
                 return False
             self.sport, self.entries, self.first = what, entries_of(what), 0
             self.chosen = self.entries[0]

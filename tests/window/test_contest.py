@@ -25,13 +25,29 @@ from sandbox.window.panel import SLIDER_OF
 from sandbox.window.prediction import Prediction
 from sandbox.window.referee import AFTER, decided_at, deciding_ball
 from sandbox.window.shots import LONGEST_FRAME, SHOWN
-from tests.own_scene import HANG
+from tests.own_scene import DROP, HANG, copy_of
 
 from .conftest import Player
 from .test_see import said
 
 GOAL = "Make three of five free throws"
 SEED = 1
+DROPPED = """
+goal = "Bounce once."
+scene = "drop"
+level = 1
+attempts = 1
+shown = "one metre"
+score = { fact = "bounced", how = "sum" }
+pass = 1
+stars = [1, 1, 1]
+
+[[controls]]
+key = "launch.height"
+low = 0.2
+high = 5.0
+default = 0.3
+"""
 
 
 def passes(player: Player, enough: Callable[[], bool]) -> None:
@@ -135,6 +151,16 @@ class TestTheFirstScreen:
         (tmp_path / "scene.py").write_text('"""A scene."""\n', "utf-8")
         sport = sports()[0]._replace(folder=tmp_path, tasks=["mine"])
         assert "mine.toml" in entries_of(sport)[0].about
+
+    def test_scenes_and_tasks_of_ones_own_follow_the_others(self, tmp_path, monkeypatch):
+        monkeypatch.chdir(tmp_path)
+        folder = copy_of(DROP, tmp_path / "drop")
+        (folder / "tasks").mkdir()
+        (folder / "tasks" / "dropped.toml").write_text(DROPPED, "utf-8")
+        own = sports()[-1]
+        task, *_, scene = entries_of(own)
+        assert (own.title, task.title, task.about, scene.source) == ("Drop", "Dropped", "Bounce once.", "./drop")
+        assert tasks.load(task.source).scene.folder == folder
 
 
 class TestATask:
