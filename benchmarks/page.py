@@ -32,7 +32,6 @@ SCRIPTS = {
     "frames": "benchmarks/frames.py",
     "sweep": "benchmarks/sweep.py",
     "start": "benchmarks/start.py",
-    "window": "benchmarks/window.py --frames 60",
 }
 #: Packages whose versions are listed.
 PACKAGES = ("pymunk", "numpy", "scipy", "pillow", "pygame-ce", "pydantic", "click")

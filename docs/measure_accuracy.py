@@ -29,7 +29,7 @@ from sandbox.lab.tables import length, length_or_below, time
 from sandbox.lab.teeth import summary as summary_of_teeth
 from sandbox.lab.teeth import teeth
 from sandbox.lab.trade import TARGETS, Trade, trade
-from sandbox.lab.validate import Compared, cells, counted, validate
+from sandbox.lab.validate import Compared, counted, validate
 from sandbox.lab.verdicts import Verdicts
 from sandbox.parameters import walk
 from sandbox.scene import check, compare, listings, load
@@ -43,9 +43,10 @@ PAGE, README = DOCS / "accuracy.md", DOCS.parent / "README.md"
 #: How many published numbers hold, as README.md says it.
 COUNT = r"(`sandbox validate`:\s)\d+ of \d+ measured\snumbers"
 
-#: Scenes in the tables, those of them with a picture, and those whose parts are listed.
+#: Scenes in the tables, those of them with a picture, and the one whose parts are listed.
 SCENES = ("golf", "soccer", "soccer-curl", "basketball", "basketball/rattle", "billiards", "billiards/cut")
 PICTURES = ("golf", "basketball/rattle")
+PARTS = "soccer"
 #: The truth for the errors that a check claims.
 TRUTH = LEVELS["precise"].finer().finer()
 
@@ -87,7 +88,7 @@ def traded() -> dict[str, list[str]]:
         "cheapest": cheapest(found),
         "against pymunk": against_pymunk(found),
         "verdicts": verdicts(found),
-        "parts": parts(found),
+        "parts": parts(found[PARTS]),
     }
 
 
@@ -110,7 +111,7 @@ def validated() -> dict[str, list[str]]:
     assert count == 1
     README.write_text(readme, "utf-8")
     said = summary_of_teeth(teeth(rows))
-    return {"kinds": kinds(rows), "teeth": [f"{said}."], "published": published(rows), "not held": not_held(rows)}
+    return {"kinds": kinds(rows), "teeth": [f"{said}."]}
 
 
 def checked() -> dict[str, list[str]]:
@@ -255,13 +256,9 @@ def _counts(found: Verdicts | None) -> str:
     return "too slow" if found is None else f"{found.same} / {found.other} / {found.failed}"
 
 
-def parts(found: dict[str, Trade]) -> list[str]:
-    lines: list[str] = []
-    for name in DEFAULTS:
-        after = f"after {found[name].reference.time:.3g} s"
-        body = [[*row.cells()[:4], row.effect] for row in found[name].ablation]
-        lines += [f"`{name}`", "", *markdown(["part", "", "first touch", after, "result"], body, left=2), ""]
-    return lines[:-1]
+def parts(found: Trade) -> list[str]:
+    body = [[*row.cells()[:4], row.effect] for row in found.ablation]
+    return markdown(["part", "", "first touch", f"after {found.reference.time:.3g} s", "result"], body, left=2)
 
 
 def extremes(outcomes: list[Outcome]) -> list[str]:
@@ -284,20 +281,6 @@ def kinds(rows: list[Compared]) -> list[str]:
         counts = "yes" if kind in COUNTED else "no"
         body.append([kind, meaning, counts, str(len(own)), str(sum(row.holds for row in own))])
     return markdown(["kind", "", "counted", "numbers", "hold"], body, left=3)
-
-
-def published(rows: list[Compared]) -> list[str]:
-    groups: dict[tuple[str, str], list[Compared]] = {}
-    for row in sorted(rows, key=lambda row: list(KINDS).index(row.kind), reverse=True):
-        groups.setdefault(("exact cases" if row.kind == "exact" else row.source, row.kind), []).append(row)
-    body = [[*key, str(len(own)), str(sum(row.holds for row in own))] for key, own in groups.items()]
-    return markdown(["source", "kind", "numbers", "hold"], body, left=2)
-
-
-def not_held(rows: list[Compared]) -> list[str]:
-    own = [compared for compared in rows if not compared.holds]
-    body = [[*cells(compared)[:6], compared.reason] for compared in own]
-    return markdown(["case", "result", "published", "computed", "difference", "tolerance", "why"], body, left=2)
 
 
 if __name__ == "__main__":
