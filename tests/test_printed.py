@@ -1,10 +1,10 @@
-"""What people read, kept as text: the card of every scene, its controls and facts, and the tables of the lab."""
+"""What people read, kept as text: cards, and the tables and charts of the lab."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import fields, replace
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -23,64 +23,18 @@ from sandbox.lab.plan import Plan
 from sandbox.lab.stress import FAILED, HELD, REFUSED, SENSELESS, Outcome
 from sandbox.lab.sweep import sweep_to_file, workers
 from sandbox.lab.verdicts import VerdictChanges, Verdicts
-from sandbox.scene import listings, load
-from sandbox.scene.finding import installed_folders
-from sandbox.shots import known_shots
+from sandbox.scene import load
 from tests.own_scene import DROP
-from tests.scenes.play import run_of
-
-SCENES = sorted({listing.name for listing in listings() if "/" not in listing.name})
-#: Where rounding has no say in what is told.
-CARDS = [*(name for name in SCENES if known_shots(installed_folders()[name]).shot[0].until is None), "billiards/bank"]
-
 
 # Scenes ---------------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", CARDS)
+@pytest.mark.parametrize("name", ["golf", "billiards/bank"])
 def test_a_card(name: str, call, printed):
-    """As metric and US numbers, without what it cost to compute."""
+    """Of one ball and of several, as metric and US numbers, without what it cost to compute. The numbers of all scenes
+    are read back in ``tests/scenes/test_every_scene.py``."""
     told = "".join(call("run", name, "--units", units).out for units in ("si", "us"))
     printed(f"card-{name.replace('/', '-')}", re.sub(r": \d+ steps.*", "", told))
-
-
-@pytest.mark.parametrize("name", SCENES)
-def test_controls_and_facts(name: str, printed):
-    """Strengths, steps, sliders, handles, goals and precision of the controls; how facts are shown. The bounds of
-    parameters are in the schema."""
-    scene = load(name)
-    controls, parameters = scene.controls, scene.parameters
-    lines = [f"{field.name}: {_said(getattr(controls, field.name), parameters)}" for field in fields(controls)]
-    lines += [f"{fact.key}: {_said(replace(fact, compute=len), parameters)}" for fact in scene.facts.values()]
-    printed(f"controls-{name}", "\n".join(lines))
-
-
-@pytest.mark.parametrize("name", SCENES)
-def test_what_a_scene_is_built_of(name: str, printed):
-    """Surfaces and traps with their places and numbers; what a picture keeps clear, and until when it tells."""
-    run = run_of(name)
-    scene, setup, picture = run.scene, run.scene.build(), run.scene.picture(run, (640, 360))
-    lines = [_said(part, scene.parameters) for part in (*setup.surfaces, *setup.traps)]
-    lines += [f"aim {_said(aim, None)}" for aim in getattr(picture, "aims", [])]
-    story = [getattr(picture, key, None) for key in ("story_end", "moment")]
-    printed(f"built-{name}", "\n".join([*lines, f"until {_said(story, None)}"]))
-
-
-def _said(value: Any, parameters: Any) -> str:
-    """A value of a dataclass as text, with functions of the parameters called, where they can be."""
-    if isinstance(value, float):
-        return f"{value + 0.0:.6g}"
-    if isinstance(value, tuple | list):
-        return "; ".join(_said(each, parameters) for each in value)
-    if hasattr(value, "__dataclass_fields__"):
-        parts = {field.name: getattr(value, field.name) for field in fields(value)}
-        return ", ".join(f"{key} {_said(part, parameters)}" for key, part in parts.items() if part or part == 0.0)
-    if callable(value):
-        try:
-            return _said(value(parameters), parameters)
-        except (TypeError, AttributeError):
-            return "a function"
-    return str(value)
 
 
 # Tables ---------------------------------------------------------------------------------------------------------------

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+from typing import Any
+
 import pygame
 import pytest
 
+from sandbox.parameters import walk
 from sandbox.picture.lettering import Lettering
-from sandbox.window.panel import FAVOURITES, FIELD_OF, RESET_ALL, RESET_OF, SLIDER_OF
+from sandbox.scene import listings, load
+from sandbox.window.panel import FAVOURITES, FIELD_OF, RESET_ALL, RESET_OF, SLIDER_OF, Panel
 
 SCENE = """# A putt of mine.
 scene = "golf"
@@ -22,6 +27,17 @@ def file(tmp_path):
     path = tmp_path / "mine.toml"
     path.write_text(SCENE, encoding="utf-8")
     return path
+
+
+@pytest.mark.parametrize("name", [listing.name for listing in listings() if "/" not in listing.name])
+def test_the_panel_has_a_row_for_each_slider_of_a_scene(name: str):
+    scene = load(name)
+    parameters = {each.key: each for each in walk(scene.parameters, entries=True)}
+    session = SimpleNamespace(scene=scene, parameters=parameters, controls=scene.controls, limits=None)
+    game: Any = SimpleNamespace(session=session)
+    keys = [each.key for each in Panel(game, lambda board: None).groups[FAVOURITES]]
+    both = [key.partition("[")[0] if key.startswith("air.wind") else key for key in keys]
+    assert list(dict.fromkeys(both)) == list(scene.controls.sliders)
 
 
 def row(player, key: str):
