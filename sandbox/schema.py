@@ -76,7 +76,10 @@ class OfFiles(GenerateJsonSchema):
         return False
 
     def model_schema(self, schema: Any) -> JsonSchemaValue:
-        return {key: value for key, value in super().model_schema(schema).items() if key != "title"}
+        made = {key: value for key, value in super().model_schema(schema).items() if key != "title"}
+        if "description" in made:  # the first paragraph of a docstring; the rest is for whoever reads the code
+            made["description"] = " ".join(made["description"].partition("\n\n")[0].split())
+        return made
 
     def nullable_schema(self, schema: Any) -> JsonSchemaValue:
         return self.generate_inner(schema["schema"])  # TOML has no null: such a key is left out

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import re
 import tomllib
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -38,6 +40,28 @@ def test_a_schema_is_in_step_with_its_scene(folder: Path):
 @pytest.mark.parametrize("folder", SCENES, ids=lambda folder: folder.name)
 def test_a_schema_is_one(folder: Path):
     Draft7Validator.check_schema(read(folder))
+
+
+def descriptions(schema: Any) -> Iterator[str]:
+    """All texts of a schema that an editor shows."""
+    for key, value in schema.items() if isinstance(schema, dict) else enumerate(schema):
+        if key == "description" and isinstance(value, str):
+            yield value
+        elif isinstance(value, dict | list):
+            yield from descriptions(value)
+
+
+#: Markup, calls, keyword arguments, Python's constants, and lines.
+CODE = re.compile(r"`|\n|::|->|__|\bNone\b|\bTrue\b|\bFalse\b|\bself[.,)]|\bclass [A-Z]|\w\(\w|\w=\w")
+
+
+@pytest.mark.parametrize("folder", SCENES, ids=lambda folder: folder.name)
+def test_descriptions_are_for_who_edits_a_file(folder: Path):
+    """They are sentences, without code; those of tasks too."""
+    texts = [*descriptions(json_schema(*parameters_of(folder)[::-1])), *descriptions(task_schema(load(folder)))]
+    assert [text for text in texts if CODE.search(text)] == []
+    assert len(texts) > 40
+    assert CODE.search("A ball. ``class GolfBall(Sphere, drag=GOLF_DRAG)`` may have")
 
 
 @pytest.mark.parametrize("file", FILES, ids=lambda file: f"{file.parent.name}/{file.name}")

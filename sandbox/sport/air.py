@@ -100,7 +100,7 @@ class ConstantDrag(Model):
         return Constant(self.coefficient)
 
 
-class _ConstantLift(Lift):
+class ConstantLift(Lift):
     """One lift coefficient for all spins."""
 
     model: Literal["constant"] = choice("constant", "coefficient by its source")
@@ -110,7 +110,7 @@ class _ConstantLift(Lift):
         return Constant(self.coefficient)
 
 
-class _SpinRatioLift(Lift):
+class SpinRatioLift(Lift):
     """A lift coefficient equal to the spin ratio r w / v."""
 
     LAWS = ANY_LIFT
@@ -128,7 +128,7 @@ class NoForce(Model):
 
 #: The models that every ball may have, besides those of its sport.
 AnyDrag = ConstantDrag | NoForce
-AnyLift = _ConstantLift | _SpinRatioLift | NoForce
+AnyLift = ConstantLift | SpinRatioLift | NoForce
 
 
 def model_of(name: str, laws: Mapping[str, Coefficient], base: type[Model]) -> type[Model]:

@@ -75,8 +75,11 @@ class Release(Group):
 
 
 class Sphere(Group):
-    """A ball, hollow if it does not say otherwise. ``class GolfBall(Sphere, drag=GOLF_DRAG, lift=GOLF_LIFT)`` may have
-    the coefficients of these dictionaries by name, besides those that any ball may have."""
+    """The ball.
+
+    It is hollow by default. ``class GolfBall(Sphere, drag=GOLF_DRAG, lift=GOLF_LIFT)`` may have the coefficients of
+    these dictionaries by name, besides those that any ball may have.
+    """
 
     #: Moment of inertia over m r^2.
     INERTIA: ClassVar[float] = HOLLOW_SPHERE

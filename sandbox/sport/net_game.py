@@ -22,14 +22,14 @@ from sandbox.sport.readings import Moment, apex, before, fact_from, passing_at
 from sandbox.sport.solids import Solid
 
 
-class _Net(Solid):
+class Net(Solid):
     """The net across the middle of the court."""
 
     height: float = quantity(..., "m", 0.05, 10, "of its upper edge above the court")
     depth: float = quantity(..., "m", 0.05, 5, "from its upper to its lower edge")
 
 
-class _Court(Group):
+class Court(Group):
     """The court and its ground."""
 
     length: float = quantity(..., "m", 1, 200, "from end line to end line")
@@ -40,8 +40,8 @@ class _Court(Group):
 class NetGame(Flight):
     """Parameters of a ball that is played over a net; a sport adds its own."""
 
-    net: _Net = group(..., "the net")
-    court: _Court = group(..., "the court")
+    net: Net = group(..., "the net")
+    court: Court = group(..., "the court")
 
     @property
     def middle(self) -> float:
@@ -54,7 +54,7 @@ class NetGame(Flight):
         return self.court.length, "end line"
 
 
-class HardCourt(_Court):
+class HardCourt(Court):
     """Ground as hard as a tennis court; ``restitution`` is for a ball that arrives at 16 deg."""
 
     slope: float = quantity(..., "", 0, 0.01, "restitution less for each degree that the ball arrives at steeper")

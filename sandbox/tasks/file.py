@@ -26,7 +26,7 @@ SHOWN: tuple[str, ...] = get_args(_Shown)
 _ONLY_OF_TASKS = ("attempts", "controls", "score", "stars", "pass", "shown")
 
 
-class _StartEntry(Group):
+class StartEntry(Group):
     """One parameter that is drawn anew for each attempt: evenly from a range, or one of several values."""
 
     key: str = Field(description="the parameter, such as hoop.distance")
@@ -35,7 +35,7 @@ class _StartEntry(Group):
     values: list[Any] | None = Field(None, description="or the values, of which one is drawn")
 
 
-class _ControlEntry(Group):
+class ControlEntry(Group):
     """One parameter that the player sets."""
 
     key: str = Field(description="the parameter, such as launch.angle")
@@ -71,8 +71,8 @@ class TaskFile(Group):
     goes_on: dict[str, Any] = Field(default_factory=dict, description="facts without which the attempt ends")
     ends: dict[str, Any] = Field(default_factory=dict, description="facts with which the attempt ends")
     set: dict[str, Any] = Field(default_factory=dict, description="what is not as in the scene, as in a scene file")
-    start: list[_StartEntry] = groups([], "what is drawn anew for each attempt")
-    controls: list[_ControlEntry] = groups(..., "what the player sets")
+    start: list[StartEntry] = groups([], "what is drawn anew for each attempt")
+    controls: list[ControlEntry] = groups(..., "what the player sets")
     score: ScoreEntry = group(..., "what counts")
 
 

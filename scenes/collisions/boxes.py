@@ -47,7 +47,7 @@ class Moving(Group):
 
 
 class Box(Moving):
-    """Something that is not round; it lies as ``angle`` says."""
+    """Something that is not round, turned by its angle."""
 
     shape: Literal["box", "ellipse", "capsule", "pin"] = choice("box", "its outline")
     angle: float = quantity(0.0, "deg", -360, 360, "its orientation, counter-clockwise")
