@@ -22,8 +22,7 @@ FILES = sorted(
     file
     for name in ("scenes", "template", "template_above")
     for file in resources.folder(name).rglob("*.toml")
-    if file.name not in ("colours.toml", "tables.toml")  # of a picture; of billiards
-    and file.parent.name != "tasks"
+    if file.parent.name == "presets" or file.stem == file.parent.name
 )
 
 
