@@ -6,7 +6,6 @@ import hashlib
 import json
 from collections.abc import Mapping
 from dataclasses import asdict
-from math import isfinite
 from pathlib import Path
 from typing import Any
 
@@ -25,17 +24,20 @@ from sandbox.engine.paths.arc import Arc
 from sandbox.engine.paths.path import Path as Arcs
 from sandbox.engine.paths.phase import InCluster, InHeap, Phase
 from sandbox.engine.paths.run import Event, Numerics
-from sandbox.errors import RequestError
+from sandbox.errors import RequestError, RunError
 from sandbox.files import atomic_write, read_given, writing
 from sandbox.scene import Scene, load
 from sandbox.scene.finding import folder_of, is_installed
 from sandbox.scene.scene_run import SceneRun
+from sandbox.text import shortened
 from sandbox.window.session import Session
 from sandbox.window.shots import Shot
 
 _FORMAT, _VERSION = "sandbox replay", 2
 #: Most bytes of a replay: that of an hour with all its arcs has less.
 _LARGEST = 200_000_000
+#: No number of a run is as large.
+_FARTHEST = 1e15
 SUFFIX = ".replay.json"
 
 
@@ -85,9 +87,11 @@ def read(path: Path, scene: str | None = None, running: Path | None = None) -> S
         source = scene if scene is not None else _allowed(str(body["scene"]), path, running)
         session = Session(source, body["changes"])
         recorded = load(source, body["parameters"])
-        return Shot(recorded, run_of(recorded, body["run"]), session.changes, recorded=True)
-    except (AttributeError, KeyError, IndexError, TypeError, ValueError, OverflowError) as error:
-        raise RequestError(f"{path}: damaged: {type(error).__name__} {error}") from None
+        shot = Shot(recorded, run_of(recorded, body["run"]), session.changes, recorded=True)
+        recorded.verdict(shot.run), recorded.rows(shot.run)  # which the player sees first
+    except (AttributeError, KeyError, IndexError, TypeError, ValueError, OverflowError, RunError) as error:
+        raise RequestError(f"{path}: damaged: {type(error).__name__} {shortened(str(error), 200)}") from None
+    return shot
 
 
 def _allowed(source: str, path: Path, running: Path | None) -> str:
@@ -146,6 +150,8 @@ def run_of(scene: Scene, record: dict[str, Any]) -> SceneRun:
         raise ValueError("no path lasts as long as the run")
     if not all(_is_number(number) for event in events for number in (event.t, event.speed, event.x, event.y)):
         raise ValueError("an event contains something that is not a number")
+    if not all(isinstance(word, str) for event in events for word in (event.kind, event.ball, event.partner)):
+        raise ValueError("an event contains something that is not a word")
     return SceneRun(
         setup,
         Accuracy(**record["accuracy"]),
@@ -176,6 +182,8 @@ def _arc_data(arc: Arc, places: dict[int, int]) -> tuple[Any, ...]:
 
 def _arc(item: Any, setup: Setup, ball: Ball, driven: Mapping[int, DrivenPath]) -> Arc:
     t0, t1, start, curves, contact, end = item
+    if not all(curves) or not all(len(state) == len(curves) >= 5 for state in (start, end or start)):
+        raise ValueError("a path has no whole state")
     numbers = [start, *curves, *([] if end is None else [end])]
     if not all(map(_is_time, (t0, t1))) or not all(_is_number(part) for curve in numbers for part in curve):
         raise ValueError("a path contains something that is not a number")
@@ -196,7 +204,7 @@ def _arc(item: Any, setup: Setup, ball: Ball, driven: Mapping[int, DrivenPath]) 
 
 
 def _is_number(value: Any) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool) and isfinite(value)
+    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < _FARTHEST
 
 
 def _is_time(value: Any) -> bool:

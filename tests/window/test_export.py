@@ -107,6 +107,11 @@ class TestReplays:
             lambda body: body["run"].update(duration=1e999),
             lambda body: body["run"].update(duration=1e30),
             lambda body: body["run"]["events"][0].__setitem__(0, "later"),
+            lambda body: body["run"]["events"][0].__setitem__(3, None),
+            lambda body: body["run"]["arcs"]["ball"][0].__setitem__(2, []),
+            lambda body: body["run"]["arcs"]["ball"][0].__setitem__(3, {}),
+            lambda body: body["run"]["arcs"]["ball"][0][3].__setitem__(0, [1e300]),
+            lambda body: body["run"]["result"].update(total=None),
         ],
     )
     def test_one_that_was_written_with_other_contents_says_so(self, recorded, forge):
