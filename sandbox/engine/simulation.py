@@ -18,6 +18,7 @@ from sandbox.engine.contact.manifold import all_round
 from sandbox.engine.contact.touch import Obstacle
 from sandbox.engine.event_queue import EventQueue, QueuedEvent
 from sandbox.engine.guard import Guard
+from sandbox.engine.heap.heap import Heap
 from sandbox.engine.impact.impacts import Hit, Impacts, Outcome
 from sandbox.engine.model.accuracy import Accuracy
 from sandbox.engine.model.event import Event
@@ -35,7 +36,6 @@ from sandbox.engine.prediction import Prediction
 from sandbox.physics.integrators import State
 
 if TYPE_CHECKING:
-    from sandbox.engine.heap.heap import Heap
     from sandbox.engine.impact.cluster_search import ClusterSearch
 
 #: Events that change nothing at the end of the run's duration.
@@ -85,9 +85,6 @@ class Simulation:
         """The balls and bodies that lie on one another; None if none can, nor a body on an edge."""
         if self._all_round and (self._setup.plane is not None or len(self._setup.balls) == 1):
             return None
-        with self._uncounted():  # here, not above: no run of one ball needs it
-            from sandbox.engine.heap.heap import Heap
-
         return Heap(self._setup, self._movers, self._accuracy, self._numerics)
 
     @contextmanager

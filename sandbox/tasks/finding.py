@@ -6,7 +6,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from sandbox.errors import RequestError
-from sandbox.scene.finding import installed_folders
+from sandbox.scene.finding import installed_folder, installed_folders
 from sandbox.tasks.file import looks_like_task, read_task_file
 from sandbox.text import nearest, shortened
 from sandbox.toml import read_toml
@@ -27,11 +27,19 @@ def tasks() -> list[str]:
     return list(_files())
 
 
+def _installed(name: str) -> Path | None:
+    """The file of an installed task; None for any other name. No file is read."""
+    if Path(name).name != name:
+        return None
+    files = (folder / "tasks" / f"{name}.toml" for _, folder in sorted(installed_folders().items()))
+    return next((file for file in files if file.is_file()), None)
+
+
 def find_task(source: str | Path) -> Path:
     """The file of the task with that name, or at that path. Raises RequestError."""
-    known = _files()
-    if isinstance(source, str) and source in known:
-        return known[source]
+    known = _installed(source) if isinstance(source, str) else None
+    if known is not None:
+        return known
     path = Path(source)
     if path.suffix == ".toml" or path.is_file():
         return path
@@ -43,7 +51,7 @@ def find_task(source: str | Path) -> Path:
 def is_task(source: str | Path) -> bool:
     """True if a name or file is that of a task and not of a scene."""
     if isinstance(source, str) and "/" not in source and not source.endswith(".toml"):
-        return source in _files()
+        return installed_folder(source) is None and _installed(source) is not None
     path = Path(source)
     try:
         return path.suffix == ".toml" and path.is_file() and looks_like_task(read_toml(path))
