@@ -157,7 +157,7 @@ def test_threads_of_a_scene_end_with_ctrl_c(drop: Path, tmp_path: Path):
     while not (tmp_path / "there").exists():
         time.sleep(0.01)
     process.send_signal(signal.SIGINT)
-    assert (process.communicate(timeout=60.0)[1], process.returncode) == ("stopped\n", 130)
+    assert (process.communicate(timeout=HANG)[1], process.returncode) == ("stopped\n", 130)
 
 
 @pytest.mark.parametrize(("wanted", "code"), [("list", 0), ("nonsense", 2)])

@@ -16,7 +16,7 @@ from sandbox.cli.program import modules
 from sandbox.errors import RequestError
 from sandbox.golden import Golden
 from sandbox.window import export
-from tests.own_scene import COMMAND, DROP, Outcome, assert_refused
+from tests.own_scene import COMMAND, DROP, HANG, Outcome, assert_refused
 
 Call = Callable[..., Outcome]
 
@@ -98,7 +98,7 @@ def test_scenes_are_served_elsewhere_too(elsewhere: tuple[Path, dict[str, str]])
         assert json.loads(process.stdout.readline())["url"].startswith("http://127.0.0.1:")
     finally:
         process.terminate()
-    _, errors = process.communicate(timeout=60.0)
+    _, errors = process.communicate(timeout=HANG)
     assert (process.returncode, "Traceback" in errors) == (130, False)
 
 
