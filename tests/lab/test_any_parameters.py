@@ -1,6 +1,6 @@
 """Whatever parameters the bounds allow: a run ends, with finite numbers, or says by name why it does not.
 
-That it ends soon is for the guard (tests/engine/test_guards.py), which counts steps and impacts, whatever the clock says.
+That it ends soon is for the guard (tests/engine/test_guards.py): it counts steps and impacts, whatever the clock says.
 """
 
 from __future__ import annotations
