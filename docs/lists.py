@@ -5,19 +5,21 @@ Each stands between two comments, ``<!-- coefficients -->`` and ``<!-- end -->``
 
 from __future__ import annotations
 
+import ast
 import inspect
 import re
 import textwrap
+import tomllib
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from math import isinf
+from math import inf, isinf
 from pathlib import Path
 
 from sandbox.parameters import Group, groups_of
 from sandbox.physics.coefficients import ANY, Coefficient, Laws, Origin, Range
 from sandbox.scene import parameters_of
-from sandbox.scene.finding import installed_folders
+from sandbox.scene.finding import docstring, installed_folders
+from sandbox.text import counted
 
-WHOLE_WORDS: Mapping[str, bool] = {"break_long_words": False, "break_on_hyphens": False}
 ROOT = Path(__file__).resolve().parent.parent
 
 
@@ -27,6 +29,41 @@ def filled(page: str, name: str, lines: Iterable[str]) -> str:
     page, count = re.subn(rf"<!-- {name} -->\n.*?<!-- end -->", lambda match: block, page, flags=re.DOTALL)
     assert count == 1, name
     return page
+
+
+def sports() -> Iterator[str]:
+    """Every scene that comes with the sandbox, in the order of the window's tiles, as a row of a table."""
+    yield from ("| scene | | has |", "|---|---|---|")
+    for name, folder in scenes():
+        kinds = {"preset": "presets/*.toml", "task": "tasks/*.toml", "game": "games/[a-z]*.py"}
+        numbers = {kind: len(list(folder.glob(pattern))) for kind, pattern in kinds.items()}
+        has = ", ".join(counted(number, kind) for kind, number in numbers.items() if number)
+        yield f"| [{name}](scenes/{name}/scene.py) | {docstring(folder / 'scene.py')} | {has} |"
+
+
+def models() -> Iterator[str]:
+    """What each scene models, by the docstring of its ``scene.py``."""
+    for name, folder in scenes():
+        about = ast.get_docstring(ast.parse((folder / "scene.py").read_text("utf-8"))) or ""
+        found = re.search(r"^Models: (.*?)\.?$(?=\n\n|\nLeaves out|\Z)", about, re.DOTALL | re.MULTILINE)
+        if found is None:
+            raise SystemExit(f"scenes/{name}/scene.py: its docstring has no line that begins with Models:")
+        yield item(f"[{name}](../scenes/{name}/scene.py): {' '.join(found[1].split())}.")
+
+
+def scenes() -> list[tuple[str, Path]]:
+    """Names and folders of the scenes that come with the sandbox, in the order of the window's tiles."""
+    folders = [path.parent for path in (ROOT / "scenes").glob("*/scene.py")]
+    places = {folder: tomllib.loads(file.read_text("utf-8"))["place"] for folder in folders
+              if (file := folder / "tile.toml").exists()}  # fmt: skip
+    return [(folder.name, folder) for folder in sorted(folders, key=lambda it: (places.get(it, inf), it.name))]
+
+
+def item(text: str) -> str:
+    """An item of a list."""
+    return textwrap.fill(
+        f"- {text.replace('``', '`')}", 120, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False
+    )
 
 
 def coefficients() -> Iterator[str]:
@@ -67,7 +104,7 @@ def entry(symbol: str, name: str, law: Coefficient, origin: Origin) -> str:
     """One coefficient as an item of a list."""
     code = getattr(law, "__name__", type(law).__name__)
     about = (inspect.getdoc(law) or "").partition("\n\n")[0]
-    about = " ".join(about.split()).replace("``", "`")
+    about = " ".join(about.split())
     parts = [about.rstrip(".")]
     limits = [span(of, limit) for of, limit in (("Re", origin.reynolds), ("S", origin.spin_ratio)) if limit != ANY]
     if limits:
@@ -75,7 +112,7 @@ def entry(symbol: str, name: str, law: Coefficient, origin: Origin) -> str:
     parts.append(f"Source{f', *{origin.mark}*' if origin.mark else ''}: {origin.source}")
     values = [f"{symbol}({number(re)}, {s:g}) = {value:g}" for (re, s), value in origin.points.items()]
     parts.append(", ".join(values) + (f", within {origin.within:g}" if origin.within > 1e-4 else ""))
-    return textwrap.fill(f"- `{name}`, `{code}`: {'. '.join(parts)}.", 120, subsequent_indent="  ", **WHOLE_WORDS)
+    return item(f"`{name}`, `{code}`: {'. '.join(parts)}.")
 
 
 def span(symbol: str, limits: Range) -> str:
@@ -91,7 +128,8 @@ def number(reynolds: float) -> str:
 
 #: The blocks of each page.
 LISTS: Mapping[Path, Mapping[str, Callable[[], Iterable[str]]]] = {
-    ROOT / "docs" / "physics.md": {"coefficients": coefficients},
+    ROOT / "README.md": {"sports": sports},
+    ROOT / "docs" / "physics.md": {"scenes": models, "coefficients": coefficients},
 }
 
 
