@@ -144,6 +144,7 @@ def test_the_walk_through_works_as_it_stands(golden, tmp_path: Path):
             continue
         first, _, rest = text.partition("\n")
         file = tmp_path / first.removeprefix("# ")
+        file.parent.mkdir(exist_ok=True)
         with file.open("a" if file in written else "w", encoding="utf-8") as opened:
             opened.write(rest)
         written.add(file)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
+import sys
 import tempfile
+from collections.abc import Sequence
 from pathlib import Path
 
 os.environ |= {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
@@ -110,9 +112,11 @@ def window() -> None:
     )
 
 
-def tiles() -> None:
-    """One small picture of each sport, its shot without words, into the scene's folder."""
+def tiles(names: Sequence[str] = ()) -> None:
+    """One small picture of each sport, or of these, its shot without words, into the scene's folder."""
     for name, folder in sorted(installed_folders().items()):
+        if names and name not in names:
+            continue
         scene = sandbox.load(name)
         stage = Stage(Shot(scene, sandbox.simulate(scene)), (3 * TILE[0], 3 * TILE[1]))
         sheet = Canvas(stage.backdrop.copy())
@@ -129,9 +133,8 @@ def post(app: App, kind: int, **values: object) -> None:
 
 
 if __name__ == "__main__":
-    sports()
-    free_throws()
-    compare()
-    new_scene()
-    window()
-    tiles()
+    if sys.argv[1:2] == ["tiles"]:
+        tiles(sys.argv[2:])
+    else:
+        for make in (sports, free_throws, compare, new_scene, window, tiles):
+            make()
