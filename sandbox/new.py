@@ -56,14 +56,14 @@ def _to_copy(source: str) -> Path:
 
 def _files(source: Path, has_tests: bool) -> list[Path]:
     """The files of a scene that make a new one: its code, numbers and data, without what is made from them."""
-    made = (".schema.json", ".pyc", "tile.jpg", "shots.toml")
+    made = (".schema.json", ".pyc", *(() if has_tests else ("tile.jpg", "tile.toml", "shots.toml")))
     files = [file for file in source.rglob("*") if file.is_file() and not file.name.endswith(made)]
     kept = [file for file in files if {"golden", "tasks"}.isdisjoint(file.relative_to(source).parts)]
     return [file for file in kept if has_tests or not file.name.startswith("test_")]
 
 
 def _make_golden(scene: Path, name: str) -> None:
-    """Write the golden files with which the scene's tests pass at once; its shots where it has no test of its own."""
+    """Write the golden files with which the scene's tests pass at once; its shots where it has none."""
     from sandbox import record
     from sandbox.picture.difference import SIZE, as_png, coarser
     from sandbox.picture.frames import to_image
@@ -72,7 +72,7 @@ def _make_golden(scene: Path, name: str) -> None:
     run = simulate(loaded)
     diverges = record.diverges(run)
     until = None if diverges is None else float(f"{0.8 * diverges:.2g}")
-    if not any(scene.glob("test_*.py")):
+    if not (scene / "shots.toml").exists():
         given = "" if until is None else f"until = {until}  # s; later, rounding decides\n"
         _write(scene / "shots.toml", f'# pytest checks these shots.\n\n[[shot]]\ngolden = "{name}"\n{given}')
     picture = loaded.picture(run, SIZE)

@@ -1,4 +1,4 @@
-"""Tests of the scene; ``pytest --golden-update`` makes the golden files, or replaces them."""
+"""Tests of the scene; its golden run is in shots.toml."""
 
 from __future__ import annotations
 
@@ -7,13 +7,8 @@ from pathlib import Path
 import pytest
 
 import sandbox
-from sandbox.golden import Golden
 
 SCENE = Path(__file__).parent
-
-
-def test_putt(golden: Golden) -> None:
-    golden.check("template_above", sandbox.simulate(sandbox.load(SCENE)))
 
 
 def test_a_rolling_ball_stops_after_the_time_that_friction_gives() -> None:

@@ -57,7 +57,7 @@ def test_new_scenes_are_complete_and_short(call, name: str, view: list[str], pre
     files = {str(path.relative_to(name)) for path in Path(name).rglob("*") if path.is_file()}
     named = {f"{name}.toml", f"{name}.schema.json", f"test_{name}.py"}
     golden = {f"golden/{name}.json", f"golden/{name}.png"}
-    assert files == {"scene.py", "picture.py", f"presets/{preset}.toml"} | named | golden
+    assert files == {"scene.py", "picture.py", "shots.toml", f"presets/{preset}.toml"} | named | golden
     assert {line.removeprefix(f"wrote {name}{os.sep}") for line in out.splitlines() if "wrote" in line} == files
     assert f"sandbox run ./{name}" in out
     assert f"pytest {name} --golden-update" in out
