@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from PIL import Image
 
-from sandbox.engine.model.surface import Circle, Surface
+from sandbox.engine.model.surface import Surface
 from sandbox.engine.paths.arc import Arc
 from sandbox.engine.paths.path import Path
 from sandbox.engine.paths.phase import Phase
@@ -271,8 +271,8 @@ def _driven(view: View[Any], run: SceneRun) -> dict[str, Any]:
     times = np.linspace(0.0, run.duration, max(2, round(run.duration * POSES_A_SECOND)))
 
     def ends(surface: Surface, t: float) -> list[float]:
-        shape = surface.at(t).shape
-        return [*shape.center, *shape.center] if isinstance(shape, Circle) else [*shape.a, *shape.b]
+        a, b = surface.at(t).shape.ends
+        return [*a, *b]
 
     surfaces = [
         {"radius": each.shape.radius, "ends": [[round(x, 6) for x in ends(each, float(t))] for t in times]}

@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 
-from sandbox.engine.model.surface import Circle, Segment
 from sandbox.errors import RequestError
 from sandbox.lab.axes import Axis, Normal, Span, Values, label, spaced, unit_of
 from sandbox.lab.maps import ChartData, Row, coded, has_numbers, own_place, read
@@ -199,5 +198,4 @@ def _surfaces(done: Sequence[SceneRun | Exception]) -> list[list[float]]:
     """Ends in m and half thickness of the straight surfaces, a circle being one without length; of the first run."""
     setup = next((run.setup for run in done if isinstance(run, SceneRun)), None)
     shapes = [surface.shape for surface in setup.surfaces] if setup is not None else []
-    lines = [[*shape.a, *shape.b, shape.radius] for shape in shapes if isinstance(shape, Segment)]
-    return lines + [[*shape.center, *shape.center, shape.radius] for shape in shapes if isinstance(shape, Circle)]
+    return [[*shape.ends[0], *shape.ends[1], shape.radius] for shape in shapes]

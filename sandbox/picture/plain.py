@@ -75,8 +75,7 @@ class Picture(AboveView[Group]):
     def _spots(self, shape: Segment | Circle, camera: Camera, room: pygame.FRect) -> list[tuple[float, float, str]]:
         """Return spots for the name of a surface, beside the part of it that is in sight, in px."""
         off = max(shape.radius * camera.scale, THINNEST * self.unit) + 4 * self.unit
-        ends = (shape.center, shape.center) if isinstance(shape, Circle) else (shape.a, shape.b)
-        a, b = (camera.pixel(*end) for end in ends)
+        a, b = (camera.pixel(*end) for end in shape.ends)
         seen = (a, b) if a == b else room.clipline(a, b)
         if not seen:
             return []

@@ -125,7 +125,7 @@ class View(BallDrawing[P]):
         low, high = self.points.min(axis=0) - radius, self.points.max(axis=0) + radius
         reach, middle = max(_NEAR * radius, *(high - low)), (low + high) / 2
         for shape in self.solids:
-            a, b = map(np.array, (shape.a, shape.b) if isinstance(shape, Segment) else (shape.center, shape.center))
+            a, b = map(np.array, shape.ends)
             next_to = a + np.clip((middle - a) @ (b - a) / max((b - a) @ (b - a), 1e-99), 0.0, 1.0) * (b - a)
             for seen in (np.array([np.minimum(a, b) - shape.radius, np.maximum(a, b) + shape.radius]), next_to[None]):
                 if np.all(seen > low - reach) and np.all(seen < high + reach):

@@ -253,5 +253,4 @@ def pair_touches(one: Mover, other: Mover, t: float, skin: float) -> float | Non
 @lru_cache(maxsize=4096)
 def fixed_outline(shape: Segment | Circle) -> OutlineOnArc:
     """A fixed shape as an outline that stays in place."""
-    points = (shape.center,) if isinstance(shape, Circle) else (shape.a, shape.b)
-    return fixed(Polygon(tuple(dict.fromkeys(points)), shape.radius))
+    return fixed(Polygon(tuple(dict.fromkeys(shape.ends)), shape.radius))

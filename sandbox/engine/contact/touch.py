@@ -72,9 +72,8 @@ class Outline(NamedTuple):
     @classmethod
     def of(cls, shape: Segment | Circle, radius: Any) -> Outline:
         """The outline of a shape for balls of this radius (m)."""
-        ends = (*shape.center, *shape.center) if isinstance(shape, Circle) else (*shape.a, *shape.b)
-        zero = 0.0 * radius
-        ax, ay, bx, by = (end + zero for end in ends)
+        (start, end), zero = shape.ends, 0.0 * radius
+        ax, ay, bx, by = (each + zero for each in (*start, *end))
         length = hypot(bx - ax, by - ay)
         point = length == 0.0  # then the direction is arbitrary
         over = length + point

@@ -39,6 +39,11 @@ class Segment:
             raise ValueError(f"segment: a = b = {short(self.a)} has no length: a dot is Circle(center, radius)")
 
     @property
+    def ends(self) -> tuple[Vector, Vector]:
+        """Where it begins and ends, in m."""
+        return self.a, self.b
+
+    @property
     def length(self) -> float:
         return hypot(self.b[0] - self.a[0], self.b[1] - self.a[1])
 
@@ -56,6 +61,11 @@ class Circle:
 
     def __post_init__(self) -> None:
         _check_shape(self, "center")
+
+    @property
+    def ends(self) -> tuple[Vector, Vector]:
+        """Its centre twice: a segment without length, in m."""
+        return self.center, self.center
 
 
 class Bounce(NamedTuple):
