@@ -20,6 +20,7 @@ from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.setup_errors import MethodFailed
 from sandbox.engine.model.surface import Segment, Surface
 from sandbox.errors import RunError
+from sandbox.lab import reference as references
 from sandbox.lab import timing, verdicts
 from sandbox.lab import trade as lab
 from sandbox.lab.ablation import Ablated, ablation, variants
@@ -47,6 +48,8 @@ def fewer_settings() -> Iterator[None]:
         patch.setattr(lab, "TOLERANCES", (1e-1, 1e-3, 1e-6))
         patch.setattr(timing, "REPEATS", 2)
         patch.setattr(verdicts, "PATIENCE", 0.01)
+        patch.setattr(verdicts, "FEWEST", 3)
+        patch.setattr(references, "_CHECK_STEP", 1 / 500)  # s: its errors are below 2 um
         for module, longest in ((lab, "LONGEST"), (verdicts, "TOO_LONG")):
             patch.setattr(module, longest, 1e9)  # s; this machine may be busy
         yield

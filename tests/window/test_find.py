@@ -81,7 +81,7 @@ def test_shots_found_for_the_ring_score_most_forgiving_first(monkeypatch):
 class TestInBilliards:
     @pytest.fixture
     def asking(self, player, monkeypatch):
-        monkeypatch.setattr(sys.modules["sandbox.lab.aim.shots"], "SCAN", 17)
+        monkeypatch.setattr(sys.modules["sandbox.lab.aim.shots"], "DENSE_ALONE", 81)
         monkeypatch.setattr("sandbox.window.score_map.COARSE", (3, 3))
         player = player("billiards/cut", (900, 560))
         player.game.workers.helper = Here()
