@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import shlex
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from typing import Any
@@ -15,13 +14,13 @@ from sandbox.errors import RequestError
 _CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ufeff]|[\ud800-\udfff]")
 
 #: Halves of a character of UTF-16.
-_SURROGATE = re.compile("[\ud800-\udfff]")
+_SURROGATE = "[\ud800-\udfff]"
 
 #: Characters that end a line, or are not one space wide.
-_BREAK = re.compile("[\n\r\t\v\f\x85]")
+_BREAK = "[\n\r\t\v\f\x85]"
 
 #: Text that TOML reads as no value of another kind, so that it needs no quotes.
-_WORD = re.compile("(?!(true|false|inf|nan)$)[a-zA-Z][a-zA-Z-]*")
+_WORD = "(?!(true|false|inf|nan)$)[a-zA-Z][a-zA-Z-]*"
 
 #: First characters of a formula in a spreadsheet.
 _FORMULA = ("=", "+", "-", "@")
@@ -34,12 +33,12 @@ def printable(text: str) -> str:
 
 def encodable(text: str) -> str:
     """The text with lone surrogates, which UTF-8 cannot have, written out as in JSON; all else stays."""
-    return text if text.isascii() else _SURROGATE.sub(lambda match: f"\\u{ord(match[0]):04x}", text)
+    return text if text.isascii() else re.sub(_SURROGATE, lambda match: f"\\u{ord(match[0]):04x}", text)
 
 
 def one_line(text: str) -> str:
     """The text on one line, without control characters: for a name, a label, a table cell."""
-    return printable(" ".join(text.split()) if _BREAK.search(text) else text)
+    return printable(" ".join(text.split()) if re.search(_BREAK, text) else text)
 
 
 def shortened(text: str, most: int = 80) -> str:
@@ -96,13 +95,15 @@ def csv_text(text: str) -> str:
 
 def command_line(source: str, changes: Mapping[str, Any], does: str = "run", *options: str) -> str:
     """The command that runs a scene with values at keys, or ``does`` something else with it."""
+    import shlex  # here, not above: no start of the program needs it
+
     settings = [word for key, value in changes.items() for word in ("--set", f"{key}={argument(value)}")]
     return shlex.join(["sandbox", does, source, *settings, *options])
 
 
 def argument(value: Any) -> str:
     """A value as ``--set`` and ``--over`` take it, without quotes where it needs none."""
-    return value if isinstance(value, str) and _WORD.fullmatch(value) else toml_text(value).removesuffix(".0")
+    return value if isinstance(value, str) and re.fullmatch(_WORD, value) else toml_text(value).removesuffix(".0")
 
 
 def toml_text(value: Any) -> str:
