@@ -241,31 +241,34 @@ def test_trajectory(call, tmp_path: Path):
 
 
 def test_pictures(call, tmp_path: Path):
-    poster, energy, gif, frames = files = [tmp_path / name for name in ("drop.png", "energy.png", "drop.gif", "frames")]
-    options = ("--poster", "--energy", "--gif", "--frames")
+    names = ("drop.png", "strip.png", "energy.png", "drop.gif", "frames")
+    poster, strip, energy, gif, frames = files = [tmp_path / name for name in names]
+    options = ("--poster", "--strip", "--energy", "--gif", "--frames")
     args = [word for pair in zip(options, files, strict=True) for word in pair]
     code, out, err = call("run", DROP, *args, "--fps", 10, "--size", "640x360")
     assert (code, err) == (0, "")
-    assert set(out.splitlines()[-4:]) == {f"wrote {file}" for file in files}
+    assert set(out.splitlines()[-5:]) == {f"wrote {file}" for file in files}
     seen = {}
-    for file in (poster, energy, gif):
+    for file in (poster, strip, energy, gif):
         with Image.open(file) as image:
             seen[file] = (image.format, image.size, getattr(image, "n_frames", 1) > 1)
     assert seen[poster] == seen[energy] == ("PNG", (640, 360), False)
     assert (seen[gif][0], seen[gif][2]) == ("GIF", True)
+    width, height = seen[strip][1]  # of frames of 320x180, in rows
+    assert (width // 320) * (height // 180) > 5
     assert sorted(path.name for path in frames.iterdir()) == [f"frame_{number:05d}.png" for number in range(11)]
 
 
 def test_two_runs_over_each_other(call, tmp_path: Path):
-    poster = tmp_path / "both.png"
-    pictures = ("--poster", poster, "--size", "320x180")  # the smallest
+    poster, strip = tmp_path / "both.png", tmp_path / "strip.png"
+    pictures = ("--poster", poster, "--strip", strip, "--size", "320x180")  # the smallest
     code, out, err = call("run", "golf", "--compare", "golf/headwind", *pictures)
     assert (code, err) == (0, "")
     row = next(line for line in out.splitlines() if line.startswith("  carry"))
     assert row.count("yd") == 2
     assert "golf/headwind" in out
-    with Image.open(poster) as image:
-        assert image.size == (320, 180)
+    with Image.open(poster) as image, Image.open(strip) as film:
+        assert (image.size, film.height >= 180) == ((320, 180), True)
     report = json.loads(call("run", "golf", "--compare", "golf/headwind", "--json").out)
     assert report["compared"]["preset"] == "headwind"
     assert report["compared"]["result"]["carry"] < report["result"]["carry"]

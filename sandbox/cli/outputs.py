@@ -13,7 +13,7 @@ import click
 
 from sandbox import entries
 from sandbox.errors import RequestError
-from sandbox.files import LARGEST, check_size, writing
+from sandbox.files import LARGEST, SMALLEST, check_size, writing
 
 if TYPE_CHECKING:
     from sandbox.scene.scene_run import SceneRun
@@ -96,6 +96,15 @@ def _html(drawn: Drawn, path: Path) -> None:
     entries.require(PAGES, "--html").save_page(drawn.run, path, drawn.ghosts, options)
 
 
+def _strip(drawn: Drawn, path: Path) -> None:
+    from sandbox.picture.frames import save_png
+    from sandbox.picture.strip import film_strip
+
+    width, height = drawn.size or USUAL
+    half = max(SMALLEST[0], width // 2), max(SMALLEST[1], height // 2)
+    save_png(film_strip(drawn.run.scene.picture(drawn.run, half, drawn.ghosts), drawn.run), path)
+
+
 def _energy(drawn: Drawn, path: Path) -> None:
     from sandbox.picture.energy_chart import energy_charts
     from sandbox.picture.frames import save_png
@@ -136,6 +145,7 @@ OUTPUTS = (
         *("--html", ".html", _html, "Write a page for any browser that plays the run; it needs no network.", False),
         part=PAGES,
     ),
+    Output("--strip", ".png", _strip, "Write some frames side by side."),
     Output("--energy", ".png", _energy, "Write a chart of where the energy goes."),
     Output("--graph", ".png", _graph, "Write graphs over time: position, speed, spin, acceleration, forces, energy."),
     Output("--gif", ".gif", _animation("save_gif", 25, SMALL), "Write it as an animation below 5 MB.", moves=True),

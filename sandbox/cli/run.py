@@ -61,7 +61,8 @@ if TYPE_CHECKING:
     "--size",
     metavar="WxH",
     type=outputs.read_size,
-    help="Size of pictures in px.  [default: 800x450 for --gif, else 1280x720]",
+    help="Size of pictures in px; the frames of a strip are half of it, at least 320x180.  "
+    "[default: 800x450 for --gif, else 1280x720]",
 )
 def run(
     scene: str,

@@ -1,4 +1,4 @@
-"""Pictures besides posters stay as they are: graphs, energy, comparisons, frames on the way."""
+"""Pictures besides posters stay as they are: strips, graphs, energy, comparisons, frames on the way."""
 
 from __future__ import annotations
 
@@ -6,9 +6,16 @@ import pytest
 
 from sandbox.picture.energy_chart import energy_charts
 from sandbox.picture.graph import graph
+from sandbox.picture.strip import film_strip
 from tests.scenes.play import run_of
 
-SIZE, SMALL = (640, 360), (480, 270)
+SIZE, SMALL, SMALLEST = (640, 360), (480, 270), (240, 135)
+
+
+@pytest.mark.parametrize("name", ["basketball/rattle", "bowling/straight"])
+def test_a_strip(golden, name: str):
+    run = run_of(name)
+    golden.check(f"strip-{name.replace('/', '-')}", film_strip(run.scene.picture(run, SMALLEST), run))
 
 
 def test_graphs(golden):
