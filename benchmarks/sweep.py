@@ -278,17 +278,18 @@ def steps(shape: tuple[int, int]) -> dict[str, float]:
 
         return wrapped
 
-    read = scene.reader(plan.asked)
+    reader = Scene.reader
     with ExitStack() as patched:
         for step, owner, name in (
             ("parameters", Varied, "parameters"),
             ("build and stack", lab_runs, "built_at_once"),
             ("flight", Batch, "fly"),
             ("touches", BatchSurfaces, "first_touch"),
-            ("objects", BatchRecord, "run"),
+            ("objects", BatchRecord, "flown"),
+            ("facts", lab_runs, "facts_at_once"),
         ):
             patched.enter_context(patch.object(owner, name, clocked(step, getattr(owner, name))))
-        patched.enter_context(patch.object(Scene, "reader", lambda self, asked: clocked("facts", read)))
+        patched.enter_context(patch.object(Scene, "reader", lambda *given: clocked("facts", reader(*given))))
         rows = records(plan, 0, plan.size)
     spent["flight"] -= spent["touches"]
     with tempfile.TemporaryDirectory() as folder, RowFile(Path(folder) / "map.csv", plan) as file:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
+    from sandbox.engine.many.flown import Flown
     from sandbox.engine.model.accuracy import Accuracy
     from sandbox.engine.model.setup import Setup
     from sandbox.engine.paths.run import Run
@@ -40,11 +41,15 @@ def simulate_many(setups: Sequence[Setup], accuracy: Accuracy) -> Iterator[Run |
     rounding; their forces are then called with arrays of shape (n,) for time, position, velocity and spin. If there are
     others among them, or forces that cannot take arrays, all run one at a time.
     """
+    together = simulate_together(setups, accuracy)
+    yield from (_run_or_error(setup, accuracy) for setup in setups) if together is None else together
+
+
+def simulate_together(setups: Sequence[Setup], accuracy: Accuracy) -> Flown | None:
+    """Return the runs of many setups as rows; None if they cannot fly together."""
     from sandbox.engine.many.batch import simulate_batch
 
-    batch = simulate_batch(setups, accuracy) if accuracy.method == "exact" else None
-    for setup in setups:
-        yield _run_or_error(setup, accuracy) if batch is None else next(batch)
+    return simulate_batch(setups, accuracy) if accuracy.method == "exact" else None
 
 
 def _run_or_error(setup: Setup, accuracy: Accuracy) -> Run | Exception:

@@ -14,7 +14,7 @@ from gymnasium.vector.utils import batch_space
 from sandbox.errors import RequestError, RunError
 from sandbox.gym.course import Course, seed_of
 from sandbox.lab.many import as_array
-from sandbox.lab.runs import runs
+from sandbox.lab.runs import Outcome, outcomes
 from sandbox.scene import Scene
 from sandbox.scene.scene_run import SceneRun
 
@@ -160,8 +160,8 @@ class TaskVectorEnv(VectorEnv[Any, Any, Any]):
             over[place] = result is None or task.is_over(result, int(self._shots[place]))
             rewards[place] = task.reward(worth, bool(over[place]))
             if not over[place]:
-                assert isinstance(run, SceneRun)
-                self._later[place] = task.after(run)
+                assert not isinstance(run, Exception)
+                self._later[place] = task.after(run.of(task.scene) if isinstance(run, Outcome) else run)
         if self._mode is AutoresetMode.SAME_STEP:
             infos = self._infos(found, made, aimed, ~over)
             if over.any():
@@ -180,14 +180,14 @@ class TaskVectorEnv(VectorEnv[Any, Any, Any]):
         for place in places:
             self._begin(place)
 
-    def _played(self, aimed: NDArray[Any], places: Sequence[int]) -> dict[int, SceneRun | Exception]:
+    def _played(self, aimed: NDArray[Any], places: Sequence[int]) -> dict[int, Outcome | SceneRun | Exception]:
         """The runs of the attempts at these places: of first shots together, of later ones one by one."""
         course, rows = self.course, aimed.tolist()
-        found: dict[int, SceneRun | Exception] = {}
+        found: dict[int, Outcome | SceneRun | Exception] = {}
         first = [place for place in places if self._later[place] is None]
         points = [[*self._drawn[place], *rows[place]] for place in first]
         if first:
-            found |= zip(first, runs(course.task.scene, course.keys, points, asked=course.facts), strict=True)
+            found |= zip(first, outcomes(course.task.scene, course.keys, points, asked=course.facts), strict=True)
         for place in (place for place in places if self._later[place] is not None):
             values: Mapping[str, float] = dict(zip(course.task.defaults, rows[place], strict=True))
             try:
@@ -197,15 +197,20 @@ class TaskVectorEnv(VectorEnv[Any, Any, Any]):
         return found
 
     def _infos(
-        self, found: Mapping[int, SceneRun | Exception], made: NDArray[Any], aimed: NDArray[Any], mask: NDArray[Any]
+        self,
+        found: Mapping[int, Outcome | SceneRun | Exception],
+        made: NDArray[Any],
+        aimed: NDArray[Any],
+        mask: NDArray[Any],
     ) -> dict[str, Any]:
         """Facts as arrays, as Gymnasium has them: each with a mask of the attempts for which it holds."""
         if not mask.any():
             return {}
         infos: dict[str, Any] = {}
         played = [found.get(place) for place in range(self.num_envs)]
+        results = [run.result if isinstance(run, Outcome | SceneRun) else None for run in played]
         for fact in self.course.facts:
-            infos[fact] = as_array([run.result[fact] if isinstance(run, SceneRun) else None for run in played])
+            infos[fact] = as_array([None if result is None else result[fact] for result in results])
         infos["is_success"] = made
         infos["controls"] = {key: aimed[:, column] for column, key in enumerate(self.course.task.defaults)}
         if any(isinstance(run, Exception) for run in played):

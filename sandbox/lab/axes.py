@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
 from math import ceil, inf, log10, ulp
@@ -293,20 +294,20 @@ class Varied:
         self._paths = [path_of("over", key) for key in keys]
         self._keys = list(keys)
         self._quick = [_can_set_unchecked(scene.parameters, path) for path in self._paths]
+        self._slow = [place for place, quick in enumerate(self._quick) if not quick]
+        self._places: dict[str | int, Any] = {}  # of the values that are set unchecked, nested as the parameters are
+        for place, path in enumerate(self._paths):
+            if self._quick[place]:
+                node = self._places
+                for step in path[:-1]:
+                    node = node.setdefault(step, {})
+                node[path[-1]] = place
         self._bases: dict[str, SceneParameters] = {}
 
     def parameters(self, values: Sequence[Any]) -> SceneParameters:
         """The scene's parameters with ``values`` at the keys, in their order. Raises RequestError."""
-        slow = {key: value for key, value, quick in zip(self._keys, values, self._quick, strict=True) if not quick}
-        parameters = self._base(slow) if slow else self._scene.parameters
-        changes: dict[str | int, Any] = {}
-        for path, value, quick in zip(self._paths, values, self._quick, strict=True):
-            if quick:
-                node = changes
-                for step in path[:-1]:
-                    node = node.setdefault(step, {})
-                node[path[-1]] = value
-        return _changed(parameters, changes)
+        slow = {self._keys[place]: values[place] for place in self._slow}
+        return _changed(self._base(slow) if slow else self._scene.parameters, self._places, values)
 
     def together(self, points: Sequence[Sequence[Any]]) -> Iterator[tuple[list[int], SceneParameters | Exception]]:
         """The places of points that differ only in numbers, and their parameters in one, with arrays for the numbers
@@ -355,10 +356,12 @@ def _can_set_unchecked(parameters: Any, path: Path) -> bool:
     return isinstance(quantity, Quantity) and (isinstance(node, float) or node is None)
 
 
-def _changed(node: Any, changes: Any) -> Any:
-    """A group, list or tuple with nested changes applied."""
-    if not isinstance(changes, dict):
-        return changes
+def _changed(node: Any, places: Any, values: Sequence[Any]) -> Any:
+    """A group, list or tuple with the values that have ``places`` in it, nested."""
+    if isinstance(places, int):
+        return values[places]
     if isinstance(node, Group):
-        return node.model_copy(update={key: _changed(getattr(node, key), inner) for key, inner in changes.items()})
-    return type(node)(_changed(item, changes.get(place, item)) for place, item in enumerate(node))
+        made, own = copy(node), node.__dict__
+        made.__dict__.update((key, _changed(own[key], inner, values)) for key, inner in places.items())
+        return made
+    return type(node)(_changed(item, places[at], values) if at in places else item for at, item in enumerate(node))

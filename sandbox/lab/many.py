@@ -12,7 +12,7 @@ import numpy as np
 from sandbox.errors import RequestError
 from sandbox.lab.axes import Values, points_given
 from sandbox.lab.plan import Plan
-from sandbox.lab.runs import Progress, no_progress, runs
+from sandbox.lab.runs import Progress, no_progress, outcomes, runs
 from sandbox.scene import Scene, as_scene
 from sandbox.scene.scene_run import SceneRun
 from sandbox.text import check_mapping, no_such_result
@@ -90,13 +90,13 @@ def simulate_many(
     for start in range(0, plan.size, plan.block):
         progress(start, plan.size)
         some = list(plan.points(start, start + plan.block))
-        for run in runs(chosen, plan.keys, some, asked=() if paths else plan.asked):
-            done = None if isinstance(run, Exception) else run
-            if isinstance(run, Exception):
-                errors[len(rows)] = one_line_error(run)
-            rows.append({} if done is None else done.result)
+        compute = runs if paths else outcomes
+        for found in compute(chosen, plan.keys, some, asked=() if paths else plan.asked):
+            if isinstance(found, Exception):
+                errors[len(rows)] = one_line_error(found)
+            rows.append({} if isinstance(found, Exception) else found.result)
             if paths:
-                kept.append(done)
+                kept.append(found if isinstance(found, SceneRun) else None)
     progress(plan.size, plan.size)
     columns = {axis.key: as_array(axis.values) for axis in plan.axes if isinstance(axis, Values)}
     return Runs(chosen, columns, {key: as_array([row.get(key) for row in rows]) for key in plan.asked}, errors, kept)

@@ -15,7 +15,7 @@ import numpy as np
 from sandbox.errors import RequestError
 from sandbox.lab.axes import MOST_POINTS, Axis, Normal, Span, Values
 from sandbox.lab.provenance import Provenance, provenance
-from sandbox.lab.runs import fly_together, runs
+from sandbox.lab.runs import Outcome, fly_together, outcomes, runs
 from sandbox.scene import Scene, compare
 from sandbox.tracebacks import one_line_error
 
@@ -215,23 +215,24 @@ def records(plan: Plan, start: int, stop: int, alone: bool = False) -> list[Reco
 
 def _rows(plan: Plan, start: int, stop: int) -> list[Record]:
     points = list(plan.points(start, stop))
-    outcomes = runs(plan.scene, plan.keys, points, asked=plan.asked)
     if not plan.check:
-        return [_record(plan.keys, values, run) for values, run in zip(points, outcomes, strict=True)]
-    finer = runs(plan.scene, plan.keys, points, finer=True, asked=plan.asked)
+        found = outcomes(plan.scene, plan.keys, points, asked=plan.asked)
+        return [_record(plan.keys, values, outcome) for values, outcome in zip(points, found, strict=True)]
+    coarser, finer = (runs(plan.scene, plan.keys, points, how, plan.asked) for how in (False, True))
     rows = []
-    for values, run, other in zip(points, outcomes, finer, strict=True):
+    for values, run, other in zip(points, coarser, finer, strict=True):
         row = _record(plan.keys, values, run)
         error = row.pop("error")
         rows.append(row | _accuracy_columns(run, other) | {"error": error})
     return rows
 
 
-def _record(keys: Sequence[str], values: Sequence[Any], run: SceneRun | Exception) -> Record:
+def _record(keys: Sequence[str], values: Sequence[Any], found: Outcome | SceneRun | Exception) -> Record:
     row: Record = dict(zip(keys, values, strict=True))
-    if isinstance(run, Exception):
-        return row | {"error": one_line_error(run)}
-    row.update(run.result)
+    if isinstance(found, Exception):
+        return row | {"error": one_line_error(found)}
+    run = found.run if isinstance(found, Outcome) else found
+    row.update(found.result)
     row.setdefault("ended", run.ended)
     for flag in FLAGS:
         row[flag] = getattr(run.numerics, flag)

@@ -2,30 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import repeat
-from typing import TYPE_CHECKING, Any
+from math import isclose, isfinite
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from sandbox import parameters as declared
-from sandbox.engine import can_batch, simulate_many
+from sandbox.engine import can_batch, simulate_many, simulate_together
+from sandbox.engine.many.flown import AllRuns, Flown
 from sandbox.engine.many.stacking import FEWEST, Stack, agree
 from sandbox.engine.model.accuracy import Accuracy, resolve
 from sandbox.engine.model.setup import Setup, Touches, Until, is_over
+from sandbox.engine.paths.run import Run
+from sandbox.errors import sys_exit_as_error
 from sandbox.lab.axes import Varied
 from sandbox.scene import Scene
 from sandbox.scene.scene_run import SceneRun
 
 if TYPE_CHECKING:
     from sandbox.engine.model.event import Event
-    from sandbox.engine.paths.run import Run
     from sandbox.parameters import SceneParameters
     from sandbox.physics.integrators import State
 
     Build = Callable[[SceneParameters], Setup]
+    Read = Callable[[Run, SceneParameters], dict[str, Any]]
 
 #: Runs that are done, and all of them.
 Progress = Callable[[int, int], None]
@@ -33,6 +37,19 @@ Progress = Callable[[int, int], None]
 
 def no_progress(done: int, total: int) -> None:
     """Show no progress."""
+
+
+class Outcome(NamedTuple):
+    """A run at one of many points, and the facts that were asked for."""
+
+    run: Run
+    result: dict[str, Any]
+    parameters_at: Callable[[int], SceneParameters]
+    place: int
+
+    def of(self, scene: Scene) -> SceneRun:
+        """The whole run of this scene, with its parameters at this point."""
+        return SceneRun.of(self.run, replace(scene, parameters=self.parameters_at(self.place)), self.result)
 
 
 def runs(
@@ -43,50 +60,142 @@ def runs(
     asked: Sequence[str] = (),
     until: float | None = None,
 ) -> Iterator[SceneRun | Exception]:
-    """The run at each of the points, in order, with its result; or the exception it ended with.
+    """The whole run at each of the points, in order, as ``outcomes`` computes it."""
+    for found in outcomes(scene, keys, points, finer, asked, until):
+        yield found if isinstance(found, Exception) else found.of(scene)
+
+
+def outcomes(
+    scene: Scene,
+    keys: Sequence[str],
+    points: Sequence[Sequence[Any]],
+    finer: bool = False,
+    asked: Sequence[str] = (),
+    until: float | None = None,
+) -> Iterator[Outcome | Exception]:
+    """The outcome at each of the points, in order; or the exception with which its run ended.
 
     Similar shots are computed together. ``finer`` halves the steps, to estimate errors. If only some facts are
     ``asked`` for, each run ends when these are final, and its result contains only these. If only paths ``until`` a
     time in s are, each run ends then, also where the scene would end it earlier, and its result is empty.
     """
     build, varied = builder(scene, asked) if until is None else _until(scene, until), Varied(scene, keys)
-    read = scene.reader(asked) if until is None else _nothing
-    parameters: dict[int, SceneParameters] = {}
-    found: dict[int, Iterator[Run | Exception]] = {}
+    facts = [key for key in scene.facts if until is None and (not asked or key in asked)]
+    found: dict[int, Iterator[Outcome | Exception]] = {}
     for places, many in varied.together(points):
-        each = [] if isinstance(many, Exception) else [varied.parameters(points[place]) for place in places]
-        parameters |= zip(places, each, strict=False)
-        found |= dict.fromkeys(places, _outcomes(build, many, each, finer))
+        together = _Together(build, many, _Each(varied, points, places))
+        found |= dict.fromkeys(places, together.outcomes(scene, facts, finer))
     for place in range(len(points)):
-        run = next(found[place])
-        yield run if isinstance(run, Exception) else _of_scene(run, replace(scene, parameters=parameters[place]), read)
+        yield next(found[place])
 
 
-def _of_scene(run: Run, scene: Scene, read: Callable[[Run, Any], dict[str, Any]]) -> SceneRun | Exception:
-    """The run of a scene with the facts that are ``read`` from it, or what they raise."""
-    try:
-        return SceneRun.of(run, scene, read(run, scene.parameters))
-    except Exception as error:
-        return error
+class _Each(Sequence[Any]):
+    """The parameters at some of many points, made when they are asked for."""
+
+    def __init__(self, varied: Varied, points: Sequence[Sequence[Any]], places: Sequence[int]) -> None:
+        self._varied, self._points, self._places = varied, points, places
+
+    def __len__(self) -> int:
+        return len(self._places)
+
+    def __getitem__(self, place: Any) -> Any:
+        return self._varied.parameters(self._points[self._places[place]])
 
 
-def _outcomes(
-    build: Build, many: SceneParameters | Exception, each: Sequence[SceneParameters], finer: bool
-) -> Iterator[Run | Exception]:
-    """The outcomes of runs that differ only in numbers: ``many`` has the parameters of all in one, or is the error that
-    explains why there are none."""
-    try:
-        if isinstance(many, Exception):
-            raise many
-        accuracy = _resolved(many.accuracy, finer)
-    except Exception as error:
-        return repeat(error)
-    stack = built_at_once(build, many, each)
-    if stack is not None:
-        return simulate_many(stack, accuracy)
-    setups = [_or_error(build, parameters) for parameters in each]
-    found = simulate_many([setup for setup in setups if not isinstance(setup, Exception)], accuracy)
-    return (setup if isinstance(setup, Exception) else next(found) for setup in setups)
+class _Together(NamedTuple):
+    """Points that differ only in numbers: ``many`` has the parameters of all in one, or is the error that explains why
+    there are none."""
+
+    build: Build
+    many: SceneParameters | Exception
+    each: Sequence[SceneParameters]
+
+    def outcomes(self, scene: Scene, facts: Sequence[str], finer: bool) -> Iterator[Outcome | Exception]:
+        """The outcome at each of them, with these facts."""
+        try:
+            if isinstance(self.many, Exception):
+                raise self.many
+            accuracy = _resolved(self.many.accuracy, finer)
+        except Exception as error:
+            yield from repeat(error, len(self.each))
+            return
+        stack, columns = built_at_once(self.build, self.many, self.each), dict[str, list[Any]]()
+        flown = None if stack is None else simulate_together(stack, accuracy)
+        if flown is not None:
+            columns = facts_at_once(scene, facts, flown, self.many, self.each)
+        read = scene.reader([fact for fact in facts if fact not in columns])
+        for place, run in enumerate(self._alone(accuracy) if flown is None else flown):
+            yield run if isinstance(run, Exception) else self._outcome(run, place, facts, columns, read)
+
+    def _alone(self, accuracy: Accuracy) -> Iterator[Run | Exception]:
+        """The runs of what was built for each point."""
+        setups = [_or_error(self.build, parameters) for parameters in self.each]
+        found = simulate_many([setup for setup in setups if not isinstance(setup, Exception)], accuracy)
+        return (setup if isinstance(setup, Exception) else next(found) for setup in setups)
+
+    def _outcome(
+        self, run: Run, place: int, facts: Sequence[str], columns: Mapping[str, Sequence[Any]], read: Read
+    ) -> Outcome | Exception:
+        """The outcome of a run, with facts in columns and those that are ``read`` from it, or what they raise."""
+        try:
+            own = read(run, self.each[place]) if len(columns) < len(facts) else {}
+        except Exception as error:
+            return error
+        result = {fact: columns[fact][place] if fact in columns else own[fact] for fact in facts}
+        return Outcome(run, result, self.each.__getitem__, place)
+
+
+def facts_at_once(
+    scene: Scene, facts: Sequence[str], flown: Flown, many: SceneParameters, each: Sequence[SceneParameters]
+) -> dict[str, list[Any]]:
+    """The values, for all runs, of those facts that can be computed from arrays.
+
+    What a function decides by comparing numbers it cannot decide for an array, which is an error; what it decides by
+    None, for what did not happen, is the same for all runs that lack the same. So a fact is compared with that of one
+    run of each such kind, and of the first, middle and last one.
+    """
+    found: dict[str, list[Any]] = {}
+    together: Any = AllRuns(flown)  # in place of a Run
+    count = len(each)
+    for key in facts:
+        try:
+            with np.errstate(all="ignore"), sys_exit_as_error():
+                values = _column(scene.facts[key].compute(together, many), count)
+        except Exception:
+            continue
+        found[key] = values
+    kinds = np.unique(np.array([np.zeros(count, bool), *together.missing]), axis=1, return_index=True)[1]
+    for place in {0, count // 2, count - 1, *kinds.tolist()} if found else ():
+        for key in [] if isinstance(flown[place], Exception) else list(found):
+            try:
+                (alone,) = scene.reader([key])(flown[place], each[place]).values()
+                agrees = _alike(found[key][place], alone)
+            except Exception:
+                agrees = False
+            if not agrees:
+                del found[key]
+    return found
+
+
+def _column(values: Any, count: int) -> list[Any]:
+    """The values of all runs: numbers, true and false, or what is the same for all. Raises TypeError for others."""
+    if isinstance(values, np.ndarray):
+        if values.shape != (count,) or values.dtype.kind not in "fib":
+            raise TypeError
+        found: list[Any] = values.tolist()
+        return found if values.dtype.kind != "f" or np.isfinite(values).all() else list(map(_known, found))
+    if values is not None and not isinstance(values, float | int | str):
+        raise TypeError
+    return [_known(values)] * count
+
+
+def _known(value: Any) -> Any:
+    return None if isinstance(value, float) and not isfinite(value) else value
+
+
+def _alike(one: Any, other: Any) -> bool:
+    """True if two values of a fact are the same, apart from rounding."""
+    return type(one) is type(other) and (one == other or (isinstance(one, float) and isclose(one, other, abs_tol=1e-9)))
 
 
 def _or_error(build: Build, values: SceneParameters) -> Setup | Exception:
@@ -119,10 +228,6 @@ def _until(scene: Scene, time: float) -> Build:
     return build
 
 
-def _nothing(run: Run, parameters: Any) -> dict[str, Any]:
-    return {}
-
-
 def built_at_once(build: Build, many: SceneParameters, each: Sequence[SceneParameters]) -> Stack | None:
     """The setups of many points, built once with arrays for the numbers that differ; None if the scene can be built
     only with single numbers. Some are compared with what is built for them alone."""
@@ -130,7 +235,7 @@ def built_at_once(build: Build, many: SceneParameters, each: Sequence[SceneParam
         return None
     try:
         with np.errstate(all="ignore"):
-            stack = Stack.split(build(many), len(each))
+            stack = Stack(build(many), len(each))
         some = (0, len(each) // 2, len(each) - 1)
         return stack if all(agree(stack[place], build(each[place])) for place in some) else None
     except Exception:

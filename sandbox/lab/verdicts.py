@@ -12,7 +12,7 @@ from typing import Any
 from sandbox import parameters as declared
 from sandbox.engine.model.accuracy import LEVELS
 from sandbox.engine.model.setup_errors import MethodFailed
-from sandbox.lab.runs import runs
+from sandbox.lab.runs import outcomes
 from sandbox.lab.tables import paragraph, table
 from sandbox.scene import Scene
 
@@ -101,7 +101,7 @@ def shot_map(scene: Scene) -> VerdictChanges | None:
         ]
 
     def verdicts(points: list[tuple[float, float]], how: Mapping[str, Any], finer: bool = False) -> list[Any]:
-        found = runs(scene.changed({**controls.set_on_pull, **how}), keys, points, finer)
+        found = outcomes(scene.changed({**controls.set_on_pull, **how}), keys, points, finer)
         return [run if isinstance(run, Exception) else verdict(scene, run.result) for run in found]
 
     started = perf_counter()

@@ -35,10 +35,12 @@ def _of_several(of_float: Callable[..., Any], of_arrays: str) -> Callable[..., A
     return function
 
 
-exp, log, sin, cos = map(_either, ("exp", "log", "sin", "cos"))
+exp, log, sin, cos, degrees = map(_either, ("exp", "log", "sin", "cos", "degrees"))
 
-#: Length of (x, y); elementwise minimum and maximum.
-hypot, minimum, maximum = (_of_several(*both) for both in ((math.hypot, "hypot"), (min, "minimum"), (max, "maximum")))
+#: Length of (x, y); the angle of y and x; elementwise minimum and maximum.
+hypot, atan2, minimum, maximum = (
+    _of_several(*both) for both in ((math.hypot, "hypot"), (math.atan2, "arctan2"), (min, "minimum"), (max, "maximum"))
+)
 
 
 def clip(x: Any, low: float, high: float) -> Any:
@@ -48,6 +50,15 @@ def clip(x: Any, low: float, high: float) -> Any:
     import numpy as np
 
     return np.minimum(np.maximum(x, low), high)  # in a third of the time of np.clip
+
+
+def rounded(x: Any, digits: int) -> Any:
+    """Return x to so many digits after the point."""
+    if isinstance(x, float):
+        return round(x, digits)
+    import numpy as np
+
+    return np.round(x, digits)
 
 
 def smooth(x: Any) -> Any:

@@ -43,6 +43,10 @@ class Fact:
     ``compute(run, parameters)`` returns the value in ``unit``, None if it did not happen. ``final_when`` says when it
     can no longer change: ``"start"``, ``"end"``, the first touch of a surface or ball of that name (``"floor"``), or
     a function of the parameters that gives a condition as for the end of a run.
+
+    Of many shots at once it is first asked for all values together: run and parameters then have arrays, as far as
+    ``first_crossing``, ``before_meeting`` and ``highest`` of a run give them. What cannot work with these, such as a
+    comparison or the list of events, is an error, and the fact is computed from one run after another.
     """
 
     key: str  # its name in the result, in JSON and CSV

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import atan2, degrees, hypot, pi
+from math import pi
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from sandbox.engine.model.setup import Touches
 from sandbox.engine.model.shapes import Vector
 from sandbox.engine.motion.forces_on_ball import cause
-from sandbox.physics.elementwise import maximum, minimum
+from sandbox.physics.elementwise import atan2, degrees, hypot, maximum, minimum, rounded
 from sandbox.sport.amounts import amount
 from sandbox.sport.facts import Fact, cached_per_run
 from sandbox.sport.flight import RPM
@@ -33,7 +33,8 @@ class Moment(NamedTuple):
     @property
     def speed(self) -> float:
         """In m/s."""
-        return hypot(self.vx, self.vy)
+        found: float = hypot(self.vx, self.vy)
+        return found
 
     @property
     def rpm(self) -> float:
@@ -43,12 +44,14 @@ class Moment(NamedTuple):
     @property
     def direction(self) -> float:
         """Angle in deg of its velocity, counter-clockwise from +x."""
-        return degrees(atan2(self.vy, self.vx))
+        found: float = degrees(atan2(self.vy, self.vx))
+        return found
 
     @property
     def descent(self) -> float:
         """Angle below the horizontal in deg, in whichever direction the ball flies."""
-        return degrees(atan2(0.0 - self.vy, abs(self.vx)))
+        found: float = degrees(atan2(0.0 - self.vy, abs(self.vx)))
+        return found
 
 
 #: The names of everything that can be read from a moment.
@@ -109,9 +112,13 @@ def down_to(run: Run, place: Vector) -> Moment | None:
     return before(run, touched.t)
 
 
+def _moment(found: tuple[float, State] | None) -> Moment | None:
+    return None if found is None else Moment(found[0], *found[1])
+
+
 def passing(run: Run, x: float, ball: str = "ball") -> Moment | None:
     """A ball as it first passes x (m) on its way forward."""
-    return next((Moment(t, *state) for t, state in run.crossings(ball, (x, 0.0), (-1.0, 0.0))), None)
+    return _moment(run.first_crossing(ball, (x, 0.0), (-1.0, 0.0)))
 
 
 def passing_at(place: Callable[[Any], float]) -> Callable[[Run, Any], Moment | None]:
@@ -162,10 +169,7 @@ def start(run: Run, parameters: Any) -> Moment:
 def first_contact_with(name: str) -> Callable[[Run, Any], Moment | None]:
     """Return a function that finds the ball just before it first touches the surface of that name."""
 
-    def compute(run: Run, parameters: Any) -> Moment | None:
-        return next((before(run, event.t) for event in run.events if event.partner == name), None)
-
-    return cached_per_run(compute)
+    return cached_per_run(lambda run, parameters: _moment(run.before_meeting(name)))
 
 
 def apex(run: Run, parameters: Any) -> float:
@@ -176,7 +180,7 @@ def apex(run: Run, parameters: Any) -> float:
 def launch_value(what: str) -> Callable[[Run, Any], Any]:
     """Return a function that reads a value of the launch, as it was given: -28.8 deg, though its sine and cosine have
     lost the last digit of that."""
-    return fact_from(start, lambda ball, parameters: round(getattr(ball, what), _DIGITS))
+    return fact_from(start, lambda ball, parameters: rounded(getattr(ball, what), _DIGITS))
 
 
 def whole_rpm(ball: Moment, parameters: Any) -> float:

@@ -12,7 +12,7 @@ import pygame
 
 from sandbox import parameters as declared
 from sandbox.errors import RequestError
-from sandbox.lab.runs import runs
+from sandbox.lab.runs import outcomes
 from sandbox.lab.scatter import ANGLE, SPEED, players_spread
 from sandbox.picture.palette import Colour, mix, palette
 from sandbox.scene import Scene
@@ -93,7 +93,7 @@ def score_map(scene: Scene, finer: int = 1) -> ScoreMap:
     points = np.stack(np.meshgrid(*middles, indexing="ij"), axis=-1).reshape(-1, 2)
     unseen = _unseen(scene)
     several = [[*point, *others] for point in points.tolist() for others in unseen.tolist()]
-    found = runs(scene, [*keys, *_hidden(scene)], several, asked=[controls.scores])
+    found = outcomes(scene, [*keys, *_hidden(scene)], several, asked=[controls.scores])
     scored = [np.nan if isinstance(run, Exception) else float(bool(run.result[controls.scores])) for run in found]
     units = known[controls.speed].unit or "", known[controls.angle].unit or ""
     shape = finer * COARSE[0], finer * COARSE[1]

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -9,9 +12,13 @@ import sandbox
 from sandbox import parameters as declared
 from sandbox.engine.many.stacking import FEWEST, agree
 from sandbox.engine.paths.run import Run
+from sandbox.lab import runs as lab_runs
 from sandbox.lab.axes import Varied
 from sandbox.lab.runs import builder, built_at_once, runs
 from sandbox.scene import listings, load
+from sandbox.scene.scene_run import SceneRun
+from sandbox.sport.facts import Fact
+from sandbox.sport.readings import apex, fact_from, first_contact_with, passing_at
 
 SCENES = [listing.name for listing in listings() if "/" not in listing.name]
 
@@ -47,6 +54,36 @@ def test_a_build_differing_between_compared_points_is_rejected():
     assert built_at_once(build, many, each[::-1]) is None  # what is built alone differs
     only_floats = lambda given: build(given if isinstance(given.launch.angle, float) else each[0])  # noqa: E731
     assert built_at_once(only_floats, many, each) is None
+
+
+def test_facts_from_arrays_are_those_of_single_runs(monkeypatch):
+    """Short throws do not pass the line: what a fact does then it must do for each of these."""
+    scene, line = load("throws"), passing_at(lambda it: 20.0)
+    computed: dict[str, Callable[[Any, Any], Any]] = {
+        "height": fact_from(line, "y"),
+        "angle": fact_from(line, "descent"),
+        "squared": fact_from(line, lambda ball, it: ball.speed * ball.speed / it.launch.speed),
+        "passes": lambda run, it: 0.0 if line(run, it) is None else 1.0,
+        "higher": lambda run, it: None if (ball := line(run, it)) is None else max(ball.y, 3.0),
+        "above": lambda run, it: apex(run, it) - it.release.height,
+        "landing": fact_from(first_contact_with("ground"), "speed"),
+        "touched": lambda run, it: len(run.events),
+        "mixed": lambda run, it: float(np.max(it.launch.speed)),
+        "word": lambda run, it: "thrown",
+    }
+    monkeypatch.setattr(scene.module, "FACTS", tuple(Fact(key, "", "", how) for key, how in computed.items()))
+    at_once: list[list[str]] = []
+    found_at_once = lab_runs.facts_at_once
+    noted = lambda *given: at_once.append(list(found := found_at_once(*given))) or found  # noqa: E731
+    monkeypatch.setattr(lab_runs, "facts_at_once", noted)
+    points = [(speed,) for speed in np.linspace(9.0, 17.0, FEWEST + 6).tolist()]
+    found = list(runs(scene, ["launch.speed"], points))
+    for run in found:
+        assert isinstance(run, SceneRun)
+        for key, value in run.scene.result(run.data).items():
+            assert run.result[key] == (pytest.approx(value, rel=1e-12) if isinstance(value, float) else value), key
+    assert {run.result["passes"] for run in found} == {0.0, 1.0}
+    assert at_once == [["height", "angle", "squared", "above", "landing", "word"]]
 
 
 def test_the_accuracy_may_differ_from_shot_to_shot():

@@ -55,19 +55,39 @@ class Paths:
         return times
 
     @cached_property
-    def tops(self) -> list[list[Passage]]:
-        """Time and state at the start of each path, and at the highest end of its arcs."""
-        found: list[list[Passage]] = [[] for _ in self._bounds[1:]]
-        lengths = np.diff(self._bounds)
-        numbers = np.flatnonzero(lengths)  # of the paths that have arcs
+    def lengths(self) -> np.ndarray:
+        """The number of arcs of each path."""
+        return np.diff(self._bounds)
+
+    @cached_property
+    def summits(self) -> tuple[np.ndarray, np.ndarray]:
+        """The time in s and the state where each path is highest, shapes (paths,) and (paths, 5); NaN without arcs. It
+        is the start, the end of an arc, or where it turns downwards."""
+        numbers = np.flatnonzero(self.lengths)  # of the paths that have arcs
         first, y = np.array(self._bounds)[numbers], self.rows[:, END.start + 1]
-        highest = np.flatnonzero(y == np.repeat(np.maximum.reduceat(y, first), lengths[numbers]))
+        highest = np.flatnonzero(y == np.repeat(np.maximum.reduceat(y, first), self.lengths[numbers]))
         top = highest[np.searchsorted(highest, first)]  # the first of equal ones
-        for rows, t, state in ((first, T0, START), (top, T1, END)):
-            passages = zip(self.rows[rows, t].tolist(), map(tuple, self.rows[rows, state].tolist()), strict=True)
-            for number, passage in zip(numbers.tolist(), passages, strict=True):
-                found[number].append(passage)
-        return found
+        turning, t, states = self.passing(0, len(self.rows), climb)
+        of = np.concatenate((numbers, numbers, turning))
+        t = np.concatenate((self.rows[first, T0], self.rows[top, T1], t))
+        states = np.concatenate((self.rows[first, START], self.rows[top, END], states))
+        order = np.lexsort((-states[:, 1], of))  # stable: the first of equal ones
+        best = order[np.unique(of[order], return_index=True)[1]]
+        return self.spread(numbers, t[best], states[best])
+
+    def spread(self, numbers: np.ndarray, t: np.ndarray, states: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Times in s and states of the paths with these numbers as those of all, with NaN for the others."""
+        times, found = np.full(len(self.lengths), np.nan), np.full((len(self.lengths), states.shape[1]), np.nan)
+        times[numbers], found[numbers] = t, states
+        return times, found
+
+    @cached_property
+    def _summits(self) -> list[Passage]:
+        return _listed(*self.summits)
+
+    def summit(self, number: int) -> Passage:
+        """Time in s and state where a path is highest."""
+        return self._summits[number]
 
     def passages(self, path: ArcRows, curve: Curve) -> list[Passage]:
         """Each time and state at which a curve becomes negative along a path. All paths are computed together as soon
@@ -75,15 +95,16 @@ class Paths:
         found = self._passages.get(curve)  # once: the hash of a curve takes as long as the rest
         if found is None:
             if self._asked.setdefault(curve, path.number) == path.number:
-                return [passage for _, passage in self._passing(path.first, path.last, curve)]
+                return _listed(*self.passing(path.first, path.last, curve)[1:])
             found = self._passages[curve] = [[] for _ in self._bounds]
-            for number, passage in self._passing(0, len(self.rows), curve):
+            numbers, t, states = self.passing(0, len(self.rows), curve)
+            for number, passage in zip(numbers.tolist(), _listed(t, states), strict=True):
                 found[number].append(passage)
         return found[path.number]
 
-    def _passing(self, first: int, last: int, curve: Curve) -> Iterator[tuple[int, Passage]]:
-        """The number of the path, and the passage, for the arcs in these rows; of each path in order, as in
-        ``Path.passages``."""
+    def passing(self, first: int, last: int, curve: Curve) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """The passages on the arcs in these rows, as in ``Path.passages``: the number of the path, the time in s, and
+        the state, shape (passages, 5); those of each path in order."""
         rows = self.rows[first:last]
         values, places = np.array(curve(arc_of(rows.T))), np.arange(len(rows))
         numbers = np.searchsorted(self._bounds, first + places, side="right") - 1
@@ -103,7 +124,7 @@ class Paths:
         rows, u = rows[at[order]], u[order]
         t = rows[:, T0] + u * (rows[:, T1] - rows[:, T0])
         states = np.array([evaluate(rows[:, part].T, u) for part in CURVES]).T
-        return zip(numbers[at[order]].tolist(), zip(t.tolist(), map(tuple, states.tolist()), strict=True), strict=True)
+        return numbers[at[order]], t, states
 
 
 class ArcRows(Path):
@@ -155,7 +176,7 @@ class ArcRows(Path):
     def highest(self, until: float = inf) -> Passage:
         """Time and state where it is highest, up to a time at which it is not."""
         if until == inf:
-            return max((*self.paths.tops[self.number], *self.passages(climb)), key=height)
+            return self.paths.summit(self.number)
         rows = self._rows
         at = int(np.where(rows[:, T1] <= until, rows[:, END.start + 1], -inf).argmax())  # of the ends
         ends = [(float(rows[at, T1]), tuple(rows[at, END].tolist()))]
@@ -165,6 +186,10 @@ class ArcRows(Path):
     def passages(self, curve: Curve) -> list[Passage]:
         """Each time and state at which a curve becomes negative."""
         return self.paths.passages(self, curve)
+
+
+def _listed(t: np.ndarray, states: np.ndarray) -> list[Passage]:
+    return list(zip(t.tolist(), map(tuple, states.tolist()), strict=True))
 
 
 def _first_signs(values: np.ndarray) -> np.ndarray:

@@ -8,7 +8,7 @@ state (``continuation.py``).
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from time import perf_counter
 from typing import Any
 
@@ -20,6 +20,7 @@ from sandbox.engine.many.batch_forces import NotVectorizable, accelerations, che
 from sandbox.engine.many.batch_impacts import BatchImpacts
 from sandbox.engine.many.batch_record import QUERIES, REFINED, STEPS, BatchRecord
 from sandbox.engine.many.continuation import ENDED, BatchExit, ExitReason
+from sandbox.engine.many.flown import Flown
 from sandbox.engine.many.in_flight import InFlight
 from sandbox.engine.many.outlines import BatchSurfaces
 from sandbox.engine.many.stacking import FEWEST, Stack, selector
@@ -28,7 +29,6 @@ from sandbox.engine.model.setup import Setup, Until
 from sandbox.engine.model.tolerances import CLOSING, NEGLIGIBLE_OVERLAP
 from sandbox.engine.motion.step_control import StepControl, allowed, shortest
 from sandbox.engine.paths.arc import hermite_arc
-from sandbox.engine.paths.run import Run
 
 #: Fields of a setup that are combined for flights together; their ``until`` is called for each.
 FLIGHT = ("balls", "surfaces", "force_regions", "bounds", "duration", "discontinuities")
@@ -41,7 +41,7 @@ MOST_PIECES = 500_000
 _WATCHED = 32
 
 
-def simulate_batch(setups: Sequence[Setup], accuracy: Accuracy) -> Iterator[Run | Exception] | None:
+def simulate_batch(setups: Sequence[Setup], accuracy: Accuracy) -> Flown | None:
     """A run of each setup, in order, or the exception it ended with; None if they cannot fly together."""
     stack = _stack(setups)
     if stack is None:
@@ -51,7 +51,7 @@ def simulate_batch(setups: Sequence[Setup], accuracy: Accuracy) -> Iterator[Run 
         batch.fly()
     except NotVectorizable:
         return None  # one at a time they run, or raise an error of their own
-    return batch.runs()
+    return batch.flown()
 
 
 def _stack(setups: Sequence[Setup]) -> Stack | None:
@@ -97,9 +97,9 @@ class Batch:
         self._drop()
         self._seconds = perf_counter() - started
 
-    def runs(self) -> Iterator[Run | Exception]:
+    def flown(self) -> Flown:
         """Each shot's run, in order, or the exception it ended with."""
-        return self._record.runs(self._seconds)
+        return self._record.flown(self._seconds)
 
     def _begin(self) -> None:
         """Start the shots that are in the air, or lie on one surface; the others are to be computed alone."""

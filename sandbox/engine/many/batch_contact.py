@@ -17,6 +17,7 @@ from sandbox.engine.many.in_flight import InFlight
 from sandbox.engine.many.outlines import BatchSurfaces
 from sandbox.engine.model.ball import Ball
 from sandbox.engine.model.event import Event
+from sandbox.engine.model.setup import is_over
 from sandbox.engine.model.tolerances import SEAM
 from sandbox.engine.motion.forces_on_ball import acceleration_function
 from sandbox.engine.motion.sustained_contact import BECOMES, SustainedContact, motion_on
@@ -211,14 +212,15 @@ class BatchContacts:
         """Note what becomes of a shot on a surface, if ``what`` is an event, after an impact there if it ``hit`` it.
         Returns why it leaves the batch now."""
         shot = self._flying.shot[lane]
-        setup, events = self._record.setups[shot], self._record.events[shot]
+        until, events = self._record.setups.part("until", shot), self._record.events[shot]
         noted = len(events)
         try:
-            over = hit and bool(events) and setup.ends_with(events)
+            over = hit and bool(events) and is_over(until, events)
             if what:
-                names, at = (setup.balls[0].name, setup.surfaces[surface].name), self._flying.state[:2, lane].tolist()
-                events.append(Event(float(self._flying.t[lane]), what, *names, 0.0, *at))
-                over = setup.ends_with(events) or over
+                ball, *surfaces = self._record.names
+                at = self._flying.state[:2, lane].tolist()
+                events.append(Event(float(self._flying.t[lane]), what, ball, surfaces[surface], 0.0, *at))
+                over = is_over(until, events) or over
         except BaseException as error:
             raise_if_ctrl_c(error)
             del events[noted:]

@@ -57,10 +57,9 @@ class BatchImpacts:
         flying.state[2:, lanes] = motion[:, resolved]
         flying.met[lanes], flying.normal[:, lanes] = surface, np.array(near[1:4])[:, resolved]
         numbers = shots, surface, flying.t[lanes], approach[resolved], x[resolved], y[resolved]
+        ball, *surfaces = self._record.names
         for shot, what, t, speed, *at in zip(*(each.tolist() for each in numbers), strict=True):
-            setup = self._record.setups[shot]
-            names = setup.balls[0].name, setup.surfaces[what].name
-            self._record.events[shot].append(Event(t, "impact", *names, speed, *at))
+            self._record.events[shot].append(Event(t, "impact", ball, surfaces[what], speed, *at))
 
     def _bounces(
         self, shots: np.ndarray, surface: np.ndarray, approach: np.ndarray, along: np.ndarray, resolved: np.ndarray

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -10,6 +9,7 @@ import numpy as np
 from sandbox.engine.live import Record
 from sandbox.engine.many.arc_rows import Paths, arc_of, columns_of
 from sandbox.engine.many.continuation import ENDED, BatchExit, Continuation
+from sandbox.engine.many.flown import Flown
 from sandbox.engine.many.stacking import Stack
 from sandbox.engine.model.accuracy import Accuracy
 from sandbox.engine.model.event import Event
@@ -27,9 +27,10 @@ class BatchRecord:
     def __init__(self, setups: Stack, accuracy: Accuracy, evaluations: int) -> None:
         """``evaluations`` of the forces are made in each step."""
         self.setups = setups
+        self.names = [each.name for each in (*setups.whole.balls, *setups.whole.surfaces)]
         self._accuracy = accuracy
         self._evaluations = evaluations
-        self.events: list[list[Event]] = [[] for _ in setups]
+        self.events: list[list[Event]] = [[] for _ in range(len(setups))]
         self.counts = np.zeros((4, len(setups)), dtype=int)
         self.contacts: list[Any] = []  # sustained ones, in the order in which they began
         self.exits: dict[int, BatchExit] = {}  # by shot
@@ -48,35 +49,43 @@ class BatchRecord:
                 return [arc_of(rows[:, np.flatnonzero(shots == shot)[-1]].tolist(), self.contacts)]
         return []
 
-    def runs(self, seconds: float) -> Iterator[Run | Exception]:
-        """Yield the run of each shot, in order, or the exception it ended with; the batch took so many ``seconds``."""
-        found = [self.run(shot, seconds / len(self.setups)) for shot in range(len(self.setups))]
+    def flown(self, seconds: float) -> Flown:
+        """The runs of all shots, of which those that are not over are continued alone; the batch took so many
+        ``seconds``."""
+        alone = {shot: self._continued(shot) for shot, left in self.exits.items() if left.reason not in ENDED}
         shots = np.concatenate([shots for shots, _ in self._paths])
         order = np.argsort(shots, kind="stable")
         rows = np.concatenate([columns for _, columns in self._paths], axis=1)[:, order].T
         paths = Paths(rows, np.cumsum(np.bincount(shots, minlength=len(self.setups))).tolist(), self.contacts)
-        for shot, run in enumerate(found):
-            if isinstance(run, Run):
-                run.arcs = {run.setup.balls[0].name: paths[shot]}
-            yield run
+        exits = [self.exits[shot] for shot in range(len(self.setups))]
+        return Flown(
+            self.setups,
+            self._accuracy,
+            paths,
+            self.events,
+            [left.t for left in exits],
+            [ENDED.get(left.reason, "") for left in exits],
+            self._numbers(slice(None)).T,
+            alone,
+            seconds / len(exits),
+        )
 
-    def run(self, shot: int, seconds: float) -> Run | Exception:
-        """The run of a shot, continued alone if it is not over, without its arcs, which become rows if they are
-        not."""
+    def _numbers(self, shots: int | slice) -> np.ndarray:
+        """Evaluations of the forces, steps, refined steps, impacts, steps of pymunk, and queries of these shots."""
+        steps, refined, impacts, queries = self.counts[:, shots]
+        return np.array(((self._evaluations + 1) * steps, steps, refined, impacts, impacts, queries))
+
+    def _continued(self, shot: int) -> Run | Exception:
+        """The run of a shot that is continued alone, without its arcs, which become rows if they are not."""
         setup, left, events = self.setups[shot], self.exits[shot], self.events[shot]
-        steps, refined, impacts, queries = self.counts[:, shot].tolist()
-        evaluations = (self._evaluations + 1) * steps
-        numerics = Numerics(evaluations, steps, refined, impacts, impacts, queries, seconds)
-        record = Record(setup, self._accuracy)
-        if left.reason in ENDED:
-            ended = ENDED[left.reason]
-            return Run(setup, self._accuracy, {}, events, numerics, left.t, ended, record=record)
         try:
             with setup_errors_named():
+                numerics = Numerics(*self._numbers(shot).tolist())
                 run = Continuation(setup, self._accuracy, numerics).resume(left, events)
         except Exception as error:
             return error
-        run.record = record
+        run.record = Record(setup, self._accuracy)
+        self.events[shot] = run.events
         arcs = list(run.arcs[setup.balls[0].name])[len(left.arcs) :]
         contacts = range(len(self.contacts), len(self.contacts) + len(arcs))
         self.contacts += [arc.contact for arc in arcs]

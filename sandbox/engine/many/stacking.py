@@ -54,27 +54,43 @@ def stacked(things: Sequence[Any]) -> Any:
 class Stack(Sequence[Any]):
     """Things that differ only in numbers: ``whole`` combines them."""
 
-    def __init__(self, whole: Any, each: Sequence[Any]) -> None:
+    def __init__(self, whole: Any, count: int, each: Sequence[Any] | None = None) -> None:
+        """So many things, made from the combination when they are asked for unless ``each`` is given."""
         self.whole = whole
+        self._count = count
         self._each = each
+        self._selectors: dict[str, Callable[[int], Any]] = {}
+        self._made: dict[int, Any] = {}  # each once, since parts of them are told apart by identity
 
     @classmethod
     def of(cls, things: Sequence[Any], names: Sequence[str]) -> Stack:
         """A stack of dataclass instances, which combines the fields with these names. Raises NotStackable."""
         combined = {name: stacked([getattr(thing, name) for thing in things]) for name in names}
-        return cls(_changed(things[0], combined), things)
-
-    @classmethod
-    def split(cls, whole: Any, count: int) -> Stack:
-        """A stack of which only the combination was made."""
-        return cls(whole, list(map(selector(whole, single=True), range(count))))
+        return cls(_changed(things[0], combined), len(things), things)
 
     def __len__(self) -> int:
-        return len(self._each)
+        return self._count
 
     def __getitem__(self, place: Any) -> Any:
         """The thing at this place, by itself."""
-        return self._each[place]
+        if self._each is not None:
+            return self._each[place]
+        if place >= self._count:
+            raise IndexError(place)
+        if place not in self._made:
+            self._made[place] = self._single("", self.whole)(place)
+        return self._made[place]
+
+    def part(self, name: str, place: int) -> Any:
+        """A field of the thing at this place."""
+        if self._each is None:
+            return self._single(name, getattr(self.whole, name))(place)
+        return getattr(self._each[place], name)
+
+    def _single(self, name: str, whole: Any) -> Callable[[int], Any]:
+        if name not in self._selectors:
+            self._selectors[name] = selector(whole, single=True)
+        return self._selectors[name]
 
 
 def selector(stack: Any, single: bool = False) -> Callable[[Any], Any]:

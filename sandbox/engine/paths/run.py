@@ -258,6 +258,15 @@ class Run(Drawable):
         """
         return ((t, State(*state)) for t, state in self._path(ball).passages(Above(*point, *normal)))
 
+    def first_crossing(self, ball: str, point: Vector, normal: Vector) -> tuple[float, State] | None:
+        """The first time (s) and State at which it does so; None if it never does."""
+        return next(self.crossings(ball, point, normal), None)
+
+    def before_meeting(self, partner: str, ball: str = "ball") -> tuple[float, State] | None:
+        """Time (s) of the first event with this partner, and State of a ball just before; None without one."""
+        t = next((event.t for event in self.events if event.partner == partner), None)
+        return None if t is None else (t, self.before(ball, t))
+
     def highest(self, ball: str, until: float = inf) -> tuple[float, State]:
         """Time (s) and State at which a ball's centre is highest, up to a time at which it is not."""
         t, state = self._path(ball).highest(until)

@@ -23,7 +23,7 @@ from sandbox.lab.aim.regions import regions
 from sandbox.lab.aim.scalar import roots_of
 from sandbox.lab.aim.shots import Shots
 from sandbox.lab.axes import Span, as_axis
-from sandbox.lab.runs import Progress, no_progress, runs
+from sandbox.lab.runs import Progress, no_progress, outcomes
 from sandbox.scene import Scene, as_scene
 from sandbox.text import check_mapping
 
@@ -111,7 +111,7 @@ def _as_whole(scene: Scene, spans: Sequence[Span], target: Target) -> Target:
     points = list(zip(*(np.linspace(span.low, span.high, _TRIED).tolist() for span in spans), strict=True))
     found = [
         run.result.get(target.name)
-        for run in runs(scene, [span.key for span in spans], points, asked=[target.name])
+        for run in outcomes(scene, [span.key for span in spans], points, asked=[target.name])
         if not isinstance(run, Exception)
     ]
     known = [value for value in found if value is not None]

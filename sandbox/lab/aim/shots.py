@@ -12,9 +12,8 @@ import numpy as np
 from sandbox.errors import RequestError, RunError
 from sandbox.lab.aim.question import MAXIMIZE, Target, Trial
 from sandbox.lab.axes import Span
-from sandbox.lab.runs import Progress, fly_together, runs
+from sandbox.lab.runs import Outcome, Progress, fly_together, outcomes
 from sandbox.scene import Scene, compare
-from sandbox.scene.scene_run import SceneRun
 from sandbox.text import no_such_result
 from sandbox.tracebacks import one_line_error
 
@@ -57,7 +56,7 @@ class Shots:
         self._progress = progress
         self._first_error: Exception | None = None
         self._known: dict[tuple[float, ...], dict[str, Any] | None] = {}
-        self._finer: dict[tuple[float, ...], SceneRun | Exception] = {}
+        self._finer: dict[tuple[float, ...], Outcome | Exception] = {}
 
     def results(
         self, points: Sequence[tuple[float, ...]], phase: str = "scan", others: bool = False
@@ -65,7 +64,7 @@ class Shots:
         """The targeted results at some points, and ``others`` that become final with them; None if the run failed."""
         asked = _final_with(self.scene, self._names) if others else self._names
         new = [point for point in dict.fromkeys(points) if point not in self._known]
-        for point, run in zip(new, runs(self.scene, self._keys, new, asked=asked), strict=True):
+        for point, run in zip(new, outcomes(self.scene, self._keys, new, asked=asked), strict=True):
             if isinstance(run, Exception):
                 self.failures += 1
                 self._first_error = self._first_error or run
@@ -83,10 +82,10 @@ class Shots:
         """Keep the widths, as a share of each range, below which an interval or region, or a gap, may be missed."""
         self.resolution = {span.key: share * (span.high - span.low) for span in self.spans}
 
-    def finer(self, points: Sequence[tuple[float, ...]]) -> list[SceneRun | Exception]:
+    def finer(self, points: Sequence[tuple[float, ...]]) -> list[Outcome | Exception]:
         """Finer runs at some points, with all facts but how a run ends."""
         new = [point for point in dict.fromkeys(points) if point not in self._finer]
-        found = runs(self.scene, self._keys, new, finer=True, asked=self.scene.facts_except_ended)
+        found = outcomes(self.scene, self._keys, new, finer=True, asked=self.scene.facts_except_ended)
         self._finer |= zip(new, found, strict=True)
         return [self._finer[point] for point in points]
 
@@ -112,16 +111,17 @@ class Shots:
     def checked(self, points: Sequence[tuple[float, ...]]) -> list[tuple[dict[str, Any], dict[str, float], np.ndarray]]:
         """The whole result at each of some points, its estimated errors, and the shift of the aimed-at results in a
         finer run."""
-        coarser = runs(self.scene, self._keys, points, asked=self.scene.facts_except_ended)
+        coarser = outcomes(self.scene, self._keys, points, asked=self.scene.facts_except_ended)
         return [self._compared(*each) for each in zip(points, coarser, self.finer(points), strict=True)]
 
     def _compared(
-        self, point: tuple[float, ...], run: SceneRun | Exception, finer: SceneRun | Exception
+        self, point: tuple[float, ...], run: Outcome | Exception, finer: Outcome | Exception
     ) -> tuple[dict[str, Any], dict[str, float], np.ndarray]:
         if isinstance(run, Exception) or isinstance(finer, Exception):
             return dict(self._known.get(point) or {}), {}, np.full(len(self.targets), np.nan)
         shift = self.missed(finer.result) - self.missed(run.result) if all(t.is_number for t in self.targets) else None
-        return run.result, compare(run, finer).errors, np.zeros(0) if shift is None else shift
+        errors = compare(run.of(self.scene), finer.of(self.scene)).errors
+        return run.result, errors, np.zeros(0) if shift is None else shift
 
     def nearest(self) -> Trial | None:
         """The try with the smallest miss. Raises RunError if none was completed."""
@@ -178,7 +178,7 @@ def _kind(value: Any) -> str:
     )
 
 
-def _result(run: SceneRun | Exception) -> dict[str, Any] | None:
+def _result(run: Outcome | Exception) -> dict[str, Any] | None:
     return None if isinstance(run, Exception) else run.result
 
 

@@ -13,7 +13,7 @@ from sandbox.errors import RequestError
 from sandbox.lab.fit.measured import Free
 from sandbox.lab.formats import Form
 from sandbox.lab.mapped import mapped
-from sandbox.lab.runs import runs
+from sandbox.lab.runs import outcomes
 from sandbox.lab.selection import LeftOut, reasons
 from sandbox.lab.table_file import Table
 from sandbox.scene import Scene
@@ -103,7 +103,7 @@ class Launches:
         launches = list(zip(*(column.tolist() for column in self.given.values()), strict=True))
         points = [(*candidate, *launch) for candidate, launch in product(values[:, : len(keys)].tolist(), launches)]
         found = np.full((len(points), len(self.measured)), np.nan)
-        for place, run in enumerate(runs(scene, [*keys, *self.given], points, asked=tuple(self.measured))):
+        for place, run in enumerate(outcomes(scene, [*keys, *self.given], points, asked=tuple(self.measured))):
             if not isinstance(run, Exception):
                 found[place] = [np.nan if run.result[name] is None else run.result[name] for name in self.measured]
         return found.reshape(len(values), self.count, -1)

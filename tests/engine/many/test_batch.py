@@ -579,7 +579,7 @@ def test_first_touches_are_those_of_single_obstacles():
         end = (x + u * h, y + v * h - 4.9 * h * h, u, v - 9.8 * h, 0.0)
         arcs.append(hermite_arc(0.0, h, tuple(start), (0.0, -9.8, 0.0), end, (0.0, -9.8, 0.0)))
     coefficients = [np.array([getattr(arc, c) for arc in arcs]).T for c in "xy"]
-    outlines = BatchSurfaces(Stack(setup, [setup] * count))
+    outlines = BatchSurfaces(Stack(setup, count))
     found, _ = outlines.first_touch(np.arange(count), *coefficients, lambda i: arcs[i])
     obstacles = [Obstacle(surface, 0.12) for surface in surfaces]
     touches = 0
@@ -606,7 +606,7 @@ def test_a_side_first_passed_beyond_its_end_is_still_touched():
     arcs = []
     for xs, ys in zip(x.T.tolist(), y.T.tolist(), strict=True):
         arcs.append(Arc(0.0, 1.0, (xs[0], ys[0], 0.0, 0.0, 0.0), (xs, ys, [0.0] * 5, [0.0] * 5, [0.0] * 4)))
-    found, _ = BatchSurfaces(Stack(setup, [setup] * count)).first_touch(np.arange(count), x, y, lambda i: arcs[i])
+    found, _ = BatchSurfaces(Stack(setup, count)).first_touch(np.arange(count), x, y, lambda i: arcs[i])
     obstacle = Obstacle(slope, 0.12)
     for arc, u in zip(arcs, found.tolist(), strict=True):
         expected = obstacle.first_touch(arc)

@@ -1,0 +1,142 @@
+"""Shots that have flown together, as rows: paths, events, ends and counts, from which a run is made when it is asked
+for. Whatever computes many shots gives them in this form."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from math import nan
+from typing import Any
+
+import numpy as np
+
+from sandbox.engine.live import Record
+from sandbox.engine.many.arc_rows import END, T1, Paths
+from sandbox.engine.many.stacking import Stack
+from sandbox.engine.model.accuracy import Accuracy
+from sandbox.engine.model.event import Event
+from sandbox.engine.model.setup import Setup
+from sandbox.engine.model.shapes import Vector
+from sandbox.engine.paths.path import Above, Path
+from sandbox.engine.paths.run import Numerics, Run, State
+
+
+class Flown(Sequence[Any]):
+    """The runs of many shots, in order; in place of one that failed the exception with which it ended."""
+
+    def __init__(
+        self,
+        setups: Stack,
+        accuracy: Accuracy,
+        paths: Paths,
+        events: Sequence[list[Event]],
+        durations: Sequence[float],
+        ended: Sequence[str],
+        counts: np.ndarray,
+        alone: Mapping[int, Run | Exception],
+        seconds: float,
+    ) -> None:
+        """Of each shot: its path, its events, its duration in s, how it ended and what it cost. ``counts`` has the
+        shape (shots, 6): the first six fields of ``Numerics``; each shot took so many ``seconds``. Those that ran
+        ``alone`` have only a path."""
+        self.setups = setups
+        self.accuracy = accuracy
+        self.paths = paths
+        self.events = events
+        self.durations = durations
+        self.ended = ended
+        self.counts = counts
+        self.seconds = seconds
+        self._alone = alone
+        self.ball: str = setups.whole.balls[0].name
+        for shot, run in alone.items():
+            if isinstance(run, Run):
+                run.arcs = {self.ball: paths[shot]}
+
+    def __len__(self) -> int:
+        return len(self.setups)
+
+    def __getitem__(self, shot: Any) -> Any:
+        return self._alone.get(shot) or FlownRun(self, shot)
+
+
+class FlownRun(Run):
+    """The run of one of many shots: what is asked of it is read from their rows then."""
+
+    def __init__(self, flown: Flown, shot: int) -> None:
+        self._flown, self._shot = flown, shot
+        self.duration = flown.durations[shot]
+        self.ended = flown.ended[shot]
+
+    @cached_property
+    def accuracy(self) -> Accuracy:  # type: ignore[override]
+        return self._flown.accuracy
+
+    @cached_property
+    def setup(self) -> Setup:  # type: ignore[override]
+        return self._flown.setups[self._shot]
+
+    @cached_property
+    def arcs(self) -> Mapping[str, Path]:  # type: ignore[override]
+        return {self._flown.ball: self._flown.paths[self._shot]}
+
+    @cached_property
+    def events(self) -> list[Event]:  # type: ignore[override]
+        return self._flown.events[self._shot]
+
+    @cached_property
+    def numerics(self) -> Numerics:  # type: ignore[override]
+        found = Numerics(*self._flown.counts[self._shot].tolist())
+        found.wall_s = self._flown.seconds
+        return found
+
+    @cached_property
+    def record(self) -> Record:  # type: ignore[override]
+        return Record(self.setup, self.accuracy)
+
+
+class AllRuns:
+    """All runs as one, with arrays in place of numbers: what a fact may read of them at once.
+
+    A time or state that a run does not have is NaN where a run alone has None; ``missing`` lists which runs that
+    concerns. Whatever else a fact reads it reads of one run after another: here it is an AttributeError.
+    """
+
+    def __init__(self, flown: Flown) -> None:
+        self.setup: Setup = flown.setups.whole
+        self.missing: list[np.ndarray] = []  # masks, shape (shots,)
+        self._flown = flown
+
+    def highest(self, ball: str) -> tuple[np.ndarray, State]:
+        """As ``Run.highest``."""
+        return self._found(ball, *self._paths.summits)
+
+    def first_crossing(self, ball: str, point: Vector, normal: Vector) -> tuple[np.ndarray, State]:
+        """As ``Run.first_crossing``; the line may be another one for each run."""
+        count, lengths = len(self._flown), self._paths.lengths
+        line: list[Any] = [np.repeat(np.broadcast_to(part, count), lengths) for part in (*point, *normal)]
+        numbers, t, states = self._paths.passing(0, len(self._paths.rows), Above(*line))
+        numbers, first = np.unique(numbers, return_index=True)
+        return self._found(ball, *self._paths.spread(numbers, t[first], states[first]))
+
+    def before_meeting(self, partner: str, ball: str = "ball") -> tuple[np.ndarray, State]:
+        """As ``Run.before_meeting``."""
+        flown = self._flown
+        times = [next((event.t for event in events if event.partner == partner), nan) for events in flown.events]
+        t, paths = np.array(times), self._paths
+        ends = np.flatnonzero(paths.rows[:, T1] == np.repeat(t, paths.lengths))
+        numbers, first = np.unique(np.repeat(np.arange(len(t)), paths.lengths)[ends], return_index=True)
+        _, states = paths.spread(numbers, t[numbers], paths.rows[ends[first], END])
+        for shot in np.flatnonzero(np.isfinite(t) & np.isnan(states[:, 0])).tolist():  # at its start
+            states[shot] = flown[shot].before(flown.ball, times[shot])
+        return self._found(ball, t, states)
+
+    @property
+    def _paths(self) -> Paths:
+        return self._flown.paths
+
+    def _found(self, ball: str, t: np.ndarray, states: np.ndarray) -> tuple[np.ndarray, State]:
+        if ball != self._flown.ball:
+            raise KeyError(ball)
+        self.missing.append(np.isnan(t))
+        return t, State(*states.T)
