@@ -60,6 +60,7 @@ class Course:
         self.high = np.array([control.high for control in self.task.controls])
         self.keys = [*(start.key for start in self.task.start), *self.task.defaults]
         self.observed = [start for start in self.task.start if not (self.several and self._is_of_list(start))]
+        self._observed = [(self.keys.index(start.key), start) for start in self.observed]
         self._varied = Varied(scene, self.keys)
         self._build, self._read = builder(scene, self.facts), scene.reader(self.facts)
         self._accuracy = resolve(**scene.parameters.accuracy.model_dump())
@@ -160,8 +161,7 @@ class Course:
 
     def observation(self, drawn: Sequence[Any], setup: Setup | None = None) -> NDArray[np.float32]:
         """The observation of a start, and of balls as they lie in a setup: of the first shot, or of a later one."""
-        by_key = dict(zip(self.keys, drawn, strict=False))
-        found = [_number(start, by_key[start.key]) for start in self.observed]
+        found = [_number(start, drawn[place]) for place, start in self._observed]
         if self.several and setup is not None:
             (left, bottom), (right, top) = self._extent
             places = {ball.name: ball.position for ball in setup.balls}

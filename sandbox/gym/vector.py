@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -149,25 +149,29 @@ class TaskVectorEnv(VectorEnv[Any, Any, Any]):
         aimed = self._aimed(actions, playing)
         for place in np.flatnonzero(self._over).tolist():
             self._begin(place)
-        found = self._played(aimed, np.flatnonzero(playing).tolist())
         self._shots[playing] += 1
         task = self.course.task
         rewards, (made, over) = np.zeros(self.num_envs), np.zeros((2, self.num_envs), bool)
-        for place, run in found.items():
-            result = None if isinstance(run, Exception) else run.result
-            worth = None if result is None else task.score.of_shot(result)
+        results: list[Mapping[str, Any] | None] = [None] * self.num_envs
+        errors = [""] * self.num_envs
+        for place, run in self._played(aimed, np.flatnonzero(playing).tolist()):  # and dropped, one after another
+            if isinstance(run, Exception):
+                worth, over[place], errors[place] = None, True, str(run)
+            else:
+                results[place] = run.result
+                worth = task.score.of_shot(run.result)
+                over[place] = task.is_over(run.result, int(self._shots[place]))
+                if not over[place]:
+                    self._later[place] = task.after(run.of(task.scene) if isinstance(run, Outcome) else run)
             made[place] = task.is_made(worth)
-            over[place] = result is None or task.is_over(result, int(self._shots[place]))
             rewards[place] = task.reward(worth, bool(over[place]))
-            if not over[place]:
-                assert not isinstance(run, Exception)
-                self._later[place] = task.after(run.of(task.scene) if isinstance(run, Outcome) else run)
+        values = self._values(results, errors, made, aimed)
         if self._mode is AutoresetMode.SAME_STEP:
-            infos = self._infos(found, made, aimed, ~over)
+            infos = _held(values, ~over)
             if over.any():
-                self._begin_anew(over, infos, self._infos(found, made, aimed, over))
+                self._begin_anew(over, infos, _held(values, over))
         else:
-            self._over, infos = over.copy(), self._infos(found, made, aimed, playing)
+            self._over, infos = over.copy(), _held(values, playing)
         return self._observations(range(self.num_envs)), rewards, over, np.zeros(self.num_envs, bool), infos
 
     def _begin_anew(self, over: NDArray[np.bool_], infos: dict[str, Any], final: dict[str, Any]) -> None:
@@ -180,39 +184,41 @@ class TaskVectorEnv(VectorEnv[Any, Any, Any]):
         for place in places:
             self._begin(place)
 
-    def _played(self, aimed: NDArray[Any], places: Sequence[int]) -> dict[int, Outcome | SceneRun | Exception]:
+    def _played(
+        self, aimed: NDArray[Any], places: Sequence[int]
+    ) -> Iterator[tuple[int, Outcome | SceneRun | Exception]]:
         """The runs of the attempts at these places: of first shots together, of later ones one by one."""
-        course, rows = self.course, aimed.tolist()
-        found: dict[int, Outcome | SceneRun | Exception] = {}
+        course, rows, later = self.course, aimed.tolist(), [*self._later]
         first = [place for place in places if self._later[place] is None]
         points = [[*self._drawn[place], *rows[place]] for place in first]
         if first:
-            found |= zip(first, outcomes(course.task.scene, course.keys, points, asked=course.facts), strict=True)
-        for place in (place for place in places if self._later[place] is not None):
+            yield from zip(first, outcomes(course.task.scene, course.keys, points, asked=course.facts), strict=True)
+        for place in (place for place in places if later[place] is not None):
             values: Mapping[str, float] = dict(zip(course.task.defaults, rows[place], strict=True))
             try:
-                found[place] = course.shot(self._later[place], self._drawn[place], values)
+                yield place, course.shot(later[place], self._drawn[place], values)
             except (RunError, RequestError) as error:
-                found[place] = error
-        return found
+                yield place, error
 
-    def _infos(
+    def _values(
         self,
-        found: Mapping[int, Outcome | SceneRun | Exception],
-        made: NDArray[Any],
+        results: Sequence[Mapping[str, Any] | None],
+        errors: Sequence[str],
+        made: NDArray[np.bool_],
         aimed: NDArray[Any],
-        mask: NDArray[Any],
     ) -> dict[str, Any]:
-        """Facts as arrays, as Gymnasium has them: each with a mask of the attempts for which it holds."""
-        if not mask.any():
-            return {}
-        infos: dict[str, Any] = {}
-        played = [found.get(place) for place in range(self.num_envs)]
-        results = [run.result if isinstance(run, Outcome | SceneRun) else None for run in played]
-        for fact in self.course.facts:
-            infos[fact] = as_array([None if result is None else result[fact] for result in results])
-        infos["is_success"] = made
-        infos["controls"] = {key: aimed[:, column] for column, key in enumerate(self.course.task.defaults)}
-        if any(isinstance(run, Exception) for run in played):
-            infos["error"] = np.array([str(run) if isinstance(run, Exception) else "" for run in played], object)
-        return infos | {f"_{key}": mask.copy() for key in infos}
+        """Facts and controls of all attempts, as arrays."""
+        values: dict[str, Any] = {
+            fact: as_array([None if result is None else result[fact] for result in results])
+            for fact in self.course.facts
+        }
+        values["is_success"] = made
+        values["controls"] = {key: aimed[:, column] for column, key in enumerate(self.course.task.defaults)}
+        if any(errors):
+            values["error"] = np.array(errors, object)
+        return values
+
+
+def _held(values: dict[str, Any], mask: NDArray[np.bool_]) -> dict[str, Any]:
+    """Values as Gymnasium has them in infos: each with a mask of the attempts for which it holds."""
+    return values | {f"_{key}": mask.copy() for key in values} if mask.any() else {}

@@ -79,7 +79,7 @@ def outcomes(
     ``asked`` for, each run ends when these are final, and its result contains only these. If only paths ``until`` a
     time in s are, each run ends then, also where the scene would end it earlier, and its result is empty.
     """
-    build, varied = builder(scene, asked) if until is None else _until(scene, until), Varied(scene, keys)
+    build, varied = builder(scene, asked) if until is None else _until(scene, until), _varied(scene, keys)
     facts = [key for key in scene.facts if until is None and (not asked or key in asked)]
     found: dict[int, Iterator[Outcome | Exception]] = {}
     for places, many in varied.together(points):
@@ -87,6 +87,19 @@ def outcomes(
         found |= dict.fromkeys(places, together.outcomes(scene, facts, finer))
     for place in range(len(points)):
         yield next(found[place])
+
+
+#: What varied last: a search asks for the same again and again, and checking a whole scene takes as long as a flight.
+_last: list[tuple[Scene, list[str], Varied]] = []
+
+
+def _varied(scene: Scene, keys: Sequence[str]) -> Varied:
+    for known, of, varied in _last:
+        if known is scene and of == [*keys]:
+            return varied
+    varied = Varied(scene, keys)
+    _last[:] = [(scene, [*keys], varied)]
+    return varied
 
 
 class _Each(Sequence[Any]):
@@ -272,7 +285,7 @@ def _resolved(accuracy: declared.Accuracy, finer: bool) -> Accuracy:
 def fly_together(scene: Scene, keys: Sequence[str], values: Sequence[Any]) -> bool:
     """True if the engine computes many runs of this kind at once, judged by the one with these values."""
     try:
-        parameters = Varied(scene, keys).parameters(values)
+        parameters = _varied(scene, keys).parameters(values)
         return can_batch(replace(scene, parameters=parameters).build(), _resolved(parameters.accuracy, False))
     except Exception:
         return False  # its row reports the error
