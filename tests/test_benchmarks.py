@@ -192,6 +192,13 @@ def test_worlds(run: Run):
     check(run("worlds", "--quick"), "frames", "mean_s", "worst_s")
 
 
+def test_scaling(run: Run):
+    found = run("scaling", "--quick", "--only", "balls,surfaces,pile,rows")
+    for name, table in found.items():
+        assert math.isfinite(table["exponent"])
+        check(table["rows"], "time_s", "memory_mb" if name == "rows" else "events")
+
+
 def test_window(tmp_path: Path):
     """In a process of its own: it chooses the display's driver."""
     out = tmp_path / "out.json"

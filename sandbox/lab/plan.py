@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from sandbox.engine.many.batch_forces import why_alone
 from sandbox.errors import RequestError
 from sandbox.lab.axes import MOST_POINTS, Axis, Normal, Span, Values
 from sandbox.lab.provenance import Provenance, provenance
@@ -133,8 +134,6 @@ class Plan:
 
     def why_alone(self) -> str:
         """Return why shots that could be computed together ran one by one; "" if they need to, or did not."""
-        from sandbox.engine.many.batch_forces import why_alone
-
         run = self._first_run() if self.block > 1 else None
         return "" if run is None or isinstance(run, Exception) else why_alone(run.setup)
 
