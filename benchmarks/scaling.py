@@ -160,14 +160,14 @@ def main() -> None:
     arguments = command_line(__doc__, repeats=3, options=options)
     quick, repeats, wanted = arguments.quick, arguments.repeats, arguments.only.split(",")
     gc.set_threshold(100_000)  # as in the program itself
-    some = slice(2) if quick else slice(None)
+    some = 2 if quick else None
     sizes = [rows for rows in ROWS if rows < arguments.rows] + [int(arguments.rows)]
     measured: dict[str, Callable[[], dict[str, Any]]] = {
-        "balls": partial(grown, "balls", BALLS[some], lambda n: simulated(gas(n), repeats)),
-        "surfaces": partial(grown, "surfaces", SURFACES[some], lambda n: simulated(floor_of(n), repeats)),
-        "pile": partial(grown, "pile", PILE[some], lambda n: simulated(pile(n), repeats)),
+        "balls": partial(grown, "balls", BALLS[:some], lambda n: simulated(gas(n), repeats)),
+        "surfaces": partial(grown, "surfaces", SURFACES[:some], lambda n: simulated(floor_of(n), repeats)),
+        "pile": partial(grown, "pile", PILE[:some], lambda n: simulated(pile(n), repeats)),
         "rows": partial(grown, "rows", (10, 20) if quick else sizes, of_rows),
-        "jobs": partial(of_jobs, 20 if quick else ROWS_OF_JOBS, JOBS[some]),
+        "jobs": partial(of_jobs, 20 if quick else ROWS_OF_JOBS, JOBS[:some]),
     }
     results = {name: measure() for name, measure in measured.items() if name in wanted}
     for name, found in results.items():
