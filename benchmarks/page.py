@@ -31,6 +31,7 @@ SCRIPTS = {
     "forces": "benchmarks/forces.py",
     "frames": "benchmarks/frames.py",
     "sweep": "benchmarks/sweep.py",
+    "scaling": "benchmarks/scaling.py",
     "start": "benchmarks/start.py",
 }
 #: Packages whose versions are listed.

@@ -152,9 +152,13 @@ class ClusterSearch:
             for other, mover in enumerate(self._movers):
                 if other in members or mover.caught:
                     continue
-                x, y = mover.arc.position(t)
                 apart = mover.ball.radius + self._movers[index].ball.radius
-                if abs(x - state[0]) + abs(y - state[1]) > 2.0 * apart + 2.0 * blow.fastest * blow.lasts:
+                far = 2.0 * apart + 2.0 * blow.fastest * blow.lasts
+                left, bottom, right, top = mover.arc.box()
+                if not (left - far <= state[0] <= right + far and bottom - far <= state[1] <= top + far):
+                    continue
+                x, y = mover.arc.position(t)
+                if abs(x - state[0]) + abs(y - state[1]) > far:
                     continue
                 there = mover.arc.state(t)
                 towards = max(0.0, self._approach(state, there))
