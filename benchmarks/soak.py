@@ -45,6 +45,7 @@ import sandbox
 from sandbox import parameters as declared
 from sandbox import resources
 from sandbox.cli import main as program
+from sandbox.cli.new import new_scene
 from sandbox.engine import simulate
 from sandbox.engine.model.accuracy import resolve
 from sandbox.engine.model.ball import Ball, Body, kinetic
@@ -52,7 +53,6 @@ from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.shapes import Ellipse, Polygon, Shape, box, capsule
 from sandbox.engine.model.surface import Bounce, ConstantBounce, Segment, Surface
 from sandbox.errors import RequestError, RunError
-from sandbox.new import new_scene
 from sandbox.physics.forces import Gravity
 from sandbox.scene import listings
 from sandbox.scene.scene_run import SceneRun

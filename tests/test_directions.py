@@ -282,7 +282,7 @@ def test_the_rules_can_be_broken(own: str, source: str):
         ("engine", "from sandbox.physics.integrators import rk4\nfrom sandbox.errors import RunError\nimport pymunk"),
         ("picture", "from sandbox.scene import load\nimport pygame"),
         ("scene", "from sandbox import parameters, resources"),
-        ("cli", "from sandbox import __version__, report"),
+        ("cli", "from sandbox import __version__, entries"),
     ],
 )
 def test_the_rules_allow_what_they_should(own: str, source: str):

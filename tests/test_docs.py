@@ -27,8 +27,8 @@ import sandbox.physics
 from docs.lists import LISTS, page_with_lists
 from sandbox import kit
 from sandbox.cli import program
+from sandbox.cli.new import FROM_ABOVE, FROM_SIDE, new_scene
 from sandbox.cli.program import app
-from sandbox.new import FROM_ABOVE, FROM_SIDE, new_scene
 from sandbox.parameters import walk
 from sandbox.physics.integrators import INTEGRATORS
 from sandbox.record import diverges

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from sandbox.new import new_scene
+from sandbox.cli.new import new_scene
 from tests.own_scene import BUILD, DROP, Outcome, assert_refused, change, copy_of
 
 Call = Callable[..., Outcome]
@@ -237,7 +237,7 @@ def test_exit_in_a_sweep_fails_its_points(call: Call, scene: Path, jobs: int):
 
 
 def test_a_bug_of_ours_is_not_hidden(call: Call, monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr("sandbox.report.card", lambda *_: [][0])
+    monkeypatch.setattr("sandbox.cli.card.card", lambda *_: [][0])
     monkeypatch.setattr("sandbox.tracebacks.is_ours", lambda filename: True)  # this test stands in for our own code
     with pytest.raises(IndexError):
         call("run", "golf")

@@ -8,8 +8,7 @@ from pathlib import Path
 import pytest
 
 import sandbox
-from sandbox import rows
-from sandbox.cli import program
+from sandbox.cli import program, rows
 
 
 def table(path: Path) -> list[dict[str, str]]:

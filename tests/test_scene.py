@@ -16,8 +16,8 @@ import pytest
 
 import sandbox
 from sandbox import resources
+from sandbox.cli.new import new_scene
 from sandbox.errors import RequestError
-from sandbox.new import new_scene
 from sandbox.parameters import Group, walk
 from sandbox.scene import listings, reference
 from sandbox.scene.finding import folder_of, is_installed

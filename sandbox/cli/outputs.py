@@ -71,13 +71,13 @@ class Output:
 
 
 def _trajectory(drawn: Drawn, path: Path) -> None:
-    from sandbox import rows
+    from sandbox.cli import rows
 
     rows.write_trajectory(drawn.run, path, drawn.others, drawn.every or rows.EVERY, drawn.columns)
 
 
 def _momentum(drawn: Drawn, path: Path) -> None:
-    from sandbox import rows
+    from sandbox.cli import rows
 
     rows.write_impacts(drawn.run, path, drawn.others)
 

@@ -91,7 +91,7 @@ def run(
       sandbox run my-shot.toml --accuracy precise --check --json
       sandbox run free-throw --attempt 3 --set launch.speed=7.4
     """
-    from sandbox import report
+    from sandbox.cli import card
     from sandbox.progress import bar
     from sandbox.scene import check as check_scene
     from sandbox.scene import simulate
@@ -114,11 +114,11 @@ def run(
         others = {source: simulate(other, progress=progress) for source, other in compared.items()}
     if as_json:
         more = {} if task is None else {"attempt": task.report(done)}
-        said = report.as_json(chosen, done, checked, list(others.values()), more)
+        said = card.as_json(chosen, done, checked, list(others.values()), more)
     else:
-        said = "\n".join([*report.card(chosen, done, checked, others), *([] if task is None else task.lines(done))])
+        said = "\n".join([*card.card(chosen, done, checked, others), *([] if task is None else task.lines(done))])
         if paths["momentum"] is not None:
-            from sandbox.rows import impact_lines
+            from sandbox.cli.rows import impact_lines
 
             said = "\n".join([said, "", *impact_lines(done)])
     outputs.write(files, outputs.Drawn(done, size, fps, others, *sampled))
@@ -129,7 +129,7 @@ def run(
 def _sampling(every: str | None, columns: str | None, path: Path | None) -> tuple[float | None, tuple[str, ...]]:
     """The interval in s and the added columns of a trajectory. Raises RequestError."""
     from sandbox import units
-    from sandbox.rows import MORE
+    from sandbox.cli.rows import MORE
 
     for option, given in (("--every", every), ("--columns", columns)):
         if given is not None and path is None:

@@ -26,7 +26,7 @@ def list_scenes(scene: str | None, keys: bool) -> None:
     from sandbox.scene import listings, listings_in, listings_of
 
     if keys:
-        from sandbox.keys import key_table
+        from sandbox.cli.keys import key_table
 
         if scene is None:
             raise RequestError("list --keys: of which scene? For example: sandbox list golf --keys")
@@ -76,7 +76,7 @@ def new(name: Path, from_above: bool, copied: str | None) -> None:
       sandbox run ./beachvolley
       sandbox new my-golf --from golf
     """
-    from sandbox.new import FROM_ABOVE, FROM_SIDE, new_scene, next_steps
+    from sandbox.cli.new import FROM_ABOVE, FROM_SIDE, new_scene, next_steps
 
     if from_above and copied is not None:
         raise RequestError(f"new {name}: give --from-above or --from {copied}, not both")

@@ -13,6 +13,7 @@ import pytest
 from PIL import Image
 
 from sandbox.cli import main
+from sandbox.cli.new import new_scene
 from sandbox.engine import simulate
 from sandbox.engine.model.accuracy import LEVELS
 from sandbox.engine.model.ball import Ball
@@ -28,7 +29,6 @@ from sandbox.lab.chart import draw_trade
 from sandbox.lab.reference import DIVERGED, REFERENCE, Reference, converge
 from sandbox.lab.tables import length_or_below
 from sandbox.lab.verdicts import VerdictChanges, Verdicts, shot_map, verdict
-from sandbox.new import new_scene
 from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity
 from sandbox.scene import load

@@ -9,8 +9,8 @@ import time
 import pygame
 import pytest
 
+from sandbox.cli.new import new_scene
 from sandbox.errors import RequestError, RunError
-from sandbox.new import new_scene
 from sandbox.scene.finding import installed_folder
 from sandbox.window import replay
 from sandbox.window.app import play

@@ -9,7 +9,7 @@ from pathlib import Path
 import pygame
 import pytest
 
-from sandbox.new import new_scene
+from sandbox.cli.new import new_scene
 from sandbox.scene import listings
 from sandbox.scene.finding import installed_folders
 from sandbox.window.app import App

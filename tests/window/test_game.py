@@ -13,8 +13,8 @@ from typing import Any
 import pytest
 
 import sandbox.window
+from sandbox.cli.new import new_scene
 from sandbox.engine.model.accuracy import LEVELS
-from sandbox.new import new_scene
 from sandbox.window.aim import nudged
 from sandbox.window.background import LatestJob
 from sandbox.window.game import Game

@@ -7,7 +7,7 @@ from dataclasses import replace
 import pygame
 import pytest
 
-from sandbox.new import new_scene
+from sandbox.cli.new import new_scene
 from sandbox.scene import listings
 from sandbox.window.handles import WIND, grips
 from sandbox.window.session import Session

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pygame
 
-from sandbox.new import new_scene
+from sandbox.cli.new import new_scene
 
 
 def test_it_plays(player, tmp_path: Path):
