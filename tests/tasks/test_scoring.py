@@ -29,6 +29,7 @@ RINGS = ((0.1, 10.0), (0.5, 5.0))
         (Points("height", "m", target=1.0, rings=RINGS), 1.1 - 1e-9, 10.0, 10.0),
         (Points("height", "m", target=1.0, rings=RINGS), 0.6, 5.0, 5.0),
         (Points("height", "m", target=1.0, rings=RINGS), 1.6, 0.0, 0.0),
+        (Points("height", "m", rings=RINGS), 0.05, 10.0, 10.0),
         (Fewest("holed"), True, 1.0, -1.0),
         (Fewest("holed"), False, 0.0, -1.0),
         (Streak("made"), True, 1.0, 1.0),
@@ -39,6 +40,7 @@ RINGS = ((0.1, 10.0), (0.5, 5.0))
 def test_what_a_shot_is_worth(score: Score, fact: Any, worth: float | None, reward: float):
     assert score.of_shot({score.fact: fact}) == worth
     assert score.reward(worth, passing=0.5) == reward
+    assert score.reward(worth, passing=0.5, missed=True) == reward - (score.how == "fewest")
 
 
 @pytest.mark.parametrize(
@@ -62,6 +64,11 @@ def test_a_streak_is_the_longest_of_a_session():
     worths = [1.0, 1.0, 0.0, 1.0, 1.0, 1.0, 0.0]
     assert [Streak("made").total(worths[:played]) for played in range(8)] == [0.0, 1.0, 2.0, 2.0, 2.0, 2.0, 3.0, 3.0]
     assert Streak("made").text(3.0) == "3 in a row"
+
+
+@pytest.mark.parametrize(("how", "best"), [("sum", [3, 1]), ("greatest", [3, 1, 4, 0]), ("nearest", [0, 4, 1, 3])])
+def test_best_shots_come_first(how: str, best: list[int]):
+    assert KINDS[how]("fact", "m").best_shots([0.0, 2.0, None, 3.0, 0.5 * (how != "sum")]) == best
 
 
 def test_a_smaller_score_is_better_of_nearest_and_fewest():
