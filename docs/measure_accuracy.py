@@ -29,7 +29,7 @@ from sandbox.lab.tables import length, length_or_below, time
 from sandbox.lab.teeth import summary as summary_of_teeth
 from sandbox.lab.teeth import teeth
 from sandbox.lab.trade import TARGETS, Trade, trade
-from sandbox.lab.validate import Compared, counted, validate
+from sandbox.lab.validate import Compared, share_that_holds, validate
 from sandbox.lab.verdicts import Verdicts
 from sandbox.parameters import walk
 from sandbox.scene import check, compare, listings, load
@@ -107,7 +107,7 @@ def validated() -> dict[str, list[str]]:
     started = perf_counter()
     rows = validate()
     report("validate", started)
-    readme, count = re.subn(COUNT, f"\\g<1>{counted(rows)}", README.read_text("utf-8"))
+    readme, count = re.subn(COUNT, f"\\g<1>{share_that_holds(rows)}", README.read_text("utf-8"))
     assert count == 1
     README.write_text(readme, "utf-8")
     said = summary_of_teeth(teeth(rows))

@@ -134,7 +134,7 @@ class Golden:
                 lines += _cause(known, actual, run)
             changes = [] if known is None else _all_changes(known, actual, tolerance, facts)
             self._report(name, lines, image, expected, changes)
-            _fail(*lines, *self._shown(name, expected, image, drawing), HOW_TO_ACCEPT)
+            _fail(*lines, *self._save_difference(name, expected, image, drawing), HOW_TO_ACCEPT)
 
     def _write(self, written: Mapping[Path, tuple[bytes, str]]) -> None:
         """Write new golden files, all or none, and note how each has changed."""
@@ -169,7 +169,9 @@ class Golden:
                 _fail(said, "fetch it again, or make it again: pytest --golden-update")
             return None
 
-    def _shown(self, name: str, expected: Image.Image, actual: Image.Image, drawing: str | None) -> Iterator[str]:
+    def _save_difference(
+        self, name: str, expected: Image.Image, actual: Image.Image, drawing: str | None
+    ) -> Iterator[str]:
         if drawing is not None:
             path = self.report / f"{name}.png"
             write_together({path: as_png(side_by_side(expected, actual))})

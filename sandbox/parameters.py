@@ -36,7 +36,7 @@ from sandbox.errors import RequestError
 from sandbox.files import from_here
 from sandbox.physics.integrators import INTEGRATORS
 from sandbox.text import check_mapping, nearest
-from sandbox.toml import shown, toml_value
+from sandbox.toml import short_toml, toml_value
 
 # ---------------------------------------------------------------------------------------------------------------------
 # Declaring
@@ -144,7 +144,7 @@ def _each(values: Iterable[Any], read: Callable[[Any], _Read]) -> Iterator[_Read
         try:
             yield read(item)
         except ValueError as error:
-            raise ValueError(f"{shown(item)}: {error}") from None
+            raise ValueError(f"{short_toml(item)}: {error}") from None
 
 
 def _declared(default: Any, meaning: str, kind: Quantity) -> Any:
@@ -460,7 +460,7 @@ def _nested(changes: Mapping[str, Any], tables: Mapping[str, Any], by: str) -> d
             for name in names:
                 node = node.get(name, _UNKNOWN) if isinstance(node, Mapping) else _UNKNOWN
             if node is not _UNKNOWN:  # else it is refused like any unknown key
-                value = _placed(node, steps[len(names) :], value, f"{by} {key}")
+                value = _with_value_at(node, steps[len(names) :], value, f"{by} {key}")
         for name in reversed(names):
             value = {name: value}
         found = merged(found, value)
@@ -504,20 +504,20 @@ def choices_of(parameters: Any, key: str) -> tuple[Any, ...]:
     return tuple(dict.fromkeys(word for some in words for word in some))
 
 
-def _placed(node: Any, path: Sequence[str | int], value: Any, what: str) -> Any:
+def _with_value_at(node: Any, path: Sequence[str | int], value: Any, what: str) -> Any:
     """``node``, a list or a group in one, with ``value`` at ``path``."""
     if not path:
         return value
     head, *rest = path
     if isinstance(head, str):
         table = node.model_dump() if isinstance(node, Group) else node if isinstance(node, Mapping) else {}
-        return {**table, head: _placed(table.get(head), rest, value, what)}
+        return {**table, head: _with_value_at(table.get(head), rest, value, what)}
     if not isinstance(node, list | tuple):
         raise RequestError(f"{what}: is not a list, so it has no [{head}]")
     if head >= len(node):
         length = f"the list has {len(node)}, the first is [0]" if node else "the list is empty"
         raise RequestError(f"{what}: there is no [{head}]; {length}")
-    return [*node[:head], _placed(node[head], rest, value, what), *node[head + 1 :]]
+    return [*node[:head], _with_value_at(node[head], rest, value, what), *node[head + 1 :]]
 
 
 def _without_leftovers(schema: type[Group], tables: dict[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
@@ -560,7 +560,7 @@ def _explained(
     if error["type"] == "missing":
         return f"{prefix}{key}: missing"
     problem = f"{_problem(error)}{_key_that_takes(value, schema, dotted)}"
-    return f"{prefix}{key} = {shown(value)}: {problem}" if key else f"{prefix}{problem}"
+    return f"{prefix}{key} = {short_toml(value)}: {problem}" if key else f"{prefix}{problem}"
 
 
 def _path(loc: tuple[int | str, ...], values: Any, missing: bool) -> tuple[str, tuple[str, ...]]:
@@ -589,7 +589,7 @@ def _key_that_takes(word: Any, schema: type[Group], path: Sequence[str]) -> str:
         ]
     fields = ((name, field) for group in inside for name, field in group.model_fields.items())
     name = next((name for name, field in fields if isinstance(word, str) and word in words_of(field.annotation)), None)
-    return f"; did you mean {'.'.join(path)}.{name} = {shown(word)}?" if name is not None else ""
+    return f"; did you mean {'.'.join(path)}.{name} = {short_toml(word)}?" if name is not None else ""
 
 
 def _holds(tables: Any, path: tuple[str, ...]) -> bool:
@@ -627,7 +627,7 @@ def _words_for(key: str, schema: type[Group]) -> Iterator[str]:
         tag = field.discriminator
         for g in groups_of(field.annotation):
             if isinstance(tag, str) and last in g.model_fields:
-                yield f"{tag} = {shown(get_args(g.model_fields[tag].annotation)[0])}"
+                yield f"{tag} = {short_toml(get_args(g.model_fields[tag].annotation)[0])}"
 
 
 def wrong_group(error: ValidationError) -> str:
@@ -637,7 +637,7 @@ def wrong_group(error: ValidationError) -> str:
     if first["type"] == "missing":
         remedy = f'give it one, or write group(..., "...") in place of {error.title}(): then the scene\'s file has it'
         return f"{error.title}: {key} has no default{more}; {remedy}"
-    return f"{error.title}: {key} = {shown(first['input'])}: {_problem(first)}{more}"
+    return f"{error.title}: {key} = {short_toml(first['input'])}: {_problem(first)}{more}"
 
 
 def _problem(error: Any) -> str:

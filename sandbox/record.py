@@ -175,19 +175,19 @@ def known_part(known: Record, actual: Record) -> tuple[Record, list[str]]:
 def merged(known: Record, actual: Record, tolerance: float = TOLERANCE) -> Record:
     """Return a new record with each number of the older one that is still the same, so that a file changes only where
     the run did: not in the last digits of another processor, nor by its versions if the motion is the same."""
-    kept = dict(_kept(known, actual, tolerance))
+    kept = dict(_with_known(known, actual, tolerance))
     kept["parameters"] = actual["parameters"]  # exact
     if first_change(known, known_part(known, actual)[0], tolerance) is None:
         kept["versions"] = known.get("versions", actual["versions"])
     return kept
 
 
-def _kept(known: Any, value: Any, tolerance: float) -> Any:
+def _with_known(known: Any, value: Any, tolerance: float) -> Any:
     """A new value with the parts of the older one that are the same; rows are found wherever they stand."""
     if _same(known, value, tolerance):
         return known
     if isinstance(known, dict) and isinstance(value, dict):
-        return {key: _kept(known.get(key), entry, tolerance) for key, entry in value.items()}
+        return {key: _with_known(known.get(key), entry, tolerance) for key, entry in value.items()}
     if isinstance(known, list) and isinstance(value, list):
         return [next((row for row in known if _same(row, entry, tolerance)), entry) for entry in value]
     return value

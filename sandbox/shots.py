@@ -16,7 +16,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from sandbox.errors import RequestError
 from sandbox.scene import load, simulate
 from sandbox.scene.finding import as_path, installed_folder
-from sandbox.toml import read_toml, shown
+from sandbox.toml import read_toml, short_toml
 
 if TYPE_CHECKING:
     from sandbox.golden import Golden
@@ -35,7 +35,7 @@ class _Row(BaseModel):
     def name(self, scene: str) -> str:
         """Scene, preset and changes."""
         source = f"{scene}/{self.preset}" if self.preset else scene
-        changes = ", ".join(f"{key} = {shown(value)}" for key, value in self.set.items())
+        changes = ", ".join(f"{key} = {short_toml(value)}" for key, value in self.set.items())
         text = f"{source}, {changes}" if changes else source
         return text if len(text) <= LONGEST else f"{text[: LONGEST - 4]} ..."
 

@@ -56,7 +56,7 @@ def with_article(noun: str) -> str:
     return f"{'an' if noun[:1].lower() in tuple('aeiou') else 'a'} {noun}"
 
 
-def counted(count: int, what: str) -> str:
+def with_noun(count: int, what: str) -> str:
     """``1 point``, ``40 points``, ``1,000 points``."""
     return f"{count:,} {what}{'s' * (count != 1)}"
 

@@ -86,7 +86,7 @@ def toml_value(text: str) -> Any:
     return parsed["value"] if len(parsed) == 1 else text
 
 
-def shown(value: Any) -> str:
+def short_toml(value: Any) -> str:
     """A value as a TOML file would write it, shortened."""
     try:
         text = json.dumps(value, ensure_ascii=False, default=str)

@@ -255,7 +255,7 @@ def _book(ball: Ball, arc: Arc, work: dict[str, float], contacts: dict[str, floa
             free = acceleration_function(ball)(t, state)
             if isinstance(contact.obstacle, MovingObstacle):
                 frame = contact.obstacle.frame(t)
-                seen = contact.forces(ball, frame.seen(t, free), frame.into(t, state))[0]
+                seen = contact.forces(ball, frame.relative_acceleration(t, free), frame.into(t, state))[0]
                 ax, ay, alpha = *frame.unseen(t, seen), seen[2]
                 ux, uy, mass = *frame.arc.state(t)[2:4], ball.mass * ball.mass_fraction(t)
                 pushed = mass * ((ax - free[0]) * ux + (ay - free[1]) * uy)

@@ -48,7 +48,7 @@ def _overlaps(
     """Each overlap of two balls, all from the same places, then of balls and surfaces, from the places when it is
     yielded: the balls, the name of what the first overlaps, the sum of the radii and the depth in m, and the normal to
     the first."""
-    states = [_placed(*each) for each in zip(balls, places, strict=True)]
+    states = [_state_at(*each) for each in zip(balls, places, strict=True)]
     overlapping = [
         (i, j, found)
         for i, ball in enumerate(balls)
@@ -60,11 +60,11 @@ def _overlaps(
         yield i, j, balls[j].name, balls[i].radius + balls[j].radius, -found.gap, *found.normal
     for i, ball in enumerate(balls):
         for obstacle, met in surfaces_met(
-            ball, [o.at(0.0) for o in obstacles[ball.radius]], _placed(ball, places[i]), -NEGLIGIBLE_OVERLAP
+            ball, [o.at(0.0) for o in obstacles[ball.radius]], _state_at(ball, places[i]), -NEGLIGIBLE_OVERLAP
         ):
             yield i, None, obstacle.surface.name, ball.radius, -met.gap, *met.normal
 
 
-def _placed(ball: Ball, place: Sequence[float]) -> State:
+def _state_at(ball: Ball, place: Sequence[float]) -> State:
     """The state of a ball or body there; its motion does not matter."""
     return (*place, 0.0, 0.0, 0.0, *ball.initial_angle)

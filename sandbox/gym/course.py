@@ -170,7 +170,7 @@ class Course:
                 found += [min(max(x, left), right), min(max(y, bottom), top), float(name in places)]
         return np.array(found or [0.0], np.float32)
 
-    def seen(self, drawn: Sequence[Any], later: Scene | None) -> NDArray[np.float32]:
+    def next_observation(self, drawn: Sequence[Any], later: Scene | None) -> NDArray[np.float32]:
         """The observation of an attempt before a shot: the first, or one from where balls lie in a ``later`` scene."""
         if not self.several:
             return self.observation(drawn)

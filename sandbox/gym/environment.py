@@ -76,7 +76,7 @@ class TaskEnv(gymnasium.Env["NDArray[np.float32]", "NDArray[np.float32]"]):
         super().reset(seed=seed_of(seed))
         self._drawn = self.course.drawn(self.np_random, options)
         self._is_going_on, self._scene, self._shots, self._run = True, None, 0, None
-        return self.course.seen(self._drawn, self._scene), {}
+        return self.course.next_observation(self._drawn, self._scene), {}
 
     def step(self, action: NDArray[np.float32]) -> tuple[NDArray[np.float32], float, bool, bool, dict[str, Any]]:
         """Play a shot. A run that cannot be completed ends the attempt, and ``info["error"]`` says why. Raises
@@ -92,7 +92,7 @@ class TaskEnv(gymnasium.Env["NDArray[np.float32]", "NDArray[np.float32]"]):
         except (RunError, RequestError) as error:
             self._is_going_on = False
             info = {"error": str(error), "is_success": False, "controls": aimed}
-            return course.seen(self._drawn, self._scene), task.reward(None, over=True), True, False, info
+            return course.next_observation(self._drawn, self._scene), task.reward(None, over=True), True, False, info
         self._run = run
         worth = task.score.of_shot(run.result)
         over, made = task.is_over(run.result, self._shots), task.is_made(worth)
@@ -100,7 +100,7 @@ class TaskEnv(gymnasium.Env["NDArray[np.float32]", "NDArray[np.float32]"]):
         if not over:
             self._scene = task.after(run)
         info = {**run.result, "is_success": made, "controls": aimed}
-        return course.seen(self._drawn, self._scene), task.reward(worth, over), over, False, info
+        return course.next_observation(self._drawn, self._scene), task.reward(worth, over), over, False, info
 
     def render(self) -> Any:
         """The frame of the last shot, at its end; before the first, of the start. Array of shape (height, width, 3)."""

@@ -117,7 +117,9 @@ class TaskVectorEnv(VectorEnv[Any, Any, Any]):
 
     def _observations(self, places: Sequence[int]) -> NDArray[np.float32]:
         """The observations of these attempts, shape (places, ...)."""
-        return np.array([self.course.seen(self._drawn[place], self._later[place]) for place in places], np.float32)
+        return np.array(
+            [self.course.next_observation(self._drawn[place], self._later[place]) for place in places], np.float32
+        )
 
     def _aimed(self, actions: Any, playing: NDArray[np.bool_]) -> NDArray[Any]:
         """The values that shots have, in the controls' units, with the noise of the aim where an attempt is played;

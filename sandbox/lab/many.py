@@ -91,7 +91,7 @@ def simulate_many(
         progress(start, plan.size)
         some = list(plan.points(start, start + plan.block))
         compute = runs if paths else outcomes
-        for found in compute(chosen, plan.keys, some, asked=() if paths else plan.asked):
+        for found in compute(chosen, plan.keys, some, asked=() if paths else plan.facts_read):
             if isinstance(found, Exception):
                 errors[len(rows)] = one_line_error(found)
             rows.append({} if isinstance(found, Exception) else found.result)
@@ -99,7 +99,9 @@ def simulate_many(
                 kept.append(found if isinstance(found, SceneRun) else None)
     progress(plan.size, plan.size)
     columns = {axis.key: as_array(axis.values) for axis in plan.axes if isinstance(axis, Values)}
-    return Runs(chosen, columns, {key: as_array([row.get(key) for row in rows]) for key in plan.asked}, errors, kept)
+    return Runs(
+        chosen, columns, {key: as_array([row.get(key) for row in rows]) for key in plan.facts_read}, errors, kept
+    )
 
 
 def _facts(scene: Scene, facts: Sequence[str]) -> tuple[str, ...]:

@@ -118,7 +118,7 @@ def draw_sweep(plan: Plan, rows: Iterable[Row], path: Path, of: str | None = Non
 def read(plan: Plan, rows: Iterable[Row], of: str | None) -> ChartData:
     """The swept columns and the one to show. Raises RequestError if every point failed."""
     scene = plan.scene
-    shown = of or ("verdict" if "verdict" in plan.asked else next(iter(plan.asked), "ended"))
+    shown = of or ("verdict" if "verdict" in plan.facts_read else next(iter(plan.facts_read), "ended"))
     places: list[list[str]] = [[] for _ in plan.keys]
     texts: list[str] = []
     won: list[bool] = []

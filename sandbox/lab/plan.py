@@ -100,7 +100,7 @@ class Plan:
         return math.prod(self.shape)
 
     @cached_property
-    def asked(self) -> list[str]:
+    def facts_read(self) -> list[str]:
         """The facts of each row."""
         return list(self.facts) or self.scene.facts_except_ended
 
@@ -121,16 +121,16 @@ class Plan:
     @cached_property
     def columns(self) -> list[str]:
         """The columns of a table of all rows. A checked sweep has an error for what is a number in its first run."""
-        names = [*self.keys, *self.asked, "ended", *FLAGS]
+        names = [*self.keys, *self.facts_read, "ended", *FLAGS]
         if self.check:
             run = self._first_run()
             known, numbers = ({}, {}) if isinstance(run, Exception) else (run.result, compare(run, run).errors)
-            names += [f"{key}_error" for key in self.asked if key in numbers or known.get(key) is None]
+            names += [f"{key}_error" for key in self.facts_read if key in numbers or known.get(key) is None]
             names.append(CHANGED)
         return [*dict.fromkeys(names), "error"]
 
     def _first_run(self) -> SceneRun | Exception:  # not kept: a plan is sent to workers, and not every run can be
-        return next(runs(self.scene, self.keys, list(self.points(0, 1)), asked=self.asked))
+        return next(runs(self.scene, self.keys, list(self.points(0, 1)), asked=self.facts_read))
 
     def why_alone(self) -> str:
         """Return why shots that could be computed together ran one by one; "" if they need to, or did not."""
@@ -215,9 +215,9 @@ def records(plan: Plan, start: int, stop: int, alone: bool = False) -> list[Reco
 def _rows(plan: Plan, start: int, stop: int) -> list[Record]:
     points = list(plan.points(start, stop))
     if not plan.check:
-        found = outcomes(plan.scene, plan.keys, points, asked=plan.asked)
+        found = outcomes(plan.scene, plan.keys, points, asked=plan.facts_read)
         return [_record(plan.keys, values, outcome) for values, outcome in zip(points, found, strict=True)]
-    coarser, finer = (runs(plan.scene, plan.keys, points, how, plan.asked) for how in (False, True))
+    coarser, finer = (runs(plan.scene, plan.keys, points, how, plan.facts_read) for how in (False, True))
     rows = []
     for values, run, other in zip(points, coarser, finer, strict=True):
         row = _record(plan.keys, values, run)

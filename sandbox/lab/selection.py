@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from sandbox.errors import RequestError
 from sandbox.lab.table_file import Column, Table
-from sandbox.text import counted
+from sandbox.text import with_noun
 
 #: Most reasons that a report lists, and most rows of each.
 _REASONS, _ROWS = 6, 8
@@ -68,13 +68,13 @@ def reasons(left_out: Sequence[LeftOut]) -> str:
     for each in left_out:
         by_why.setdefault(each.why, []).append(each.row)
     parts = [f"{_rows(rows)}, {why}" for why, rows in by_why.items()]
-    more = f"; and {counted(len(parts) - _REASONS, 'other reason')}" if len(parts) > _REASONS else ""
+    more = f"; and {with_noun(len(parts) - _REASONS, 'other reason')}" if len(parts) > _REASONS else ""
     return "; ".join(parts[:_REASONS]) + more
 
 
 def used(total: int, left_out: Sequence[LeftOut], what: str = "row") -> str:
     """``used 78 of 80 shots: row 41, ...``; "" if none is left out."""
-    return f"used {total - len(left_out)} of {counted(total, what)}: {reasons(left_out)}" if left_out else ""
+    return f"used {total - len(left_out)} of {with_noun(total, what)}: {reasons(left_out)}" if left_out else ""
 
 
 def _rows(rows: Sequence[int]) -> str:

@@ -194,7 +194,7 @@ def _overlap(run: Run) -> tuple[float, bool, str]:
         times, x, y = run.trajectory(ball.name, max(run.duration, 1e-9) / _SAMPLES, ends=True)[:, :3].T
         for surface in run.setup.surfaces:
             outline = Outline.of(surface.shape, np.full_like(x, ball.radius))
-            seen = _seen_from(surface.motion, times, x, y)
+            seen = _relative_to(surface.motion, times, x, y)
             for t, gap in [(t, gap) for t, gap in zip(times, outline.near(*seen).gap, strict=True) if gap < 0.0]:
                 if ball.rotates:  # the disc around it may overlap: its outline counts
                     fixed = fixed_outline(surface.at(t).shape).shape
@@ -204,7 +204,9 @@ def _overlap(run: Run) -> tuple[float, bool, str]:
     return max(found)[0], any(deep > allowed for deep, allowed in found), through
 
 
-def _seen_from(motion: Motion | None, times: np.ndarray, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _relative_to(
+    motion: Motion | None, times: np.ndarray, x: np.ndarray, y: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """Places in m at times in s, each of shape (n,), as they lie to a surface that moves where it is drawn."""
     if motion is None:
         return x, y

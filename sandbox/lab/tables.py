@@ -45,11 +45,11 @@ def table(headings: Sequence[str], rows: Iterable[Sequence[str]], align: str, in
     cells = [[one_line(cell) for cell in row] for row in rows]
     every = [headings, *cells] if any(headings) else cells
     used = [place for place in range(len(headings)) if any(row[place] for row in every)]
-    widths = {place: max(_room(row[place]) for row in every) for place in used}
+    widths = {place: max(_columns_of(row[place]) for row in every) for place in used}
     too_wide = len(indent) + sum(widths.values()) + 2 * (len(used) - 1) - width()
     for place in used if too_wide > 0 else ():
         if align[place] == "r":
-            least = max(map(_room, (*headings[place].split(), *(row[place] for row in cells))), default=0)
+            least = max(map(_columns_of, (*headings[place].split(), *(row[place] for row in cells))), default=0)
             too_wide, widths[place] = too_wide - widths[place] + least, least
     texts = [place for place in used if align[place] == "l" and widths[place] > 1]
     for _ in range(too_wide if texts else 0):
@@ -65,9 +65,9 @@ def table(headings: Sequence[str], rows: Iterable[Sequence[str]], align: str, in
 
 
 def _wrapped(text: str, room: int) -> list[str]:
-    if _room(text) <= room:
+    if _columns_of(text) <= room:
         return [text]
-    letters = room if _room(text) == len(text) else max(1, room // 2)  # some may take two columns
+    letters = room if _columns_of(text) == len(text) else max(1, room // 2)  # some may take two columns
     return _lines(text, letters)
 
 
@@ -79,11 +79,11 @@ def _lines(text: str, letters: int, indent: str = "", later: str = "") -> list[s
 
 
 def _padded(text: str, room: int, side: str) -> str:
-    spaces = " " * (room - _room(text))
+    spaces = " " * (room - _columns_of(text))
     return spaces + text if side == "r" else text + spaces
 
 
-def _room(text: str) -> int:
+def _columns_of(text: str) -> int:
     """The columns of a terminal that a text takes."""
     return len(text) + sum(east_asian_width(letter) in "WF" for letter in text)
 

@@ -51,7 +51,7 @@ class Tried:
     row: Compared
     trials: list[Trial]
 
-    def not_shown(self, *changes: str) -> list[str]:
+    def unnoticed(self, *changes: str) -> list[str]:
         """The effects that it does not show by these changes, or by another setting; by default by any change."""
         effects = dict.fromkeys(trial.effect for trial in self.trials)
         by = {*(changes or FACTORS.values()), *effects}
@@ -61,7 +61,7 @@ class Tried:
     @property
     def has_teeth(self) -> bool:
         """True if it names an effect, and shows all that it names."""
-        return bool(self.trials) and not self.not_shown()
+        return bool(self.trials) and not self.unnoticed()
 
 
 def teeth(
@@ -156,8 +156,8 @@ def as_text(tried: Sequence[Tried]) -> list[str]:
     and how many do not."""
     lines = []
     for title, found in {
-        "rows that hold whatever their effect is": [(one, one.not_shown()) for one in tried if not one.has_teeth],
-        "rows that fall only without it": [(one, one.not_shown(*FIFTH)) for one in tried if one.has_teeth],
+        "rows that hold whatever their effect is": [(one, one.unnoticed()) for one in tried if not one.has_teeth],
+        "rows that fall only without it": [(one, one.unnoticed(*FIFTH)) for one in tried if one.has_teeth],
     }.items():
         rows = [_cells(one, effects) for one, effects in found if effects or not one.trials]
         lines += [title, *table(("case", "result", "effect"), rows, "lll"), ""] if rows else []
@@ -167,7 +167,7 @@ def as_text(tried: Sequence[Tried]) -> list[str]:
 def summary(tried: Sequence[Tried]) -> str:
     """Count those that fall, in a sentence."""
     sharp = [one for one in tried if one.has_teeth]
-    fifth = sum(not one.not_shown(*FIFTH) for one in sharp)
+    fifth = sum(not one.unnoticed(*FIFTH) for one in sharp)
     without = f"{len(sharp)} of {len(tried)} rows that hold fall without their effect"
     return f"{without}, {fifth} with a fifth more or less of it"
 

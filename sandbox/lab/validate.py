@@ -119,12 +119,12 @@ def counts_by_kind(rows: Sequence[Compared]) -> list[str]:
     own = {kind: [row for row in rows if row.kind == kind] for kind in sorted(KINDS, key=lambda it: it not in COUNTED)}
     body = [(kind, _holding(those), KINDS[kind]) for kind, those in own.items() if those]
     measured = [row for row in rows if row.kind in COUNTED]
-    first = f"{counted(rows)} hold" if measured else "nothing measured among these"
+    first = f"{share_that_holds(rows)} hold" if measured else "nothing measured among these"
     others = "; those of the other kinds do not count" if len(measured) < len(rows) else ""
     return [*paragraph(first + others, ""), *table(("kind", "hold", ""), body, "lrl")]
 
 
-def counted(rows: Sequence[Compared]) -> str:
+def share_that_holds(rows: Sequence[Compared]) -> str:
     """Count the numbers that hold, of those measured and not fitted: the count of README.md and of the report."""
     return f"{_holding([row for row in rows if row.kind in COUNTED])} measured numbers"
 

@@ -55,7 +55,7 @@ def layout_data(view: View[Any]) -> dict[str, Any]:
     poster = Image.fromarray(over)
     poster.thumbnail(POSTER)
     return {
-        **_seen_by(view, tall),
+        **_camera_of(view, tall),
         "room": view.heading.room,
         "poster": picture(poster),
         "place": picture(Image.fromarray(place)),
@@ -83,7 +83,7 @@ def stage_data(view: View[Any]) -> dict[str, Any]:
         part = np.s_[top : top + high, left : left + wide]
         over[part] = place[part]  # what moves there is drawn by the page
     return {
-        **_seen_by(view, tall),
+        **_camera_of(view, tall),
         "room": min([right, *beside]) - 2 * sheet.gap - sheet.frame.left,
         "notes": view.notes(camera),
         "place": picture(Image.fromarray(place), quick=True),
@@ -113,7 +113,7 @@ def _lens(view: View[Any], tall: int, quick: bool = False) -> dict[str, Any] | N
     }
 
 
-def _seen_by(view: View[Any], tall: int) -> dict[str, Any]:
+def _camera_of(view: View[Any], tall: int) -> dict[str, Any]:
     """The camera of a picture of so many rows, and the sizes of what is drawn on it, in px."""
     camera = view.camera
     too_large = max(0.0, balls.mark_radius(view.rows) - view.radius * camera.scale)
@@ -202,7 +202,7 @@ def path_data(view: View[Any], run: SceneRun) -> dict[str, Any]:
     }
 
 
-def told_events(run: SceneRun) -> list[tuple[str, ...]]:
+def event_rows(run: SceneRun) -> list[tuple[str, ...]]:
     """Return the events of a run in words: of each its time, then what happened."""
     several = len(run.setup.balls) > 1
     return [words_of(run, event, several) for event in run.events[:MOST_EVENTS]]

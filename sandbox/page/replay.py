@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from sandbox.page.parts import css, filled, fonts, html, packed, rows, save, table
-from sandbox.page.playing import force_data, layout_data, path_data, place_data, told_events
+from sandbox.page.playing import event_rows, force_data, layout_data, path_data, place_data
 from sandbox.parameters import Group, walk
 from sandbox.picture.sheet import CARD, drawn_at
 from sandbox.picture.view import View
@@ -42,7 +42,7 @@ def page_of(run: SceneRun, ghosts: Mapping[str, SceneRun] | None = None, options
     card = [(label, *(texts.get(label, "–") for texts in labelled)) for label in labelled[0]]
     listed = (
         f'<li><button type="button"><b>{html(t)}</b> <span>{html(" ".join(filter(None, words)))}</span></button></li>'
-        for t, *words in told_events(run)
+        for t, *words in event_rows(run)
     )
     data = {
         **place_data(view),

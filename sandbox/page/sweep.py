@@ -47,7 +47,7 @@ def page_of(plan: Plan, rows: Iterable[Row], of: str | None = None) -> str:
     """The page of these rows; ``of`` names the column, by default the verdict or the first result."""
     found = read(plan, rows, of)
     scene, swept = plan.scene, list(plan.points(0, plan.size))
-    done = list(runs(scene, plan.keys, swept, asked=plan.asked))
+    done = list(runs(scene, plan.keys, swept, asked=plan.facts_read))
     palette_, codes, legend = _coloured(found)
     title = f"{scene.title}: {found.label.partition(' (')[0]}"
     is_curve = found.numbers is not None and len(plan.axes) == 1
@@ -69,7 +69,7 @@ def page_of(plan: Plan, rows: Iterable[Row], of: str | None = None) -> str:
         "curves": [{"colour": palette("trace")["colours"][0], "points": order.tolist()}] if is_curve else [],
         "own": own,
         "chosen": 0 if own is None else _nearest(own, places),
-        "said": _said(plan, done, swept),
+        "said": _texts(plan, done, swept),
         **_paths(done),
         "surfaces": _surfaces(done),
         "radius": next((run.setup.balls[0].radius for run in done if isinstance(run, SceneRun)), 0.0),
@@ -159,7 +159,7 @@ def _nearest(own: Sequence[float], places: Sequence[np.ndarray]) -> int:
     return int(np.argmin(away))
 
 
-def _said(plan: Plan, done: Sequence[SceneRun | Exception], swept: Sequence[Sequence[Any]]) -> list[dict[str, Any]]:
+def _texts(plan: Plan, done: Sequence[SceneRun | Exception], swept: Sequence[Sequence[Any]]) -> list[dict[str, Any]]:
     """Return the texts for each point: its parameters, and the facts of its run, or why it failed."""
     columns = []
     for key, values in zip(plan.keys, zip(*swept, strict=True), strict=True):

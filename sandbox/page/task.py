@@ -50,11 +50,11 @@ def _attempt(session: Session, attempt: Attempt) -> str:
 def _shot(session: Session, shot: Shot) -> str:
     """One shot: what it was worth and what the player set; its replay in a frame that is filled when it is opened."""
     aim = _listed(shot.values, {control.key: control.unit for control in session.task.controls})
-    head = f"{'✓' if shot.made else '·'} {shot.said} ({session.task.score.text(shot.worth)}; {aim})"
+    head = f"{'✓' if shot.made else '·'} {shot.verdict} ({session.task.score.text(shot.worth)}; {aim})"
     page = escape(page_of(shot.run))
     return (
         f"<details><summary>{html(head)}</summary>\n"
-        f'<iframe title="{html(shot.said)}" loading="lazy" srcdoc="{page}"></iframe></details>'
+        f'<iframe title="{html(shot.verdict)}" loading="lazy" srcdoc="{page}"></iframe></details>'
     )
 
 

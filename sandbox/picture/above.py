@@ -46,7 +46,7 @@ class AboveView(View[P]):
         return ()
 
     @cached_property
-    def seen(self) -> np.ndarray:
+    def must_show(self) -> np.ndarray:
         """Places in m that the poster must show, shape (n, 2): the paths, and the surfaces around them."""
         return self.surroundings
 
@@ -59,7 +59,7 @@ class AboveView(View[P]):
     @cached_property
     def camera(self) -> Camera:
         """Shows all that must be seen in the middle of its area."""
-        low, high, area = self.seen.min(axis=0), self.seen.max(axis=0), self.area
+        low, high, area = self.must_show.min(axis=0), self.must_show.max(axis=0), self.area
         wide, tall = np.maximum(high - low, _LEAST * self.radius)
         scale = min((area.right - area.left) / wide, (area.bottom - area.top) / tall)
         x, y = (low + high) / 2
@@ -111,7 +111,7 @@ class AboveView(View[P]):
         """No label goes over the row ``top`` or on the card, nor on a ball or within so many px of these spots."""
         sheet.labels.take(pygame.Rect(0, 0, self.size[0], top))
         sheet.labels.take(pygame.Rect(0, round(self.card_row), *self.size))
-        for (x, y), half in [*self._placed(camera, self.story_end).values(), *spots]:
+        for (x, y), half in [*self._ball_places(camera, self.story_end).values(), *spots]:
             sheet.labels.take(pygame.Rect(round(x - half), round(y - half), round(2 * half), round(2 * half)))
 
     def scale(self, sheet: Sheet, camera: Camera) -> None:

@@ -43,7 +43,7 @@ class Course:
         return float(sum(energy[0] for energy in self.has.values()))
 
     @property
-    def taken(self) -> dict[str, np.ndarray]:
+    def taken_by_cause(self) -> dict[str, np.ndarray]:
         """The energy that each cause has taken."""
         return {name: np.maximum(-work, 0.0) for name, work in self.work.items()}
 

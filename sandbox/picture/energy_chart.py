@@ -34,7 +34,7 @@ def bands_of(energy: Course) -> tuple[list[Curve], list[Curve]]:
     for name in sorted([*energy.work, *(name.removeprefix(STORED) for name in energy.has if STORED in name)]):
         wanted = [CHART["cause"].get(name) or colour_of(name), *CHART["spare"]]
         colours[name] = next((colour for colour in wanted if colour not in colours.values()), wanted[0])
-    lost = sorted(energy.taken.items(), key=lambda cause: -cause[1].max())
+    lost = sorted(energy.taken_by_cause.items(), key=lambda cause: -cause[1].max())
     shown = [(name, values) for name, values in lost[:_MOST_CAUSES] if values.max() > least]
     rest = sum((values for _, values in lost[len(shown) :]), np.zeros(len(times)))
     there = [
@@ -88,7 +88,7 @@ def energy_chart(run: SceneRun, size: tuple[int, int] = (1280, 720)) -> pygame.S
     parts = [(band, 100 * _last(band) / max(total, 1e-12)) for band in bands]
     entries += [(band.name, f"{share:.1f} %", _light(band)) for band, share in parts if share >= 0.05]
     sheet.columns(sheet.card_row(), entries)
-    written = (sheet.lettering.width(_said(band), "small", bold=True) for band in [*bands, *put_in])
+    written = (sheet.lettering.width(_peak_text(band), "small", bold=True) for band in [*bands, *put_in])
     right = sheet.frame.right - max(written, default=0) - 2 * sheet.gap
     top = sheet.top_row + 2 * sheet.gap
     rect = pygame.Rect(sheet.frame.left, top, right - sheet.frame.left, sheet.card_row() - sheet.gap - top)
@@ -136,7 +136,7 @@ def _name(sheet: Sheet, plot: Plot, bands: Sequence[Curve], lines: Sequence[Curv
         row = max(min(round(end), row - tall), rect.top + tall * (len(lasting) - i) - tall // 2)
         near, far = rect.right + gap / 2, rect.right + 2 * gap
         sheet.painter.line([(near, end), (far, row)], max(1.0, sheet.unit), curve.colour)
-        sheet.write(_said(curve), "small", (far + gap / 2, row), _light(curve), "midleft", bold=True)
+        sheet.write(_peak_text(curve), "small", (far + gap / 2, row), _light(curve), "midleft", bold=True)
     for (band, low, high), seen in zip(edges[: len(bands)], thick, strict=False):
         half = sheet.lettering.width(band.name, "small", bold=True) / 2 + gap
         columns = np.arange(rect.left, rect.right + 1.0)
@@ -159,7 +159,7 @@ def _light(band: Curve) -> Colour:
     return mix(band.colour, CARD["text"], _LIGHT)
 
 
-def _said(band: Curve) -> str:
+def _peak_text(band: Curve) -> str:
     return f"{band.name} {joules(_last(band))}"
 
 

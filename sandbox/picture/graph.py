@@ -43,7 +43,7 @@ class Panel(NamedTuple):
     named: bool = False
 
     @property
-    def shown(self) -> Panel:
+    def in_chosen_units(self) -> Panel:
         """The same in the units that were chosen."""
         largest = max((float(np.nanmax(np.abs(curve.values), initial=0.0)) for curve in self.curves), default=0.0)
         steps = [step for step in ladder(self.unit) if step.unit not in ("km", "cm", "mN", "kN")]
@@ -118,7 +118,7 @@ def draw_panel(
     ``said`` is written over it at the right.
     """
     unit, gap, letters = sheet.unit, sheet.gap, sheet.lettering
-    panel = panel.shown
+    panel = panel.in_chosen_units
     known = np.concatenate([curve.values[np.isfinite(curve.values)] for curve in panel.curves] or [np.zeros(1)])
     low, high = min(0.0, float(known.min(initial=0.0))), float(known.max(initial=0.0))
     high = high if high - low > 1e-9 else low + 1.0

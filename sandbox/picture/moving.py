@@ -172,11 +172,11 @@ class BallDrawing(SceneOptions[P]):
         aims = [pygame.Rect(round(a), round(b), ceil(c - a) + 1, ceil(d - b) + 1) for a, b, c, d in corners]
         traps = [trap for trap in self.run.setup.traps if trap.end is None]
         holes = [(camera.pixel(*trap.center), trap.radius * camera.scale) for trap in traps]
-        round_ones = [*self._placed(camera, t).values(), *holes]
+        round_ones = [*self._ball_places(camera, t).values(), *holes]
         squares = [pygame.Rect(round(x - r), round(y - r), ceil(2 * r), ceil(2 * r)) for (x, y), r in round_ones]
         return [*squares, *aims]
 
-    def _placed(self, camera: Camera, t: float, in_frame: bool = False) -> dict[str, tuple[Point, float]]:
+    def _ball_places(self, camera: Camera, t: float, in_frame: bool = False) -> dict[str, tuple[Point, float]]:
         """The place and radius, in px, of each ball that is seen at time t in s."""
         placed, least = {}, self._least(in_frame)
         for name in self.present(t):
@@ -187,12 +187,12 @@ class BallDrawing(SceneOptions[P]):
 
     def last(self, camera: Camera) -> tuple[Point, float]:
         """The last place of the ball that is played, and the radius to which it hides what is behind it, in px."""
-        at, radius = self._placed(camera, self.story_end)[self.ball]
+        at, radius = self._ball_places(camera, self.story_end)[self.ball]
         return at, radius * self.looks[self.ball].solid
 
     def place_balls(self, painter: Painter, camera: Camera, t: float) -> None:
         """All that are there at time t in s, over their shadows."""
-        placed = self._placed(camera, t)
+        placed = self._ball_places(camera, t)
         for draw in (self.shadow, self.draw_ball):
             for name, spot in placed.items():
                 draw(painter, camera, name, t, *spot)

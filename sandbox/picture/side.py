@@ -300,7 +300,7 @@ class SideView(SideOptions[P], View[P]):
         outside, sheet.labels = sheet.labels, Labels(rect.inflate(-2 * sheet.gap, -2 * sheet.gap), sheet.gap)
         self.backdrop(painter, camera)
         self.behind(painter, camera, self.moment)
-        placed = self._placed(camera, self.story_end)
+        placed = self._ball_places(camera, self.story_end)
         for name, spot in placed.items():
             self.shadow(painter, camera, name, self.story_end, *spot)
         for ghost in self.ghosts:

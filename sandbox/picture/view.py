@@ -23,7 +23,7 @@ from sandbox.picture.painter import Painter, blank
 from sandbox.picture.sheet import Entry, Sheet
 from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.amounts import times
-from sandbox.text import counted
+from sandbox.text import with_noun
 
 #: Surfaces are around a path that reach no farther beyond it than it is long, or than so many radii of the ball.
 _NEAR = 12.0
@@ -161,7 +161,7 @@ class View(BallDrawing[P]):
         camera = self.camera
         sheet = self.sheet = Sheet(self.size, self.on_dark, self._still(camera).copy())
         painter = sheet.painter
-        placed = self._placed(camera, self.story_end)
+        placed = self._ball_places(camera, self.story_end)
         self.behind(painter, camera, self.moment)
         yield "place"
         self._sweep(painter, camera)
@@ -184,10 +184,10 @@ class View(BallDrawing[P]):
         self.annotate(sheet, camera)
         mark_impacts(sheet, camera, self.impacts(camera), self.last(camera))
         self.enlarge(sheet)
-        room = self._room(sheet, camera, None)
+        room = self._draw_inset(sheet, camera, None)
         yield "over"
         points = self.run.scene.measured
-        dots = [] if points is None else [f"dots: {counted(len(points.t), 'measured point')}"]
+        dots = [] if points is None else [f"dots: {with_noun(len(points.t), 'measured point')}"]
         others = [*dots, *(ghost.note for ghost in self.ghosts)]
         notes = [*others, *self.aligned, *every[:1], *self.notes(camera), *every[1:]]
         self.heading = _Heading(self.run.scene.verdict(self.run), notes, room)
@@ -198,7 +198,7 @@ class View(BallDrawing[P]):
         camera = self.view(t)
         sheet = self.sheet = Sheet(self.size, self.on_dark, self._still(camera).copy())
         painter = sheet.painter
-        placed = self._placed(camera, t, in_frame=True)
+        placed = self._ball_places(camera, t, in_frame=True)
         self.behind(painter, camera, t)
         self.draw_driven(painter, camera, t)
         self._strings(painter, camera, t)
@@ -214,7 +214,7 @@ class View(BallDrawing[P]):
             self.draw_ball(painter, camera, name, t, *spot)
         self.before(painter, camera, t)
         self.scale(sheet, camera)
-        room = self._room(sheet, camera, t)
+        room = self._draw_inset(sheet, camera, t)
         headline, note = (self.run.scene.verdict(self.run), "") if t >= self.story_end else self.progress(t)
         others = " and ".join(ghost.label for ghost in self.ghosts)
         compared = [f"compared with {others}"] if others else []
@@ -242,7 +242,7 @@ class View(BallDrawing[P]):
             self._standing = camera, surface
         return self._standing[1]
 
-    def _room(self, sheet: Sheet, camera: Camera, t: float | None) -> float:
+    def _draw_inset(self, sheet: Sheet, camera: Camera, t: float | None) -> float:
         """Draw what is in the upper right corner; how much room that leaves for the headline, in px."""
         inset = self.inset(sheet, camera, t)
         if inset is not None:

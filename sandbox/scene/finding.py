@@ -22,7 +22,7 @@ from sandbox import resources
 from sandbox.errors import RequestError
 from sandbox.files import from_here, is_given, reason
 from sandbox.text import nearest, shortened
-from sandbox.toml import read_toml, shown
+from sandbox.toml import read_toml, short_toml
 
 _ENTRY_POINTS = "sandbox.scenes"
 
@@ -251,20 +251,22 @@ def _files(
         base: Path | None = file.parent / written
         name, folder = own or ("", Path())
         if not is_given(file.parent / written):
-            raise RequestError(f"{file}: scene = {shown(written)}: there is no such file")
+            raise RequestError(f"{file}: scene = {short_toml(written)}: there is no such file")
     else:
         name, folder, preset = _meant(file, written, own or ("", Path()))
         base = _preset(name, folder, preset, f"{file}: ") if preset else None
     if base is not None:
         if base.resolve() in (*after, file.resolve()):
-            raise RequestError(f"{from_here(file)}: scene = {shown(written)}: is based on itself")
+            raise RequestError(f"{from_here(file)}: scene = {short_toml(written)}: is based on itself")
         if len(after) == _MOST_FILES:
             raise RequestError(f"{from_here(after[0])}: is based on more than {_MOST_FILES} files, one on the other")
         name, folder, files = _files(base, (name, folder) if name else None, (*after, file.resolve()))
     else:
         files = []
     if own is not None and folder != own[1]:
-        raise RequestError(f"{from_here(file)}: scene = {shown(written)}, but a file in this folder is for {own[0]}")
+        raise RequestError(
+            f"{from_here(file)}: scene = {short_toml(written)}, but a file in this folder is for {own[0]}"
+        )
     return name, folder, [*files, (file, values)]
 
 
@@ -275,12 +277,12 @@ def _meant(file: Path, written: Any, own: tuple[str, Path]) -> tuple[str, Path, 
         place = file.parent / written
         folder, preset = (place, "") if (place / "scene.py").is_file() else (place.parent, place.name)
         if not (folder / "scene.py").is_file():
-            raise RequestError(f"{file}: scene = {shown(written)}: there is no scene.py in that folder")
+            raise RequestError(f"{file}: scene = {short_toml(written)}: there is no scene.py in that folder")
         return folder.resolve().name, folder.resolve(), preset
     name, slash, preset = written.partition("/") if isinstance(written, str) else ("", "", "")
     if not _is_word(name) or (slash and not _is_word(preset)):
         raise RequestError(
-            f'{file}: scene = {shown(written)}: must be the name of a scene or preset, such as "golf" or '
+            f'{file}: scene = {short_toml(written)}: must be the name of a scene or preset, such as "golf" or '
             '"golf/moon", or the path of a scene or scene file of your own, such as "./volleyball" or "./shot.toml"'
         )
     if name == own[0]:

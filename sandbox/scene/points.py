@@ -13,7 +13,7 @@ import numpy as np
 
 from sandbox.errors import RequestError
 from sandbox.files import from_here, read_given
-from sandbox.toml import shown
+from sandbox.toml import short_toml
 
 #: The columns of such a file, and most bytes that it has.
 _COLUMNS, _LARGEST = ("t", "x", "y", "ball"), 20_000_000
@@ -42,7 +42,7 @@ def points_of(file: Path, written: Any) -> Points:
     where = from_here(file)
     named = written.get("track") if isinstance(written, dict) and len(written) == 1 else None
     if not isinstance(named, str) or not named:
-        raise RequestError(f'{where}: measured = {shown(written)}: must be [measured] with track = "points.csv"')
+        raise RequestError(f'{where}: measured = {short_toml(written)}: must be [measured] with track = "points.csv"')
     path = file.parent / named
     try:
         text = read_given(path, _LARGEST).decode("utf-8-sig")

@@ -280,7 +280,7 @@ function card(run, ghosts) {
 /** What a shot adds: events, energy. */
 function played(run) {
   $("playback").hidden = false;
-  $("events").replaceChildren(...run.told_events.map(([t, ...words]) => {
+  $("events").replaceChildren(...run.event_rows.map(([t, ...words]) => {
     const item = document.createElement("li"), button = Object.assign(document.createElement("button"), { type: "button" });
     button.append(Object.assign(document.createElement("b"), { textContent: t }), ` ${words.filter(Boolean).join(" ")}`);
     item.append(button);

@@ -326,7 +326,7 @@ class Room:
                 connection.send("welcome", {"scenes": self._listed()})
                 await self._show(connection)
             case messages.Aim():
-                source = self._seen(connection)
+                source = self._watched_scene(connection)
                 await self._checked(source, message.changes)
                 ask = self._ask(source, message.changes, message, calls.Game(self.seed, 0))
                 alike = message.do, source, frozenset((await self._unaimed(source, message.changes)).items())
@@ -369,13 +369,13 @@ class Room:
                 player.connection.send("lead", self.lead.as_message())
         self._tell_teachers()
 
-    def _seen(self, teacher: Connection) -> str:
+    def _watched_scene(self, teacher: Connection) -> str:
         """The scene that a teacher looks at."""
         return self.teachers.get(teacher) or self.lead.source or self.first
 
     async def _show(self, teacher: Connection) -> None:
         """Tell a teacher which scene is shown."""
-        source = self._seen(teacher)
+        source = self._watched_scene(teacher)
         changes = self.lead.changes if source == (self.lead.source or self.first) else {}
         teacher.send("scene", _scene_message(source, changes, await self.described(source)))
 

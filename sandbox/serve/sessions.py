@@ -69,7 +69,7 @@ def _keep(key: tuple[str, str], session: Session) -> None:
         del _sessions[next(iter(_sessions))]
 
 
-def said_of(task: Task) -> dict[str, Any]:
+def task_document(task: Task) -> dict[str, Any]:
     """A task, in words for people."""
     return {"goal": task.goal, "attempts": task.attempts, "score": task.score.summary, "shown": task.shown}
 

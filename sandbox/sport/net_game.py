@@ -157,7 +157,7 @@ FACTS = (
 )
 
 
-def _kept(run: Run, parameters: Any) -> float | None:
+def _speed_kept(run: Run, parameters: Any) -> float | None:
     """Speed along the court after the bounce over that before it."""
     down, up = landing(run, parameters), rebound(run, parameters)
     return up.vx / down.vx if down is not None and up is not None and down.vx else None
@@ -169,7 +169,7 @@ BOUNCE_FACTS = (
     Fact("bounce_speed", "after the bounce", "m/s", fact_from(rebound, "speed"), is_down),
     Fact("bounce_angle", "rises at", "deg", fact_from(rebound, lambda ball, _: -ball.descent), is_down),
     Fact("bounce_spin", "", "rpm", fact_from(rebound, "rpm"), is_down),
-    Fact("speed_kept", "", "", _kept, is_down),
+    Fact("speed_kept", "", "", _speed_kept, is_down),
     Fact("baseline_speed", "", "m/s", fact_from(_at_baseline, "speed")),
 )
 

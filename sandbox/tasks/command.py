@@ -10,7 +10,7 @@ import click
 
 from sandbox.cli.arguments import json_option, say
 from sandbox.errors import RequestError
-from sandbox.text import counted
+from sandbox.text import with_noun
 
 if TYPE_CHECKING:
     from sandbox.scene import Scene
@@ -37,7 +37,7 @@ def tasks(as_json: bool) -> None:
     if as_json:
         say(json_text([vars(task) for task in found]))
         return
-    rows = [(task.name, f"{task.goal} ({task.scene}, {counted(task.attempts, 'attempt')})") for task in found]
+    rows = [(task.name, f"{task.goal} ({task.scene}, {with_noun(task.attempts, 'attempt')})") for task in found]
     say("\n".join(table(("", ""), rows, "ll", indent="")))
 
 
@@ -106,6 +106,6 @@ def tried(source: str, changes: dict[str, Any], attempt: int | None, seed: int |
         return None
     task, number, drawn_by = load_task(source), attempt or 1, seed or 0
     if number > task.attempts:
-        raise RequestError(f"--attempt {number}: {task.name} has {counted(task.attempts, 'attempt')}")
+        raise RequestError(f"--attempt {number}: {task.name} has {with_noun(task.attempts, 'attempt')}")
     scene = task.at_start(drawn_by, number).changed(changes, "--set")
     return Tried(task, number, drawn_by, task.drawn_for(drawn_by, number), scene)

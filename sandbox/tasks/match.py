@@ -55,7 +55,7 @@ class Match:
         return ()
 
     @property
-    def room(self) -> tuple[float, float, float, float] | None:
+    def placement_area(self) -> tuple[float, float, float, float] | None:
         """The area where that may be placed: from x, y to x, y, in m; None for anywhere."""
         return None
 

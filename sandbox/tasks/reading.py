@@ -16,10 +16,10 @@ from sandbox.files import from_here
 from sandbox.scene.finding import is_installed
 from sandbox.tasks.file import ScoreEntry, TaskFile, read_task_file
 from sandbox.tasks.finding import find_task, tasks
-from sandbox.tasks.scoring import KINDS, Score, Wanted
+from sandbox.tasks.scoring import KINDS, Condition, Score
 from sandbox.tasks.task import Control, Start, Task
-from sandbox.text import counted, nearest, no_such_result
-from sandbox.toml import shown
+from sandbox.text import nearest, no_such_result, with_noun
+from sandbox.toml import short_toml
 
 
 def load(source: str | Path) -> Task:
@@ -34,7 +34,7 @@ class _Reader:
     def __init__(self, path: Path, file: TaskFile) -> None:
         self.file, self.path, self.where = file, path, from_here(path)
         if not file.goal.isprintable():
-            raise self.wrong(f"goal = {shown(file.goal)}: must be one line of printable characters")
+            raise self.wrong(f"goal = {short_toml(file.goal)}: must be one line of printable characters")
         written, own = file.scene, path.resolve().parent.parent
         source: str | Path = path.parent / written if written.startswith(("./", "../")) else written
         name, _, preset = written.partition("/")
@@ -44,7 +44,7 @@ class _Reader:
         try:
             base = scenes.load(source)
         except RequestError as error:
-            raise RequestError(f"{self.where}: scene = {shown(written)}: {error}") from None
+            raise RequestError(f"{self.where}: scene = {short_toml(written)}: {error}") from None
         self.scene = scenes.load(source, file.set, overrides_from=f"{self.where}: set") if file.set else base
         self.declared = {it.key: it for it in declared.walk(self.scene.parameters, entries=True)}
 
@@ -59,7 +59,7 @@ class _Reader:
         score, stars, passing = self.scored()
         if file.shots > 1 and self.scene.controls.next_start is None:
             raise self.wrong(f"shots = {file.shots}: a shot of {self.scene.name} does not go on from the one before")
-        goes_on, ends = (tuple(self.wanted(name, getattr(file, name))) for name in ("goes_on", "ends"))
+        goes_on, ends = (tuple(self.conditions(name, getattr(file, name))) for name in ("goes_on", "ends"))
         return Task(
             name=self.path.stem,
             goal=file.goal,
@@ -84,12 +84,12 @@ class _Reader:
         passing = self.number("pass", file.passing, score.total_unit)
         if [first, second, third] != sorted((first, second, third), reverse=score.lower_is_better):
             order = "falling: a smaller score is better" if score.lower_is_better else "rising"
-            raise self.wrong(f"stars = {shown(file.stars)}: must be {order}")
+            raise self.wrong(f"stars = {short_toml(file.stars)}: must be {order}")
         best, end = score.best_total(file.attempts, file.shots), "least" if score.lower_is_better else "most"
         for what, value in {"pass": passing, "stars[2]": third}.items():
             if not score.reaches(best, value):
                 number, bound = (f"{each:g} {score.total_unit}".rstrip() for each in (value, best))
-                attempts = counted(file.attempts, "attempt")
+                attempts = with_noun(file.attempts, "attempt")
                 raise self.wrong(f"{what} = {number}: {attempts} can reach {bound} at {end}")
         return score, (first, second, third), passing
 
@@ -145,7 +145,7 @@ class _Reader:
             number = self.number(f"{what}.{name}", given, known.unit or "")
             if not known.low <= number <= known.high:
                 bounds = f"from {known.low:g} to {known.high:g} {known.unit}".rstrip()
-                raise self.wrong(f"{what}.{name} = {shown(given)}: {known.key} must be {bounds}")
+                raise self.wrong(f"{what}.{name} = {short_toml(given)}: {known.key} must be {bounds}")
             ends.append(number)
         if ends[0] >= ends[1]:
             raise self.wrong(f"{what}, {known.key}: low = {ends[0]:g} must be below high = {ends[1]:g}")
@@ -156,7 +156,7 @@ class _Reader:
         is_share = isinstance(given, str) and given.strip().endswith("%") and unit != "%"
         number = self.number(what, given.strip()[:-1] if is_share else given, "" if is_share else unit)
         if number < 0.0:
-            raise self.wrong(f"{what} = {shown(given)}: a standard deviation is 0 or more")
+            raise self.wrong(f"{what} = {short_toml(given)}: a standard deviation is 0 or more")
         return (0.0, 0.01 * number) if is_share else (number, 0.0)
 
     def number(self, what: str, given: Any, unit: str) -> float:
@@ -164,9 +164,9 @@ class _Reader:
         try:
             value = units.parse(given, unit) if isinstance(given, str) else given
         except ValueError as error:
-            raise self.wrong(f"{what} = {shown(given)}: {error}") from None
+            raise self.wrong(f"{what} = {short_toml(given)}: {error}") from None
         if isinstance(value, bool) or not isinstance(value, int | float) or not isfinite(value):
-            raise self.wrong(f"{what} = {shown(given)}: must be a number" + (f" in {unit}" if unit else ""))
+            raise self.wrong(f"{what} = {short_toml(given)}: must be a number" + (f" in {unit}" if unit else ""))
         return float(value)
 
     def fact(self, what: str, name: str) -> str:
@@ -182,7 +182,7 @@ class _Reader:
         kind = KINDS.get(entry.how)
         if kind is None:
             *others, last = (f'"{name}"' for name in KINDS)
-            raise self.wrong(f"score.how = {shown(entry.how)}: must be {', '.join(others)} or {last}")
+            raise self.wrong(f"score.how = {short_toml(entry.how)}: must be {', '.join(others)} or {last}")
         name = self.fact("score.fact", entry.fact)
         fact, takes = self.scene.facts[name], {each.name for each in fields(kind)}
         given: dict[str, Any] = {}
@@ -199,27 +199,29 @@ class _Reader:
         if "rings" in takes and not given.get("rings"):
             raise self.wrong(f'score.how = "{entry.how}": needs rings, such as [[0.1, 10], [0.5, 5]]')
         most = fact.most if fact.most is not None else 1.0 if name == self.scene.controls.scores else inf
-        wanted = tuple(self.wanted("score.wanted", entry.wanted))
+        wanted = tuple(self.conditions("score.wanted", entry.wanted))
         return kind(name, fact.unit, wanted=wanted, word=fact.label or "made", most=most, **given)
 
-    def wanted(self, what: str, table: Mapping[str, Any]) -> Iterator[Wanted]:
+    def conditions(self, what: str, table: Mapping[str, Any]) -> Iterator[Condition]:
         """The facts of a table, each with its value or range. Raises RequestError."""
         for name, given in table.items():
             fact = self.fact(what, name)
             unit = self.scene.facts[fact].unit
             if isinstance(given, list):
                 if len(given) != 2:
-                    raise self.wrong(f"{what}.{name} = {shown(given)}: a range is a list of its two ends")
+                    raise self.wrong(f"{what}.{name} = {short_toml(given)}: a range is a list of its two ends")
                 low, high = (self.number(f"{what}.{name}", end, unit) for end in given)
                 if low > high:
-                    raise self.wrong(f"{what}.{name} = {shown(given)}: write the lower end first")
-                yield Wanted(fact, within=(low, high))
+                    raise self.wrong(f"{what}.{name} = {short_toml(given)}: write the lower end first")
+                yield Condition(fact, within=(low, high))
             elif isinstance(given, str) and unit:
-                yield Wanted(fact, self.number(f"{what}.{name}", given, unit))
+                yield Condition(fact, self.number(f"{what}.{name}", given, unit))
             elif isinstance(given, bool | str | int | float):
-                yield Wanted(fact, given)
+                yield Condition(fact, given)
             else:
-                raise self.wrong(f"{what}.{name} = {shown(given)}: must be a number, a word, true, false or a range")
+                raise self.wrong(
+                    f"{what}.{name} = {short_toml(given)}: must be a number, a word, true, false or a range"
+                )
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ _FARTHEST = 10.0
 
 
 @dataclass(frozen=True)
-class Wanted:
+class Condition:
     """A fact and the value that it must have, or that a list must hold; or the range that it must be in."""
 
     fact: str
@@ -47,7 +47,7 @@ class Score:
 
     fact: str
     unit: str = ""
-    wanted: tuple[Wanted, ...] = field(default=(), kw_only=True)  # without which a shot counts nothing
+    wanted: tuple[Condition, ...] = field(default=(), kw_only=True)  # without which a shot counts nothing
     word: str = field(default="made", kw_only=True)  # of the fact: ``pins``
     most: float = field(default=inf, kw_only=True)  # that the fact can be of one shot
 

@@ -28,7 +28,7 @@ class Shot:
     made: bool
 
     @property
-    def said(self) -> str:
+    def verdict(self) -> str:
         """The verdict, in a sentence."""
         return self.run.scene.verdict(self.run)
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from sandbox.errors import RequestError
-from sandbox.tasks.scoring import Score, Wanted
+from sandbox.tasks.scoring import Condition, Score
 
 if TYPE_CHECKING:
     from numpy.random import Generator
@@ -101,8 +101,8 @@ class Task:
     score: Score
     stars: tuple[float, float, float]
     passing: float
-    goes_on: tuple[Wanted, ...]
-    ends: tuple[Wanted, ...]
+    goes_on: tuple[Condition, ...]
+    ends: tuple[Condition, ...]
     file: Path
 
     @cached_property

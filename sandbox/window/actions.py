@@ -16,7 +16,7 @@ from sandbox.picture.graph import graph
 from sandbox.picture.palette import palette
 from sandbox.scene import listings, listings_in
 from sandbox.window import aim, keeping
-from sandbox.window.find import Found, Question, find, questions, said_range
+from sandbox.window.find import Found, Question, find, questions, range_text
 from sandbox.window.front import Entry, Front, begin
 from sandbox.window.measure import Tape
 from sandbox.window.menu import Menu
@@ -166,7 +166,7 @@ def find_shots(view: View, by: float) -> None:
 def _find_one(view: View, question: Question) -> None:
     """Look for shots at something, and offer them."""
     game, changes = view.game, view.game.session.changes
-    ranges = said_range(question, game.session)
+    ranges = range_text(question, game.session)
 
     def then(found: list[Found]) -> None:
         if changes.source != game.session.source:

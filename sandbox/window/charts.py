@@ -52,7 +52,7 @@ class Charts:
         unit, gap, letters, strips = sheet.unit, sheet.gap, sheet.lettering, self.strips[:count]
         row = letters.height("small")
         tall = round(max(share * _CURVE * unit, 2.2 * row)) + 2 * row + 4 * gap
-        longest = [f"{strip.title} ({strip.shown.unit})  {_said(strip, None)}" for strip in self.strips]
+        longest = [f"{strip.title} ({strip.in_chosen_units.unit})  {_value_text(strip, None)}" for strip in self.strips]
         written = max(letters.width(text, "small", bold=True) for text in longest) + 4 * gap
         wide = max(round(_SHARE[not self.shot.upright] * sheet.size[0]), written)
         until = max(self.shot.run.duration, 1e-9)
@@ -61,12 +61,12 @@ class Charts:
             sheet.painter.panel(rect, _CARD["background"], 0.85, 10 * unit)
             for i, strip in enumerate(strips):
                 place = pygame.Rect(rect.left + 2 * gap, rect.top + 2 * gap + i * tall, rect.width - 4 * gap, tall)
-                draw_panel(sheet, place, strip, until, t, self.hits, _said(strip, t))
+                draw_panel(sheet, place, strip, until, t, self.hits, _value_text(strip, t))
 
         return Form((wide, len(strips) * tall + 2 * gap), draw, whole=count == len(self.strips))
 
 
-def _said(strip: Panel, t: float | None) -> str:
+def _value_text(strip: Panel, t: float | None) -> str:
     """The value at time t in s, or the largest of all, of either sign."""
     curve = strip.curves[0]
     if t is not None:

@@ -28,7 +28,7 @@ class _Command(NamedTuple):
     fine: bool = False  # a tenth with Shift
 
     @property
-    def shown(self) -> str:
+    def keys_text(self) -> str:
         """Keys and mouse, for people."""
         held = next((held for held in _HELD if self.keys[0].startswith(held)), "")
         names = [key.removeprefix(held) for key in self.keys]
@@ -79,7 +79,9 @@ def _rows(view: View, group: str) -> list[Row]:
     meanings = {"accuracy": f"accuracy: {view.game.session.value('accuracy.level')}, and the next",
                 "predict": f"path while aiming: {view.shown.ahead}, and the next"}  # fmt: skip
     return [
-        Row(it.name, meanings.get(it.name, it.meaning), it.shown) for it in TABLE if it.meaning and it.group == group
+        Row(it.name, meanings.get(it.name, it.meaning), it.keys_text)
+        for it in TABLE
+        if it.meaning and it.group == group
     ]
 
 
@@ -211,4 +213,4 @@ def hint_of(button: str) -> str:
     if button in HINTS:
         return HINTS[button]
     command = _BY_NAME[button.removeprefix("-")]
-    return f"{command.meaning} ({command.shown})"
+    return f"{command.meaning} ({command.keys_text})"

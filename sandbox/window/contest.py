@@ -195,7 +195,7 @@ class AtTask(Contest):
         session, attempt = self.session, self.session.attempt
         shot = session.record(self._set, run)
         self.worths.append(shot.worth)
-        self.said, self.good, self.counts = shot.said, shot.made, self.task.score.shot_text(shot.worth)
+        self.said, self.good, self.counts = shot.verdict, shot.made, self.task.score.shot_text(shot.worth)
         if self.players > 1:
             self.said = f"{PLAYERS[self.turn]}: {self.said}"
         if attempt.over and not self.over:
@@ -296,8 +296,8 @@ class AtMatch(Contest):
         controls, known = self.base.controls, {it.key: it for it in walk(self.scene.parameters, entries=True)}
         keys = [controls.speed, controls.angle, *(spin.key for spin in controls.spins), *self.match.free]
         found = {key: known[key].bounds for key in keys if key in known}
-        if self.match.room is not None:
-            x0, y0, x1, y1 = self.match.room
+        if self.match.placement_area is not None:
+            x0, y0, x1, y1 = self.match.placement_area
             found |= dict(zip(self.match.free, ((x0, x1), (y0, y1)), strict=False))
         return found
 

@@ -178,7 +178,7 @@ class Drawing:
             clear = [*picture.kept_clear(picture.view(t), t), *picture.sheet.labels.taken]
             return Layout(room, sheet.gap, [*kept, *clear])
         handles = [pygame.Rect(round(x - 9 * unit), round(y - 9 * unit), round(18 * unit), round(18 * unit))
-                   for grip, (x, y), *_ in self.targets.shown_grips if not grip.in_list]  # fmt: skip
+                   for grip, (x, y), *_ in self.targets.visible_grips if not grip.in_list]  # fmt: skip
         path = [] if self.shown.hides_path else stage.along(shot)
         return Layout(room, sheet.gap, [*kept, *handles, *stage.kept_clear(shot, t)], path)
 
@@ -189,10 +189,10 @@ class Drawing:
             hand.draw_pull(sheet, self.layout, pull.start, pull.drawn, shot.aimed)
         if self.shown.overlay is not None:
             return
-        shown, held = targets.shown_grips, targets.held
+        shown, held = targets.visible_grips, targets.held
         if shown:
             mouse = targets.mouse if targets.on_picture and game.grasp.grip is None else None
-            said = held.said(game.session) if held is not None else ""
+            said = held.value_text(game.session) if held is not None else ""
             hand.draw_handles(sheet, self.layout, shown, mouse, held, said)
         spins = game.session.controls.spins
         off = not spins or ("pad" in self.shown.on) == (len(spins) > 1)

@@ -130,7 +130,7 @@ def _fan(scene: Scene, spread: _Spread, asked: Sequence[str], quick: bool = Fals
     return _begun[backwards]
 
 
-def _asked(scene: Scene) -> list[str]:
+def _fan_facts(scene: Scene) -> list[str]:
     """The facts that a fan shows: whether a shot scores, and a number, by default the first that is known as soon."""
     controls, facts = scene.controls, scene.facts
     number = controls.fan_fact
@@ -143,7 +143,7 @@ def _asked(scene: Scene) -> list[str]:
 def shots_from_end(scene: Scene, width: float, left: int) -> list[FanShot | None]:
     """The shots that another process has computed so far, from the end of the fan, of which so many were ``left`` when
     it was asked for more; none of a fan that is computed together."""
-    fan = _fan(scene, players_spread(scene, width), _asked(scene), backwards=True)
+    fan = _fan(scene, players_spread(scene, width), _fan_facts(scene), backwards=True)
     if not fan.together:
         fan.go_on(left, 1, _BRIEF)
     return fan.flown
@@ -168,7 +168,7 @@ def cloud(
     spread = players_spread(scene, width)
     if not spread:
         return Cloud((0, 0), (0, 0), b"", ("no fan: this shot does not start from the player's controls", ""), 0, 0, 0)
-    asked = _asked(scene)
+    asked = _fan_facts(scene)
     if quick and early and scene.final_when(asked) is None:
         asked = [early]
     fan = _fan(scene, spread, asked, quick)
@@ -176,7 +176,7 @@ def cloud(
     elsewhere = elsewhere[: fan.left]
     shots = [shot for shot in (*fan.flown, *reversed(elsewhere)) if shot is not None]
     good, rest = fan.densities(elsewhere, camera, size)
-    said = _said(scene, asked, shots), _by(spread)
+    said = _summary(scene, asked, shots), _by(spread)
     scored, left = sum(shot.scored for shot in shots), max(0, fan.left - len(elsewhere))
     left = SHOTS if quick else left
     return Cloud(*_drawn(good, rest, colours), said, len(shots), scored, left, _bars(scene, asked, shots))
@@ -193,13 +193,13 @@ class _FanShots(NamedTuple):
 
 def fan_of(scene: Scene, seconds: float) -> _FanShots | None:
     """The fan of a scene, as many of its shots as are computed in so many s; None for a shot without spread."""
-    spread, asked = players_spread(scene), _asked(scene)
+    spread, asked = players_spread(scene), _fan_facts(scene)
     if not spread:
         return None
     fan = _Fan(scene, spread, asked, quick=False, backwards=False)
     fan.go_on(fan.left, FEWEST, seconds)
     shots = [shot for shot in fan.flown if shot is not None]
-    return _FanShots(shots, _said(scene, asked, shots), _by(spread), _bars(scene, asked, shots))
+    return _FanShots(shots, _summary(scene, asked, shots), _by(spread), _bars(scene, asked, shots))
 
 
 def _by(spread: _Spread) -> str:
@@ -208,7 +208,7 @@ def _by(spread: _Spread) -> str:
     return ", ".join(map(str.rstrip, sigmas))
 
 
-def _said(scene: Scene, asked: Sequence[str], shots: Sequence[FanShot]) -> str:
+def _summary(scene: Scene, asked: Sequence[str], shots: Sequence[FanShot]) -> str:
     """Text: how many score, with the 95 % interval of Wilson; else the mean and sd of the number that was asked for."""
     count = len(shots)
     text = f"{count} shots" if count else "no such shot could be computed"

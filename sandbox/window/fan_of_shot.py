@@ -46,7 +46,7 @@ class FanOfShot:
         self._once = KeyedCache()
 
     @property
-    def wanted(self) -> FanKey | None:
+    def next_key(self) -> FanKey | None:
         """The key of the fan that is still to be computed: a quick one while the shot changes."""
         game, stage, known = self.game, self.stages.latest, self.job
         ready = game.failure is None and self.stages.up_to_date and game.watching.live is None
@@ -63,7 +63,7 @@ class FanOfShot:
         """Begin what is wanted, and take what is there; returns whether there is something new."""
         new = self.job.take()
         self.elsewhere.take()
-        wanted = self.wanted
+        wanted = self.next_key
         self.job.follow(wanted, self._ask)
         self._follow_elsewhere(wanted)
         return new

@@ -81,7 +81,7 @@ def _usual(session: Session, upright: bool) -> dict[str, tuple[float, float]]:
     }
 
 
-def said_range(question: Question, session: Session) -> str:
+def range_text(question: Question, session: Session) -> str:
     """The ranges in which shots are looked for: ``speed 0.37 to 14.8 m/s, angle 2 to 85 deg``; and the speed where
     it stays as it is."""
     texts = []

@@ -120,14 +120,14 @@ def begin(game: Game, entry: Entry) -> None:
         game.opening.open(entry.source)
         return
 
-    def made() -> Contest:
+    def new_contest() -> Contest:
         if entry.kind == "game":
             return AtMatch(installed_folders().get(entry.source, Path(entry.source)), entry.game)
         if entry.kind == "predict":
             return Prediction(load_scene(entry.source))
         return AtTask(load(entry.source), 2 if entry.kind == "two" else 1)
 
-    game.messages.reporting_errors(lambda: game.referee.begin(made()))
+    game.messages.reporting_errors(lambda: game.referee.begin(new_contest()))
 
 
 class Front(Overlay):

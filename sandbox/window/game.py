@@ -105,12 +105,19 @@ class Game:
         return [*([before] if before is not None else []), *earlier]
 
     @property
-    def seen(self) -> tuple[Any, ...]:
+    def visible_state(self) -> tuple[Any, ...]:
         """All that can be seen of the game and changes without an event of the window."""
         playback = self.watching.playback
         clock = (playback.t, playback.playing, playback.rate) if playback is not None else None
         shown = self.shot, clock, self.session.changes, self.path.before_save, self.late
-        return (*shown, *self.referee.seen, self.failure, self.notices, len(self.jobs.waiting), self.shots.count)
+        return (
+            *shown,
+            *self.referee.visible_state,
+            self.failure,
+            self.notices,
+            len(self.jobs.waiting),
+            self.shots.count,
+        )
 
     @property
     def notices(self) -> list[tuple[str, bool]]:

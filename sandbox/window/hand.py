@@ -50,7 +50,7 @@ class ShownGrip(NamedTuple):
         return self.grip.place[0] + x - x0, self.grip.place[1] + y - y0
 
 
-def shown_grips(grips: Sequence[Grip], stage: Stage, sheet: Canvas, in_hand: bool = False) -> list[ShownGrip]:
+def visible_grips(grips: Sequence[Grip], stage: Stage, sheet: Canvas, in_hand: bool = False) -> list[ShownGrip]:
     """The places of the handles; that of the wind has a camera of its own. If the ball that is played is ``in_hand``, a
     drag of it moves it."""
     ball, aside, unit = stage.ball_at(stage.shot), _ASIDE * sheet.unit, sheet.unit

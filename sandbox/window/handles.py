@@ -51,7 +51,7 @@ class Grip:
         carried = {key: max(0.0, float(f"{value + rise:.9g}")) for key, value in self.with_y.items()}
         return {**self.prerequisites, **found, **carried}
 
-    def said(self, session: Session) -> str:
+    def value_text(self, session: Session) -> str:
         """The parameters and their current values: ``hoop distance 4.19 m, height 3.05 m``."""
         unit = "m/s" if self.is_wind else "m"
         names = ["", ""] if self.is_wind else [key.rpartition(".")[2].replace("_", " ") for key in self.keys]

@@ -35,7 +35,7 @@ class Layout:
         self.placed: dict[str, pygame.Rect] = {}
 
     @property
-    def taken(self) -> list[pygame.Rect]:
+    def occupied(self) -> list[pygame.Rect]:
         """The rectangles that nothing else may cover."""
         return [*self.kept, *self.placed.values()]
 
@@ -44,7 +44,7 @@ class Layout:
         to a place in px; returns where it is, or None if there is no room."""
         for whole, path in product((True, False), (self.path, ())):
             for form in forms:
-                rect = self.find(form.size, at, anchor, [*self.taken, *path]) if form.whole == whole else None
+                rect = self.find(form.size, at, anchor, [*self.occupied, *path]) if form.whole == whole else None
                 if rect is not None:
                     self.placed[name] = rect
                     form.draw(rect)

@@ -29,7 +29,7 @@ class MapOfShot:
         self.job: LatestJob[ScoreMap] = LatestJob(game.workers.helper.abandon, HUNG)
 
     @property
-    def wanted(self) -> MapKey | None:
+    def next_key(self) -> MapKey | None:
         """The key of the map that is still to be computed."""
         game, shot, known, last = self.game, self.game.shot, self.job.value, self.job.key
         if "map" not in self.shown.on or shot is None or game.failure is not None or game.still < AT_REST:
@@ -43,7 +43,7 @@ class MapOfShot:
     def follow(self) -> bool:
         """Begin what is wanted, and take what is there; returns whether there is something new."""
         new = self.job.take()
-        self.job.follow(self.wanted, lambda key: self.game.workers.helper.submit(score_map, key.scene, key.finer))
+        self.job.follow(self.next_key, lambda key: self.game.workers.helper.submit(score_map, key.scene, key.finer))
         return new
 
     def of(self, shot: Shot) -> ScoreMap | None:

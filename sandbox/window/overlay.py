@@ -52,7 +52,7 @@ class Overlay:
         self.kept: list[pygame.Rect] = []  # of the picture, in px: balls and what is aimed at
 
     @property
-    def made(self) -> int:
+    def picture_count(self) -> int:
         """The number of its pictures that are there."""
         return sum(picture.done() for picture in self.pictures.values())
 
@@ -120,7 +120,7 @@ class Overlay:
     def off_kept(self, sheet: Canvas, wanted: Sequence[pygame.Rect]) -> pygame.Rect:
         """The first of some rectangles that can be moved off what is kept clear, moved; or the first one as it is."""
         layout = Layout(sheet.surface.get_rect(), sheet.gap, self.kept)
-        found = (layout.find(rect.size, rect.topleft, "topleft", layout.taken) for rect in wanted)
+        found = (layout.find(rect.size, rect.topleft, "topleft", layout.occupied) for rect in wanted)
         return next((rect for rect in found if rect is not None), wanted[0])
 
     def draw(self, sheet: Canvas, mouse: tuple[int, int], on: Collection[str] = ()) -> None:
@@ -186,7 +186,7 @@ class Chart(Overlay):
         self.pictures["chart"] = work
 
     def compose(self) -> None:
-        if self.made:
+        if self.picture_count:
             surface, onto = self.pictures["chart"].result(), self.sheet.surface
             onto.blit(surface, surface.get_rect(center=onto.get_rect().center))
 

@@ -27,14 +27,14 @@ class AimedPath:
         self.cost = 0.0  # s, of the last run
 
     @property
-    def wanted(self) -> tuple[Any, ...]:
+    def next_key(self) -> tuple[Any, ...]:
         """The run that is wanted: the key of its run, from which the shot is made."""
         return self.session.scene, self.session.changes
 
     @property
     def settled(self) -> bool:
         """True if the shot is that of the current parameters, or is known to have failed."""
-        return self.runs.work is None and self.runs.key == self.wanted
+        return self.runs.work is None and self.runs.key == self.next_key
 
     @property
     def is_quick(self) -> bool:
@@ -43,7 +43,7 @@ class AimedPath:
 
     def follow(self) -> None:
         """Begin the run of the current parameters, unless it was made or another has not ended yet."""
-        self.runs.follow(self.wanted, lambda key: self.workers.path.submit(computed, key[0]))
+        self.runs.follow(self.next_key, lambda key: self.workers.path.submit(computed, key[0]))
 
     def take(self, patience: float | None) -> bool:
         """Make a shot of the run that has ended within ``patience`` s (None: wait); returns whether one has, which may
@@ -78,7 +78,7 @@ class AimedPath:
     def is_refused(self) -> None:
         """Take the current parameters, which are those of the shot again, as computed; the reason is known."""
         if self.shot is not None and self.session.scene == self.shot.scene:  # and no file was saved since
-            self.runs.key, self.runs.error = self.wanted, None
+            self.runs.key, self.runs.error = self.next_key, None
 
     def stop(self) -> bool:
         """Stop a long run; returns whether there was one."""

@@ -56,7 +56,7 @@ class Referee:
         return self.work is not None or self.pending is not None or bool(self.again) or self.glow > 0.0
 
     @property
-    def seen(self) -> tuple[Any, ...]:
+    def visible_state(self) -> tuple[Any, ...]:
         """All that can be seen of it."""
         marked = (self.contest.mark, self.contest.landed) if self.contest is not None else None
         return self.contest, len(self.shots), self.pending, self.again, self.glow, marked
@@ -67,7 +67,7 @@ class Referee:
         return self.contest is not None and self.contest.over
 
     @property
-    def said(self) -> str:
+    def outcome(self) -> str:
         """The result of the shot that is watched: of the last one in the words of the contest."""
         playback = self.watching.playback
         if playback is None or self.contest is None or playback.shot in self.shots[-1:]:

@@ -67,7 +67,7 @@ class ScoreMap(NamedTuple):
         return float(np.nan_to_num(self.cells).mean())
 
     @property
-    def said(self) -> str:
+    def summary(self) -> str:
         """The share for people; where nothing scores, what to do."""
         return f"{100 * self.share:.0f} % of these score" if self.share else _NOTHING
 
@@ -129,7 +129,7 @@ def map_forms(
     """The map on a card with a ring at the aim, smaller ones, and at last the share that scores alone; ``drawn`` is
     told where the cells are."""
     maps = [_map_form(sheet, found, aim, drawn, share) for share in (1.0, 0.75, 0.55)]
-    return [*maps, sheet.text([(found.said, _CARD["text"])])._replace(whole=False)]
+    return [*maps, sheet.text([(found.summary, _CARD["text"])])._replace(whole=False)]
 
 
 def _coloured(cells: np.ndarray) -> np.ndarray:
@@ -149,7 +149,7 @@ def _map_form(
     below = f"{slow:.3g}  {found.units[0]}  {fast:.3g}"
     wide = max(wide, letters.width(below, "small"))
     up = max(letters.width(f"{angle:.3g}", "small") for angle in (low, high))
-    whole = max(wide + up + 2 * gap, letters.width(found.said, "small")) + 4 * gap
+    whole = max(wide + up + 2 * gap, letters.width(found.summary, "small")) + 4 * gap
 
     def write(text: str, at: tuple[float, float], anchor: str, colour: Colour = _CARD["quiet"]) -> None:
         letters.write(sheet.surface, text, "small", at, colour, anchor)
@@ -164,7 +164,7 @@ def _map_form(
             at = cells.left + across * wide, cells.bottom - along * tall
             for radius, colour in ((6.5, _CARD["background"]), (5.0, _CARD["accent"])):
                 sheet.painter.ring(at, radius * unit, 2.5 * unit, colour)
-        write(found.said, (card.left + 2 * gap, card.top + gap), "topleft", _CARD["text"])
+        write(found.summary, (card.left + 2 * gap, card.top + gap), "topleft", _CARD["text"])
         speed, angle = found.units
         foot = cells.bottom + gap // 2
         write(f"{slow:.3g}", (cells.left, foot), "topleft")

@@ -37,10 +37,10 @@ def headline_of(referee: Referee, contest: Contest) -> tuple[str, list[str], Col
         notes = [contest.stand] if contest.takes_marks else [contest.stand, how]
         return contest.headline, notes, _CARD["text"]
     if contest.over:
-        return referee.said, ["the best shots, the best last"] if referee.again == "best" else [], _CARD["text"]
+        return referee.outcome, ["the best shots, the best last"] if referee.again == "best" else [], _CARD["text"]
     notes = [contest.counts] if contest.counts else []
     notes += ["Enter or click: the next shot", "R: see it again"]
-    return referee.said, notes, _CARD["good" if contest.good else "text"]
+    return referee.outcome, notes, _CARD["good" if contest.good else "text"]
 
 
 def star(sheet: Canvas, centre: tuple[float, float], radius: float, lit: bool) -> None:

@@ -36,10 +36,10 @@ class Shown:
         return self._ahead if contest is None else _OF_TASKS[contest.shown]
 
     @property
-    def seen(self) -> tuple[Any, ...]:
+    def visible_state(self) -> tuple[Any, ...]:
         """All that can be seen of it."""
         overlay = self.overlay
-        return frozenset(self.on), self.ahead, self.fan_width, self.tape, overlay, overlay and overlay.made
+        return frozenset(self.on), self.ahead, self.fan_width, self.tape, overlay, overlay and overlay.picture_count
 
     def open(self, overlay: Overlay | None) -> None:
         """Show something over the picture, in place of what is there."""

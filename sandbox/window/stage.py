@@ -133,7 +133,7 @@ class Stage:
 
     def label_ghosts(self, sheet: Canvas, ghosts: Sequence[Shot], around: Shot, layout: Layout) -> None:
         """Number and result of each earlier shot, where on its path there is room around the path of a shot."""
-        off = tuple(tuple(rect) for rect in layout.taken)
+        off = tuple(tuple(rect) for rect in layout.occupied)
         shown = tuple(ghosts)
         found: Sheet = self._once(
             "labels", (shown, around, off), lambda: self._ghost_labels(sheet, shown, around, layout)
@@ -144,7 +144,7 @@ class Stage:
     def _ghost_labels(self, sheet: Canvas, shown: Sequence[Shot], around: Shot, layout: Layout) -> Sheet:
         labels = Sheet(self.size, surface=blank(self.size, transparent=True))
         labels.labels.frame = layout.room.copy()
-        labels.labels.taken += layout.taken
+        labels.labels.taken += layout.occupied
         labels.labels.take_path(self.line(around).tolist(), 5 * sheet.unit)
         for shot in shown:
             name = str(shot.number) if shot.number else "before saving"

@@ -88,7 +88,7 @@ class Stages:
         return self.game.shot, self.screen.area.size, self.chosen
 
     @property
-    def wanted(self) -> bool:
+    def needs_stage(self) -> bool:
         """True if the shot needs another stage than the last one that was tried."""
         shot, stage = self.game.shot, self.fitting
         if shot is None or self.job.key == self._key:
@@ -100,7 +100,7 @@ class Stages:
         new one."""
         self._age += dt
         new = self._take()
-        if not self.wanted or self._may_wait():
+        if not self.needs_stage or self._may_wait():
             return new
         before = self.latest
         self.job.follow(self._key, lambda key: self.background.submit(Stage, *key, before))

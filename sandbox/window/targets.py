@@ -35,18 +35,18 @@ class Targets:
         self.pad = None
 
     @property
-    def shown_grips(self) -> list[hand.ShownGrip]:
+    def visible_grips(self) -> list[hand.ShownGrip]:
         """The handles that can be dragged now, with their places in px."""
         game, stage = self.game, self.stages.fitting
         if game.watching.playback is not None or game.grasp.pull is not None or stage is None:
             return []
         found: list[Grip] = self._once("grips", game.session.scene, lambda: grips(game.session))
         contest = game.referee.contest
-        return hand.shown_grips(found, stage, self.screen.sheet, in_hand=contest is not None and contest.in_hand)
+        return hand.visible_grips(found, stage, self.screen.sheet, in_hand=contest is not None and contest.in_hand)
 
     def grip_at(self, at: tuple[int, int]) -> hand.ShownGrip | None:
         """The handle at a place in px."""
-        return hand.nearest(self.shown_grips, at)
+        return hand.nearest(self.visible_grips, at)
 
     def card_at(self, at: tuple[int, int]) -> str | None:
         """The name of the card at a place in px."""
@@ -54,7 +54,7 @@ class Targets:
 
     def pick(self, by: int) -> bool:
         """Take hold of the handle ``by`` places on; returns whether there is any."""
-        keys = [shown.grip.keys for shown in self.shown_grips]
+        keys = [shown.grip.keys for shown in self.visible_grips]
         if keys:
             now = keys.index(self.picked_keys) if self.picked_keys in keys else -1 if by > 0 else 0
             self.picked_keys = keys[(now + by) % len(keys)]
@@ -63,7 +63,7 @@ class Targets:
     @property
     def picked(self) -> hand.ShownGrip | None:
         """The handle that was picked by key."""
-        return next((shown for shown in self.shown_grips if shown.grip.keys == self.picked_keys), None)
+        return next((shown for shown in self.visible_grips if shown.grip.keys == self.picked_keys), None)
 
     @property
     def held(self) -> Grip | None:

@@ -104,9 +104,9 @@ class View:
     def busy(self) -> bool:
         """True if something is being prepared that will have to be drawn."""
         overlay = self.shown.overlay
-        pictures = overlay is not None and overlay.made < len(overlay.pictures)
+        pictures = overlay is not None and overlay.picture_count < len(overlay.pictures)
         coming = any(job.work is not None for job in (self.stages.job, self.fan.job, self.map.job))
-        return pictures or coming or self.stages.wanted or bool(self.fan.wanted or self.map.wanted)
+        return pictures or coming or self.stages.needs_stage or bool(self.fan.next_key or self.map.next_key)
 
     def tick(self, dt: float) -> None:
         """``dt`` s have passed."""
@@ -135,7 +135,7 @@ class View:
 
     def needs_drawing(self, happened: bool) -> bool:
         """True if what would be drawn differs from what was drawn last."""
-        seen = self.game.seen, self.shown.seen, self.stages.chosen, self.viewpoint.nearer
+        seen = self.game.visible_state, self.shown.visible_state, self.stages.chosen, self.viewpoint.nearer
         needed = happened or self.changed or seen != self._drawn
         self._drawn, self.changed = seen, False
         return needed

@@ -208,7 +208,7 @@ class Picture(SideView[Parameters]):
             self._entry(sheet)
         else:
             self.trail(painter, near, self.ball, t)
-            self.draw_ball(painter, near, self.ball, t, *self._placed(near, t)[self.ball])
+            self.draw_ball(painter, near, self.ball, t, *self._ball_places(near, t)[self.ball])
         self.before(painter, near, moment)
         if t is None:
             mark_impacts(sheet, near, self.impacts(near))

@@ -125,7 +125,7 @@ class Pool(Match):
         return ("balls[0].x", "balls[0].y") if self.in_hand else ()
 
     @property
-    def room(self) -> tuple[float, float, float, float] | None:
+    def placement_area(self) -> tuple[float, float, float, float] | None:
         return (-0.5 * LENGTH, -0.5 * WIDTH, -0.25 * LENGTH, 0.5 * WIDTH) if self.behind else None
 
     @property

@@ -68,7 +68,7 @@ class Picture(AboveView[Parameters]):
         return 6.0 * self.unit
 
     @cached_property
-    def seen(self) -> np.ndarray:
+    def must_show(self) -> np.ndarray:
         return np.array([(-HALF - FRAME, FOOT - FRAME), (OUTER + FRAME, ARCH + 0.26 + FRAME)])
 
     def strobe(self, sheet: Sheet, camera: Camera) -> list[str]:
@@ -82,13 +82,13 @@ class Picture(AboveView[Parameters]):
 
     def inset(self, sheet: Sheet, camera: Camera, t: float | None) -> pygame.Rect:
         """The table itself: what is written stands beside it."""
-        (left, bottom), (right, top) = self.seen.tolist()
+        (left, bottom), (right, top) = self.must_show.tolist()
         return plan.on_pixels(camera, Box(left, bottom, right, top))
 
     @property
     def aims(self) -> list[Box]:
         """The table: nothing in the window covers it, but its arch where there is little room beside it."""
-        (left, bottom), (right, top) = self.seen.tolist()
+        (left, bottom), (right, top) = self.must_show.tolist()
         beside = self.camera.pixel(left, bottom)[0] > 0.3 * self.size[0]
         return [Box(left, bottom, right, top if beside else ARCH)]
 

@@ -1,4 +1,4 @@
-"""Rows and columns of measured tables that are not used: left out, counted, named with their reasons."""
+"""Rows and columns of measured tables that are not used: left out, share_that_holds, named with their reasons."""
 
 from __future__ import annotations
 

@@ -259,6 +259,6 @@ def test_a_block_is_about_a_second_of_work(accuracy):
     scene = sandbox.load("basketball/rattle", accuracy)
     speeds = parse_axis(scene, "--over", "launch.speed=7:8:900")
     plan = Plan(scene, (speeds,))
-    (run,) = runs(scene, plan.keys, [(7.5,)], asked=plan.asked)
+    (run,) = runs(scene, plan.keys, [(7.5,)], asked=plan.facts_read)
     assert isinstance(run, Run)
     assert plan.block * run.numerics.force_evaluations < 1_000_000

@@ -50,7 +50,7 @@ def test_what_an_impact_takes_is_taken_at_once(name):
 def test_with_what_the_wind_put_in_the_balance_holds():
     """In still air lift does no work; through its curving path it hands a kick what the wind has."""
     spent = course(run_of(WINDY))
-    there = sum(spent.has.values()) + sum(spent.taken.values())
+    there = sum(spent.has.values()) + sum(spent.taken_by_cause.values())
     assert there == pytest.approx(spent.start + sum(spent.put_in.values()), rel=1e-6)
     assert spent.put_in["lift"].max() > 0.15 * spent.start
     assert max(values.max() for values in course(run_of("soccer")).put_in.values()) < 1e-6 * spent.start
@@ -68,7 +68,7 @@ def test_each_cause_takes_in_the_end_what_the_ledger_says(name):
 
 
 def test_drag_takes_more_and_more():
-    lost = course(run_of("golf")).taken["drag"]
+    lost = course(run_of("golf")).taken_by_cause["drag"]
     assert np.all(np.diff(lost) >= -1e-12)
     assert lost[-1] > 100  # J, of a drive's 134
 
@@ -77,17 +77,17 @@ def test_an_impact_takes_its_energy_at_once():
     spent = course(run_of("basketball"))
     event = next(event for event in run_of("basketball").events if event.kind == "impact")
     before, at = (int(np.argmin(abs(spent.times - t))) for t in (event.t - 1e-9, event.t))
-    jump = spent.taken["floor"][at] - spent.taken["floor"][before]
-    assert jump == pytest.approx(spent.taken["floor"][at], rel=1e-6)
+    jump = spent.taken_by_cause["floor"][at] - spent.taken_by_cause["floor"][before]
+    assert jump == pytest.approx(spent.taken_by_cause["floor"][at], rel=1e-6)
     assert jump > 1.0  # J
 
 
 def test_like_surfaces_and_pairs_of_balls_are_grouped():
-    assert set(course(run_of("billiards/nine-ball-break")).taken) >= {"cloth", "cushions", "balls"}
+    assert set(course(run_of("billiards/nine-ball-break")).taken_by_cause) >= {"cloth", "cushions", "balls"}
 
 
 def test_what_catches_a_ball_goes_by_its_own_name():
-    taken = course(run_of("bowling")).taken
+    taken = course(run_of("bowling")).taken_by_cause
     assert taken["pit"][-1] > 50.0  # J
     assert "pockets" not in taken
 
@@ -112,7 +112,7 @@ def test_what_the_last_impact_changes_has_a_width():
 
 def test_a_caught_ball_takes_its_energy_into_the_pocket():
     spent = course(run_of("billiards/bank"))
-    assert spent.taken["pockets"][-1] > 0
+    assert spent.taken_by_cause["pockets"][-1] > 0
     assert spent.has["speed"][-1] == pytest.approx(0.0, abs=1e-12)
 
 

@@ -44,8 +44,8 @@ def test_several_runs_and_units():
     found = panels("golf", "golf/headwind")
     assert [curve.name for curve in found["speed"].curves] == ["golf/headwind", "golf"]  # the first is on top
     with shown_in("us"):
-        assert (found["speed"].shown.unit, found["x"].shown.unit) == ("mph", "yd")
-    assert found["speed"].shown.unit == "m/s"
+        assert (found["speed"].in_chosen_units.unit, found["x"].in_chosen_units.unit) == ("mph", "yd")
+    assert found["speed"].in_chosen_units.unit == "m/s"
 
 
 @pytest.mark.parametrize(

@@ -217,7 +217,7 @@ def test_the_ball_that_is_played_is_seen_where_it_was_caught(name: str):
     run = run_of(name)
     picture = run.scene.picture(run, (1280, 720))
     assert picture.caught[picture.ball] <= run.duration
-    (at, radius) = picture._placed(picture.camera, picture.story_end)[picture.ball]
+    (at, radius) = picture._ball_places(picture.camera, picture.story_end)[picture.ball]
     assert radius >= 3.5
     assert all(0.04 * side <= place <= 0.96 * side for place, side in zip(at, picture.size, strict=True))
 

@@ -67,7 +67,7 @@ def test_a_game_goes_as_it_is_written(file: Path):
         assert match.foul == move.get("foul", ""), where
         assert match.said == move.get("said", match.said), where
         assert bool(match.free) == move.get("in_hand", bool(match.free)), where
-        assert (match.room is not None) == move.get("behind", match.room is not None), where
+        assert (match.placement_area is not None) == move.get("behind", match.placement_area is not None), where
         there = {spot["name"] for spot in match.start.get("balls", []) if "name" in spot}
         assert set(move.get("on_table", [])) <= there, where
         assert len(match.start.get("stones", [])) == move.get("stones", len(match.start.get("stones", [])))

@@ -11,7 +11,7 @@ import pytest
 from sandbox.lab.published import KINDS, cases
 from sandbox.lab.teeth import as_json, teeth
 from sandbox.lab.teeth import as_text as as_text_of_teeth
-from sandbox.lab.validate import Compared, as_text, counted, validate
+from sandbox.lab.validate import Compared, as_text, share_that_holds, validate
 from sandbox.scene import listings
 from tests.own_scene import DROP, assert_refused, copy_of
 
@@ -61,7 +61,7 @@ def test_the_readme_counts_measured_rows_as_validate_does(rows):
     """``python docs/measure_accuracy.py validate`` writes it."""
     counts = [row for row in rows if row.kind in ("measured", "held-out")]
     said = f"{sum(row.holds for row in counts)} of {len(counts)} measured numbers"
-    assert said == counted(rows)
+    assert said == share_that_holds(rows)
     assert f"`sandbox validate`: {said}" in " ".join((ROOT / "README.md").read_text("utf-8").split())
 
 

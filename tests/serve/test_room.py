@@ -55,7 +55,7 @@ def test_place_fan_and_shot_come_as_asked(player):
     assert fan["said"].startswith(f"{sum(scored for scored, _ in fan['lines'])} of 100 score")
     run = client.hear("shot", n=client.ask("shoot"))["run"]
     assert run["energy"]["bands"]
-    assert len(run["told_events"]) == len(run["events"]) > 0
+    assert len(run["event_rows"]) == len(run["events"]) > 0
     assert run["forces"]["causes"]
 
 
@@ -248,7 +248,7 @@ def test_a_session_is_found_again_from_its_shots():
     for n, aim in enumerate(aims):
         sessions._sessions.clear()
         reply = work.shot(calls.Ask("free-throw", aim, 1, game=calls.Game(7, 3, tuple(aims[:n]))))
-        assert reply["kept"]["verdict"] == session.shoot(aim).said
+        assert reply["kept"]["verdict"] == session.shoot(aim).verdict
         assert reply["kept"]["task"]["attempt"] == session.attempt.number == n + 2
 
 

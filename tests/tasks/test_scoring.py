@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from sandbox.tasks import Score, load
-from sandbox.tasks.scoring import KINDS, Fewest, Greatest, Nearest, Points, Streak, Sum, Wanted
+from sandbox.tasks.scoring import KINDS, Condition, Fewest, Greatest, Nearest, Points, Streak, Sum
 
 RINGS = ((0.1, 10.0), (0.5, 5.0))
 
@@ -81,7 +81,7 @@ def test_a_smaller_score_is_better_of_nearest_and_fewest():
 
 
 def test_a_shot_counts_only_with_the_facts_that_are_wanted():
-    wanted = Wanted("verdict", "bank"), Wanted("angle", within=(40.0, 60.0)), Wanted("potted", "8")
+    wanted = Condition("verdict", "bank"), Condition("angle", within=(40.0, 60.0)), Condition("potted", "8")
     score = Sum("made", wanted=wanted)
     good = {"made": True, "verdict": "bank", "angle": 40.0, "potted": ["1", "8"]}
     assert score.of_shot(good) == 1.0

@@ -200,7 +200,7 @@ class TestATask:
         assert session.changes.values == {}
         thrower.game.aiming.change({"launch.speed": 50.0, "gravity": 1.0})
         assert session.changes.values == {"launch.speed": 10.0}
-        assert thrower.view.targets.shown_grips == []
+        assert thrower.view.targets.visible_grips == []
 
     def test_a_miss_is_said_in_a_sentence_and_counts(self, thrower):
         referee = thrower.game.referee
@@ -255,7 +255,7 @@ class TestATask:
             return len(shown) == 3 and game.watching.playback.over
 
         passes(thrower, three)
-        assert referee.said == referee.shots[0].verdict != contest.said  # of what is shown, not of the last
+        assert referee.outcome == referee.shots[0].verdict != contest.said  # of what is shown, not of the last
         assert shown == [3, 2, 1]  # all went in; of equal ones the first is the best
         thrower.frames()
         buttons = thrower.view.targets.cards
@@ -394,7 +394,7 @@ class TestAMatch:
         player.settle()
         game, session = player.game, player.game.session
         assert any("ball in hand" in text and "pull back elsewhere" in text for text in said(player))
-        (grip,) = player.view.targets.shown_grips
+        (grip,) = player.view.targets.visible_grips
         assert grip.at == pytest.approx(player.view.stages.latest.ball_at(game.shot), abs=1.0)  # no pull begins there
         x, y = (round(value) for value in grip.at)
         player.press((x, y))

@@ -205,10 +205,10 @@ class TestARunThatNeverEnds:
         game.aiming.change({"launch.speed": 2.0})
         game.advance(0.0)
         assert not game.late
-        seen, game.path.runs.began = game.seen, game.path.runs.began - LATE
+        seen, game.path.runs.began = game.visible_state, game.path.runs.began - LATE
         game.advance(0.0)
         assert game.late
-        assert game.seen != seen
+        assert game.visible_state != seen
         game.workers.path.abandon(None)
         game.advance(0.0)
         assert not game.late

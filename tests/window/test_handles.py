@@ -20,7 +20,7 @@ WIND_KEYS = (WIND.x, WIND.y)
 
 def spot(player, key: str):
     """The place of the handle of a parameter, in px."""
-    return next(tuple(map(round, spot.at)) for spot in player.view.targets.shown_grips if key in spot.grip.keys)
+    return next(tuple(map(round, spot.at)) for spot in player.view.targets.visible_grips if key in spot.grip.keys)
 
 
 def drag(player, key: str, by: tuple[int, int], let_go: bool = True) -> None:
@@ -38,17 +38,17 @@ def drag(player, key: str, by: tuple[int, int], let_go: bool = True) -> None:
 def test_what_is_dragged_is_where_the_mouse_is_and_can_be_undone(player, source):
     player = player(source, (640, 400))
     game, view = player.game, player.view
-    places = {key for grip, *_ in view.targets.shown_grips for key in grip.keys if key and grip.keys != WIND_KEYS}
+    places = {key for grip, *_ in view.targets.visible_grips for key in grip.keys if key and grip.keys != WIND_KEYS}
     assert places, "a scene has something to drag"
     inside = [
         (grip, at)
-        for grip, at, *_ in view.targets.shown_grips
+        for grip, at, *_ in view.targets.visible_grips
         if grip.keys != WIND_KEYS and view.screen.area.contains((*at, 40, 40))
     ]
     grip, at = inside[-1]
     by = tuple(px if key and slope else 0 for px, key, slope in zip((8, -8), grip.keys, grip.slopes, strict=True))
     drag(player, next(filter(None, grip.keys)), by, let_go=False)
-    now = next(place for each, place, *_ in view.targets.shown_grips if each.keys == grip.keys)
+    now = next(place for each, place, *_ in view.targets.visible_grips if each.keys == grip.keys)
     assert now == pytest.approx((at[0] + by[0], at[1] + by[1]), abs=1.1)
     assert game.shot.scene is game.session.scene
     assert not game.shots.paths
@@ -76,10 +76,10 @@ def test_a_drag_snaps_by_key_and_shows_its_number(player, monkeypatch):
     drag(player, "hoop.distance", (35, -22), let_go=False)
     distance, height = (player.game.session.value(f"hoop.{name}") for name in ("distance", "height"))
     grip = player.game.grasp.grip
-    step = next(spot for spot in player.view.targets.shown_grips if spot.grip.keys == grip.keys).step(snap=True)
+    step = next(spot for spot in player.view.targets.visible_grips if spot.grip.keys == grip.keys).step(snap=True)
     assert distance / step == pytest.approx(round(distance / step), abs=1e-6)
     assert height / step == pytest.approx(round(height / step), abs=1e-6)
-    assert grip.said(player.game.session) == f"hoop distance {distance:.2f} m, height {height:.2f} m"
+    assert grip.value_text(player.game.session) == f"hoop distance {distance:.2f} m, height {height:.2f} m"
     player.key(pygame.K_ESCAPE)
     assert player.game.session.changes.values == {}
 
@@ -174,7 +174,7 @@ def test_dragging_never_waits_for_a_run(player):
     player.game.workers.path = Here()
     player.game.workers.path.never = True
     player.game.workers.patience = 0.0
-    grip = next(grip for grip, *_ in player.view.targets.shown_grips if "pin.distance" in grip.keys)
+    grip = next(grip for grip, *_ in player.view.targets.visible_grips if "pin.distance" in grip.keys)
     player.game.grasp.begin_drag(grip)
     player.game.grasp.drag_to((200.0, 0.0), 1.0)
     player.frames(2)

@@ -44,7 +44,7 @@ def test_the_panel(player, golden):
 
 def test_a_hoop_that_is_dragged(player, golden):
     player = player("basketball/free-throw", SIZE)
-    x, y = next(at for grip, at, *_ in player.view.targets.shown_grips if "hoop.distance" in grip.keys)
+    x, y = next(at for grip, at, *_ in player.view.targets.visible_grips if "hoop.distance" in grip.keys)
     player.press((round(x), round(y)))
     player.move((round(x) + 40, round(y) - 20))
     player.settle()

@@ -227,7 +227,7 @@ def test_what_is_drawn_was_built_once(source, monkeypatch):
     try:
         assert len(built) == 2
         player.key(pygame.K_UP)
-        for x, y in [spot.at for spot in player.view.targets.shown_grips][:1]:
+        for x, y in [spot.at for spot in player.view.targets.visible_grips][:1]:
             player.press((round(x), round(y)))
             player.move((round(x) + 9, round(y) + 7))
             player.release((round(x) + 9, round(y) + 7))

@@ -82,7 +82,7 @@ class Watched(View):
         self.game.grasp.pull_to((150, 210))
 
     def drag_for_test(self) -> None:
-        for grip, *_ in self.targets.shown_grips[-2:-1]:
+        for grip, *_ in self.targets.visible_grips[-2:-1]:
             self.viewpoint.hold()
             self.game.grasp.begin_drag(grip)
             self.game.grasp.drag_to((grip.place[0] + 0.1, grip.place[1] + 0.1), 0.01)

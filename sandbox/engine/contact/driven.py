@@ -262,7 +262,7 @@ class Frame:
         ux, uy = _turned(angle, state[2], state[3])
         return x + dx, y + dy, vx + ux, vy + uy, state[4]
 
-    def seen(self, t: float, acceleration: Acceleration) -> Acceleration:
+    def relative_acceleration(self, t: float, acceleration: Acceleration) -> Acceleration:
         """An acceleration as seen in it."""
         (ax, ay), angle = self.arc.acceleration(t), self.arc.state(t)[5]
         return *_turned(-angle, acceleration[0] - ax, acceleration[1] - ay), acceleration[2]

@@ -163,7 +163,7 @@ class Impacts:
         return closed, self._exchange_at_once(states, found) if closed else 0.0
 
     def _closes(self, contact: ImpactContact, states: dict[int, State]) -> bool:
-        balls, met = self._balls(contact), contact.seen(states)
+        balls, met = self._balls(contact), contact.relative_states(states)
         return speeds_where_touching(balls, met, contact.nx, contact.ny, contact.sine)[0] > CLOSING
 
     def _close_soft_walls(self, group: ImpactGroup) -> tuple[list[ImpactContact], float]:
@@ -324,7 +324,8 @@ class Impacts:
         closing = max(contact.speed for contact in found)
         return all(
             all_round(*self._balls(contact))
-            or speeds_at(contact.seen(after), contact.point, (contact.nx, contact.ny))[0] <= _REMAINING * closing
+            or speeds_at(contact.relative_states(after), contact.point, (contact.nx, contact.ny))[0]
+            <= _REMAINING * closing
             for contact in found
         )
 

@@ -131,7 +131,7 @@ class ImpactContact(NamedTuple):
     drive: Vector = (0.0, 0.0)  # m/s, of the surface there, if it moves
     kick: float = 0.0  # N s, that the surface adds along the normal
 
-    def seen(self, states: Mapping[int, State]) -> list[State]:
+    def relative_states(self, states: Mapping[int, State]) -> list[State]:
         """The states of its balls, as seen from the surface that they meet."""
         met = [states[index] for index in self.balls]
         return met if self.drive == (0.0, 0.0) else [relative(met[0], self.drive)]

@@ -252,7 +252,9 @@ class InTurn:
             ends, begins = motion.place(t), after.place(t)
             jump = max(abs(a - b) for a, b in zip(ends, begins, strict=True))
             if not jump <= _JUMP * (1.0 + max(map(abs, ends))):
-                raise ValueError(f"motions in turn: at {t:g} s the place jumps from {_said(ends)} to {_said(begins)}")
+                raise ValueError(
+                    f"motions in turn: at {t:g} s the place jumps from {_as_text(ends)} to {_as_text(begins)}"
+                )
 
     @property
     def about(self) -> Vector:
@@ -337,7 +339,7 @@ def moved(point: Vector, motion: Motion, t: float) -> Vector:
     return u + c * dx - s * dy, v + s * dx + c * dy
 
 
-def _said(place: Placing) -> str:
+def _as_text(place: Placing) -> str:
     return f"({place.x:.6g}, {place.y:.6g}) m, {place.angle:.6g} rad"
 
 

@@ -115,7 +115,7 @@ class BodyPointContact(SustainedContact):
         turning += (moment + height * rub) / inertia
         return (ax + normal * nx + rub * ny, ay + normal * ny - rub * nx, turning), normal, grip_margin
 
-    def room(self, ball: Ball, state: State) -> float:
+    def distance_to_end(self, ball: Ball, state: State) -> float:
         """Return the turn in rad until the next corner lies on the side, or the distance in m to the side's end: when
         it falls to zero the contact at this point ends."""
         outline, reach = outline_of(ball), self.obstacle.outline
@@ -130,9 +130,9 @@ class BodyPointContact(SustainedContact):
 
     def edge(self, ball: Ball, arc: Arc) -> float | None:
         """The time in s at which the point of contact changes, or None."""
-        if self.room(ball, arc.state(arc.t1)) >= 0.0:
+        if self.distance_to_end(ball, arc.state(arc.t1)) >= 0.0:
             return None
-        return crossing(arc, lambda t, state: self.room(ball, state), GAP_ROUNDING)
+        return crossing(arc, lambda t, state: self.distance_to_end(ball, state), GAP_ROUNDING)
 
     def _direction_of_side(self) -> float:
         """1 if the side runs along t, -1 if against it."""

@@ -72,7 +72,7 @@ class CarriedBall(MovingBall):
         """The next arc, and why it ends, as seen from what carries it."""
 
         def applied(t: float, state: State) -> Acceleration:
-            return frame.seen(t, self.applied(t, frame.out_of(t, state)))
+            return frame.relative_acceleration(t, self.applied(t, frame.out_of(t, state)))
 
         ball = self.ball
         if contact.phase is not Phase.RESTING:
@@ -119,7 +119,7 @@ class CarriedBall(MovingBall):
         self.state = frame.into(t, self.state)
         own = [obstacle.source for _, obstacle in moving if obstacle.surface.motion == on.surface.motion]
         seen = [(source, source.near(*self.state[:2])) for source in own]
-        self._stay(seen, frame.seen(t, applied), slips, height)
+        self._stay(seen, frame.relative_acceleration(t, applied), slips, height)
         self._frame = frame
         self.state = frame.out_of(t, self.state)
         if self.contact is not None:
@@ -166,7 +166,7 @@ class CarriedBall(MovingBall):
         contact, ball = self.contact, self.ball
         assert contact is not None
         state = frame.into(t, self.state)
-        applied = frame.seen(t, self.applied(t, self.state))
+        applied = frame.relative_acceleration(t, self.applied(t, self.state))
         other = ""
         if contact.phase is Phase.PINNED or (
             contact.phase is Phase.RESTING and rest_margin(ball, state, contact, applied) < 0.0

@@ -80,7 +80,7 @@ class Leaning(NamedTuple):
 
         return applied
 
-    def placed_along(self, state: State) -> State:
+    def projected(self, state: State) -> State:
         """The state without speed off the sides, or into them."""
         x, y, vx, vy, *spins = state
         for nx, ny in self.normals:

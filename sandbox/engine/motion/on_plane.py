@@ -189,7 +189,7 @@ class OnPlane(MovingBall):
     def snap_to_contact(self, t: float, kind: EventKind) -> None:
         """Move it exactly along the sides that it leans on."""
         if self.contact is not None:
-            self.state = self.contact.placed_along(self.state)
+            self.state = self.contact.projected(self.state)
 
     def find_sustained_contact(self, t: float, height: float) -> None:
         """Find the sides that forces press it on, after a touch: without forces, what it slides on is the plane."""

@@ -32,13 +32,13 @@ def pairs(shots: Shots) -> list[Solution]:
     misses = np.array([shots.missed(result) for result in results]).reshape(_SCAN_EACH, _SCAN_EACH, 2)
     scales = np.array([shots.spread(index) for index in range(2)])
 
-    def placed(u: np.ndarray) -> tuple[float, float]:
+    def point_at(u: np.ndarray) -> tuple[float, float]:
         x, y = np.clip(u, 0.0, 1.0).tolist()
         return first.low + x * (first.high - first.low), second.low + y * (second.high - second.low)
 
     def missed(u: np.ndarray, phase: str) -> np.ndarray:
         beyond = u - np.clip(u, 0.0, 1.0)
-        off = shots.numbers(placed(u), phase) / scales
+        off = shots.numbers(point_at(u), phase) / scales
         return np.where(np.isfinite(off), off, 10.0) + 10.0 * beyond
 
     solutions: list[Solution] = []
@@ -47,12 +47,12 @@ def pairs(shots: Shots) -> list[Solution]:
         work = partial(missed, phase=f"solve {number + 1}")
         options = {"xtol": 1e-11, "eps": STEP**2, "maxfev": _ITERATIONS}
         found = np.clip(root(work, start, method="hybr", options=options).x, 0.0, 1.0)
-        point = placed(found)
+        point = point_at(found)
         known = any(_distance(other, point, shots.spans) < 1e3 * SAME for other in solutions)
         if not known and np.isfinite(shots.numbers(point, "solve")).all() and is_met(shots, point):
             solutions.append(solution(shots, point))
     if not solutions and starts:
-        low, high = (placed(starts[0] + sign / _SCAN_EACH) for sign in (-1.0, 1.0))
+        low, high = (point_at(starts[0] + sign / _SCAN_EACH) for sign in (-1.0, 1.0))
         peak(shots, low, high, lambda result: -hypot(*shots.missed(result) / scales))
     return sorted(solutions, key=lambda found: tuple(found.values.values()))
 

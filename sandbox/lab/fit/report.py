@@ -14,7 +14,7 @@ from sandbox.lab.fit.squares import OUTLIER, Fit, Value
 from sandbox.lab.selection import used
 from sandbox.lab.tables import length, paragraph, table
 from sandbox.sport.amounts import significant
-from sandbox.text import counted, one_line
+from sandbox.text import one_line, with_noun
 
 #: Two values whose errors are correlated more strongly than this can hardly be told apart, and this not at all.
 HARDLY, NOT = 0.95, 0.999
@@ -44,7 +44,7 @@ def as_text(found: Fit) -> list[str]:
 
 def title(found: Fit) -> str:
     """``basketball: 40 points, least squares``."""
-    return f"{found.scene.title}: {counted(found.measured.count, found.measured.what)}, {found.loss}"
+    return f"{found.scene.title}: {with_noun(found.measured.count, found.measured.what)}, {found.loss}"
 
 
 def value_rows(found: Fit) -> list[tuple[str, ...]]:
@@ -106,8 +106,8 @@ def sentences(found: Fit) -> Iterator[str]:
         yield f"{'outliers' if len(found.outliers) > 1 else 'outlier'}, beyond {OUTLIER:g} sd: row {rows}{more}{hint}"
     if found.late:
         yield (
-            f"{counted(found.late, found.measured.what)} later than {found.end:.3g} s, where this scene ends its runs: "
-            "compared with the run that goes on"
+            f"{with_noun(found.late, found.measured.what)} later than {found.end:.3g} s, where this scene ends its "
+            "runs: compared with the run that goes on"
         )
     yield from found.remarks
     if measured.unused:

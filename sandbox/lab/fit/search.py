@@ -137,7 +137,7 @@ class _Following:
         """The place where the search ends; None if a run failed on the way, or another start came to the same path."""
         problem, part = self.problem, WINDOW
         until = window(problem, part)
-        place = self._descend(share, until, self._worth(until))
+        place = self._descend(share, until, self._least_saving(until))
         if place is None or self._is_known(place, until):
             return None
         while until < problem.last and place is not None:
@@ -174,7 +174,7 @@ class _Following:
     def _grown(self, place: Place, before: float, until: float) -> Place | None:
         """The minimum in a larger window. Where the path does not follow the points any more, many candidates that fit
         the window ``before`` as well are tried: an impact makes large differences of small ones."""
-        worth = self._worth(until)
+        worth = self._least_saving(until)
         found = self._descend(place.share, until, worth)
         if found is not None and (self._vain >= VAIN or not self._is_lost(place, before, found, until)):
             return found
@@ -228,7 +228,7 @@ class _Following:
         left = np.abs(place.residuals / self.scale)
         return float((np.sqrt(left) if self.robust else left**2).mean())
 
-    def _worth(self, until: float) -> float:
+    def _least_saving(self, until: float) -> float:
         """The share of the cost that a step must save: in a window that is not the last, a part of what one residual
         costs, so that values of which it says little stay where they are."""
         inside = int((self.problem.times <= until).sum())

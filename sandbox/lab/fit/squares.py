@@ -23,7 +23,7 @@ from sandbox.lab.fit.rivals import Weighted, rivals
 from sandbox.lab.fit.search import ALIKE, ENOUGH, neumann, robust_sds, search
 from sandbox.lab.runs import runs
 from sandbox.scene import Scene
-from sandbox.text import counted
+from sandbox.text import with_noun
 
 #: A residual beyond so many robust standard deviations is an outlier.
 OUTLIER = 4.0
@@ -157,7 +157,7 @@ def solve(scene: Scene, measured: Measured, spans: Sequence[Span], robust: bool 
     measured.check(scene)
     problem = Problem(scene, measured, spans)
     if measured.count <= len(problem):
-        rows, values = counted(measured.count, measured.what), counted(len(problem), "parameter")
+        rows, values = with_noun(measured.count, measured.what), with_noun(len(problem), "parameter")
         raise RequestError(f"{rows} for {values}: a fit needs more {measured.what}s than parameters")
     ended = search(problem, robust)
     if not ended:

@@ -195,7 +195,7 @@ class Spread:
         if not asked:
             scores = self.scene.controls.scores
             asked += [(name, within) for name in self.shares if name == scores for within in _OF_SHARES]
-            main = next((name for name in self.shown if name in self.numbers), None)
+            main = next((name for name in self.displayed if name in self.numbers), None)
             if main is not None:
                 asked.append((main, round_number(_OF_MEANS * self.numbers[main].sd)))
         found = []
@@ -207,7 +207,7 @@ class Spread:
         return found
 
     @cached_property
-    def shown(self) -> list[str]:
+    def displayed(self) -> list[str]:
         """The facts that people are shown: those that vary, but not what a shot starts with."""
         facts = self.scene.facts
         numbers = [name for name, found in self.numbers.items() if found.varies and facts[name].final_when != "start"]

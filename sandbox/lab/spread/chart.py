@@ -19,7 +19,7 @@ _MOST, _ROWS = 6, 7
 def draw(spread: Spread, path: Path) -> None:
     """Histograms of the most important numbers, those of shots that score in another colour; the ellipse of one ball;
     and how much of the variance each cause accounts for."""
-    names = [name for name in spread.shown if name in spread.numbers][:_MOST]
+    names = [name for name in spread.displayed if name in spread.numbers][:_MOST]
     ellipses = list(spread.ellipses.items())[: max(0, _MOST - len(names))]
     has_causes = any(len(by) > 1 for by in spread.causes.values())
     panels = len(names) + len(ellipses)
@@ -94,7 +94,7 @@ def _ellipse(axes: Any, name: str, ellipse: Any, colours: dict[str, Any]) -> Non
 
 def _causes(axes: Any, spread: Spread, colours: dict[str, Any]) -> None:
     """A bar for each fact, divided by what each cause makes alone; the rest is what several do together."""
-    names = [name for name, by in spread.causes.items() if len(by) > 1 and name in spread.shown]
+    names = [name for name, by in spread.causes.items() if len(by) > 1 and name in spread.displayed]
     first = [name for name in names if name in spread.shares]
     rows = [*first, *(name for name in names if name not in first)][:_ROWS][::-1]
     left, labels = np.zeros(len(rows)), [name_of(spread, name) for name in rows]

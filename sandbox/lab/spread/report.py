@@ -156,7 +156,7 @@ def _share_lines(spread: Spread) -> list[str]:
 def number_rows(spread: Spread) -> list[tuple[str, ...]]:
     """Name, mean, standard deviation, quantiles, and how many shots have it, if not all."""
     rows = []
-    for name in spread.shown:
+    for name in spread.displayed:
         if name in spread.numbers:
             it = spread.numbers[name]
             quantiles = [value(spread, name, each) for each in it.quantiles(_SHOWN).values()]
@@ -202,7 +202,7 @@ def cause_rows(spread: Spread) -> list[tuple[str, ...]]:
     """Name, and for each cause the share of the variance that it makes alone, and with others."""
     rows = []
     for name, by in spread.causes.items():
-        if name in spread.shown and len(by) > 1:
+        if name in spread.displayed and len(by) > 1:
             texts = (f"{_whole(it.first)} / {_whole(it.total)} %" for it in by.values())
             rows.append((name_of(spread, name), *texts))
     return rows

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from sandbox.tasks.match import Match, Outcome
-from sandbox.text import counted
+from sandbox.text import with_noun
 
 POINTS, CUSHIONS = 5, 3
 CUES, RED = ("white", "yellow"), "red"
@@ -45,7 +45,7 @@ class ThreeCushion(Match):
         points[self.turn] += scored
         both = (points[0], points[1])
         what = "a point" if scored else "no point"
-        way = "misses a ball" if cushions is None else f"after {counted(cushions, 'cushion')}"
+        way = "misses a ball" if cushions is None else f"after {with_noun(cushions, 'cushion')}"
         said = f"{self.player}: {foul or f'{what}, {way}'}"
         balls = tuple((name, x, y) for name, (x, y) in outcome["positions"].items())
         after = replace(self, balls=balls, opening=False, points=both)
