@@ -28,7 +28,7 @@ from sandbox.lab.stress import FAILED, Outcome, stress, summary
 from sandbox.lab.tables import length, length_or_below, time
 from sandbox.lab.teeth import summary as summary_of_teeth
 from sandbox.lab.teeth import teeth
-from sandbox.lab.trade import TARGETS, Trade, trade
+from sandbox.lab.trade import TARGETS, Trade, report_of, trade
 from sandbox.lab.validate import Compared, share_that_holds, validate
 from sandbox.lab.verdicts import Verdicts
 from sandbox.parameters import walk
@@ -82,7 +82,7 @@ def traded() -> dict[str, list[str]]:
         found[name] = trade(load(name))
         report(f"trade {name}", started)
     for name in PICTURES:
-        chart.draw_trade(found[name], DOCS / "images" / f"trade-{name.replace('/', '-')}.png")
+        chart.draw(report_of(found[name]), DOCS / "images" / f"trade-{name.replace('/', '-')}.png")
     return {
         "levels": [*levels(found), "", machine()],
         "cheapest": cheapest(found),
@@ -262,8 +262,8 @@ def parts(found: Trade) -> list[str]:
 
 
 def extremes(outcomes: list[Outcome]) -> list[str]:
-    headings, rows = summary(outcomes)
-    return markdown(headings, rows)
+    table = summary(outcomes)
+    return markdown([column.heading for column in table.columns], table.cells)
 
 
 def failed(outcomes: list[Outcome]) -> list[str]:

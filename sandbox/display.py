@@ -42,27 +42,15 @@ if TYPE_CHECKING:
 
         def page(self, run: Any, path: File) -> Any: ...
 
-        def sweep_plot(self, sweep: Any, path: File, of: str | None) -> Any: ...
-
-        def spread_plot(self, spread: Any, path: File) -> Any: ...
-
-        def spread_page(self, spread: Any, path: File) -> Any: ...
-
-        def spread_html(self, spread: Any) -> str: ...
-
-        def fit_plot(self, fit: Any, path: File) -> Any: ...
-
-        def fit_page(self, fit: Any, path: File) -> Any: ...
-
-        def fit_html(self, fit: Any) -> str: ...
-
         def run_html(self, run: Any) -> str: ...
 
         def scene_html(self, scene: Any) -> str: ...
 
-        def sweep_html(self, sweep: Any) -> str: ...
+        def report_plot(self, report: Any, path: File) -> Any: ...
 
-        def aim_html(self, aim: Any) -> str: ...
+        def report_page(self, report: Any, path: File) -> Any: ...
+
+        def report_html(self, report: Any) -> str: ...
 
 
 def pictures() -> Pictures:
@@ -119,3 +107,22 @@ class Drawable:
 
     def _repr_html_(self) -> str:
         return notebook().run_html(self)
+
+
+class Reported:
+    """A result with a report, which draws and shows it."""
+
+    def report(self) -> Any:
+        """The sections that every output is made of."""
+        raise NotImplementedError
+
+    def plot(self, path: File = None) -> Any:
+        """Draw the charts of its report: write them to ``path`` (a PNG), or return a Pillow image."""
+        return notebook().report_plot(self.report(), path)
+
+    def page(self, path: File = None) -> Any:
+        """Make a page for any browser with charts and tables: write it to ``path`` (HTML), or return its text."""
+        return notebook().report_page(self.report(), path)
+
+    def _repr_html_(self) -> str:
+        return notebook().report_html(self.report())

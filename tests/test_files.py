@@ -153,8 +153,8 @@ OUTPUTS = (
     ("run", DROP, "--video", "x.mp4"),
     ("sweep", DROP, "--over", "launch.height=1:2:2", "--out", "x.csv"),
     ("sweep", DROP, "--over", "launch.height=1:2:2", "--out", "rows.csv", "--plot", "x.png"),
-    ("aim", DROP, "--vary", "launch.height=1:2", "--maximize", "bounces", "--show", "x.png"),
-    ("spread", DROP, "--by", "launch.height=1%", "--page", "x.html"),
+    ("aim", DROP, "--vary", "launch.height=1:2", "--maximize", "bounces", "--plot", "x.png"),
+    ("spread", DROP, "--by", "launch.height=1%", "--html", "x.html"),
     ("trade", DROP, "--plot", "x.png"),
     ("fit", "throws", "track.csv", *FIT, "--save", "x.toml"),
 )

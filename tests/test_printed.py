@@ -15,11 +15,11 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
 from sandbox.engine.model.accuracy import LEVELS
-from sandbox.lab import ablation, maps, row_file, stress, trade, validate
-from sandbox.lab import chart as charts
-from sandbox.lab.aim import Aim, aim, report
+from sandbox.lab import ablation, chart, maps, row_file, stress, trade, validate
+from sandbox.lab.aim import Aim, aim
 from sandbox.lab.axes import parse_axis
 from sandbox.lab.plan import Plan
+from sandbox.lab.report import Report, as_text
 from sandbox.lab.stress import FAILED, HELD, REFUSED, SENSELESS, Outcome
 from sandbox.lab.sweep import sweep_to_file, workers
 from sandbox.lab.verdicts import VerdictChanges, Verdicts
@@ -62,7 +62,7 @@ def test_the_table_of_validate(printed):
         compared("in", None, None, ""),
         replace(compared("5", 5.0, 1.0), scene="throws", preset="", source="another", kind="exact"),
     ]
-    printed("validate", "\n".join(validate.as_text(rows)))
+    printed("validate", "\n".join(as_text(validate.report_of(rows))))
 
 
 def test_the_tables_of_stress(printed):
@@ -77,8 +77,8 @@ def test_the_tables_of_stress(printed):
         for word, energy, overlap in [numbers[(place + shift) % 4]]
     ]
     outcomes.append(Outcome("golf", "board upside down", "heun", SENSELESS, "board.top is below board.bottom"))
-    printed("stress", "\n".join(stress.as_text(outcomes)))
-    printed("stress-all", "\n".join(stress.as_text(outcomes, everything=True)))
+    printed("stress", "\n".join(as_text(stress.report_of(outcomes))))
+    printed("stress-all", "\n".join(as_text(stress.report_of(outcomes), everything=True)))
 
 
 def test_the_tables_of_what_parts_of_a_model_do(printed):
@@ -91,7 +91,7 @@ def test_the_tables_of_what_parts_of_a_model_do(printed):
         replace(part, results={"a": (1.0, 2.0), "b": (3.0, 4.0), "c": (5.0, 6.0)}, saves=None),
         replace(part, shift_m=None, problem="diverged"),
     ]
-    printed("ablation", "\n".join(ablation.as_text(rows, 1.23456)))
+    printed("ablation", "\n".join(as_text(Report(dict, "parts", ablation.tables(rows, 1.23456)), everything=True)))
 
 
 def measured() -> trade.Trade:
@@ -123,8 +123,8 @@ def measured() -> trade.Trade:
 
 
 def test_the_tables_of_trade(printed):
-    printed("trade", "\n".join(trade.as_text(measured())))
-    printed("trade-all", "\n".join(trade.as_text(measured(), everything=True)))
+    printed("trade", "\n".join(as_text(trade.report_of(measured()))))
+    printed("trade-all", "\n".join(as_text(trade.report_of(measured()), everything=True)))
 
 
 #: Searches of a falling ball, by their names.
@@ -148,22 +148,22 @@ def searched(name: str) -> Aim:
 
 @pytest.mark.parametrize("name", SEARCHES)
 def test_a_search_and_its_chart(name: str, printed, tmp_path: Path):
-    found = searched(name)
-    drawn = described(lambda path: report.draw(found, path), tmp_path)
-    printed(f"aim-{name.replace(' ', '-')}", "\n".join([*report.as_text(found), "", *drawn]))
+    found = searched(name).report()
+    printed(f"aim-{name.replace(' ', '-')}", "\n".join([*as_text(found), "", *described(found, tmp_path)]))
 
 
 # Charts ---------------------------------------------------------------------------------------------------------------
 
 
-def described(draw: Any, folder: Path) -> list[str]:
-    """All that a chart shows, as lines: texts, ticks, curves, areas, with colours and sizes; without drawing it."""
+def described(report: Report, folder: Path) -> list[str]:
+    """All that its charts show, as lines: texts, ticks, curves, areas, with colours and sizes; without drawing it."""
     figures: list[Figure] = []
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr(Figure, "savefig", lambda figure, *args, **kwargs: figures.append(figure))
-        draw(folder / "chart.png")
+        chart.draw(report, folder / "chart.png")
     (figure,) = figures
-    return [line for axes in figure.axes for line in _axes_lines(axes)]
+    heading = [f"heading {text.get_text()}" for text in figure.texts]
+    return [*heading, *(line for axes in figure.axes for line in _axes_lines(axes))]
 
 
 def _axes_lines(axes: Any) -> Iterator[str]:
@@ -231,9 +231,10 @@ def test_the_chart_of_a_sweep(name: str, samples: int, printed, tmp_path: Path):
     plan = Plan(scene, tuple(parse_axis(scene, "--over", text) for text in over), samples=samples)
     with workers(1) as pool:
         sweep_to_file(plan, rows, pool)
-    lines = described(lambda path: maps.draw_sweep(plan, row_file.rows(rows), path, of), tmp_path)
+    shown = maps.chart_of(plan, maps.read(plan, row_file.rows(rows), of))
+    lines = described(Report(dict, "", [shown]), tmp_path)
     printed(f"sweep-{name}{'-samples' * bool(samples)}", "\n".join(lines))
 
 
 def test_the_chart_of_trade(printed, tmp_path: Path):
-    printed("trade-chart", "\n".join(described(lambda path: charts.draw_trade(measured(), path), tmp_path)))
+    printed("trade-chart", "\n".join(described(trade.report_of(measured()), tmp_path)))

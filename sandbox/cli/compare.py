@@ -9,7 +9,6 @@ import click
 
 from sandbox.cli.arguments import (
     changes_options,
-    json_option,
     load,
     map_option,
     optional_scene,
@@ -19,8 +18,9 @@ from sandbox.cli.arguments import (
     strict_option,
     where_option,
 )
+from sandbox.cli.reports import Outputs, report_options
 from sandbox.errors import RequestError
-from sandbox.files import json_text
+from sandbox.files import writing
 from sandbox.text import printable
 
 
@@ -74,11 +74,9 @@ def print_formats(context: click.Context, option: click.Parameter, value: bool) 
 )
 @strict_option
 @click.option("--robust", is_flag=True, help="Count points with gross errors less or not at all (Tukey's biweight).")
-@click.option("--plot", metavar="F.png", type=Path, help="Points, path and residuals as a picture.")
-@click.option("--page", metavar="F.html", type=Path, help="The same with all numbers, as a page.")
 @click.option("--save", metavar="F.toml", type=Path, help="The fitted scene; its pictures show the points (F.csv).")
 @changes_options
-@json_option
+@report_options
 def fit(
     scene: str,
     tracks: tuple[Path, ...],
@@ -93,11 +91,9 @@ def fit(
     models: str | None,
     strict: bool,
     robust: bool,
-    plot: Path | None,
-    page: Path | None,
     save: Path | None,
     changes: dict[str, Any],
-    as_json: bool,
+    outputs: Outputs,
 ) -> None:
     """Find the parameters that explain measured tracks or shots.
 
@@ -113,13 +109,15 @@ def fit(
       sandbox fit golf shots.csv --where Club=Driver --vary air.density=1:1.3
       sandbox fit golf shots.csv --map "Speed=launch.speed mph" --map "Carry=carry yd" --vary launch.angle=5:20
     """
-    from sandbox.cli.fit_outputs import check_outputs, write_outputs
-    from sandbox.lab.fit import fit_track, parse_varied, read_data, report
+    from sandbox.lab.fit import fit_track, parse_varied, read_data
     from sandbox.lab.fit.data import Reading
     from sandbox.lab.fit.frame import parse_free
     from sandbox.lab.fit.launches import Launches
     from sandbox.lab.fit.models import compare, parse_models
     from sandbox.lab.fit.reading import Film, parse_ball, parse_pair, parse_scale
+    from sandbox.lab.fit.report import report_of
+    from sandbox.lab.fit.saving import check_saving
+    from sandbox.lab.fit.saving import save as saved
     from sandbox.lab.formats import parse_entry
 
     chosen = load(scene, changes)
@@ -133,14 +131,19 @@ def fit(
     entries = tuple(map(parse_entry, mapping))
     how = Reading(film, parse_free("--free", free), entries, pairs("--where", where), strict)
     data = read_data(chosen, tracks, how)
-    check_outputs(plot, page, save, has_points=not isinstance(data, Launches))
+    if save is not None:
+        check_saving("--save", save, has_points=not isinstance(data, Launches))
+        outputs.check({"--save": save})
     found = (
         fit_track(chosen, data, spans, robust)
         if models is None
         else compare(chosen, data, spans, *parse_models(chosen, "--models", models), robust)
     )
-    written = write_outputs(found, plot, page, save)
-    say(report.as_json(found) if as_json else "\n".join([*report.as_text(found), *written]))
+    files: list[Path] = []
+    if save is not None:
+        with writing("--save", save):
+            files = saved(found, save)
+    outputs.write(report_of(found), others=files)
 
 
 @click.command()
@@ -157,7 +160,7 @@ def fit(
 @changes_options
 @strict_option
 @click.option("--teeth", is_flag=True, help="Switch off, or change by 20 %, what each row tests: does it fall?")
-@json_option
+@report_options
 def validate(
     scene: str | None,
     against: Path | None,
@@ -167,7 +170,7 @@ def validate(
     changes: dict[str, Any],
     strict: bool,
     teeth: bool,
-    as_json: bool,
+    outputs: Outputs,
 ) -> None:
     """Compare results with published numbers and their sources.
 
@@ -184,8 +187,8 @@ def validate(
       sandbox validate golf --set ball.drag.model=usga --set ball.lift.model=usga
       sandbox validate golf --against shots.csv --within carry=3% --within apex="3 yd"
     """
+    from sandbox.lab import teeth as of_rows
     from sandbox.lab import validate as lab
-    from sandbox.lab.tables import paragraph
     from sandbox.progress import bar
 
     own = None
@@ -199,21 +202,14 @@ def validate(
         entries = [parse_entry(text) for text in mapping]
         given = cases_against(against, scene, entries, pairs("--where", where), pairs("--within", within), strict)
         own, notes = given.cases, tuple(filter(None, (given.left_out, *given.notes)))
-        if as_json and given.left_out:  # JSON is a list of the rows that are used
+        if outputs.as_json and given.left_out:  # JSON is a list of the rows that are used
             click.echo(printable(given.left_out), err=True)
     elif mapping or where or within or strict:
         raise RequestError("--map, --where, --within and --strict require --against F.csv")
     with bar("validate") as progress:
         rows = lab.validate(scene, changes, progress, own)
     if teeth:
-        from sandbox.lab import teeth as of_rows
-
         with bar("teeth") as progress:
-            tried = of_rows.teeth(rows, changes, progress)
-        say(json_text(of_rows.as_json(rows, tried)) if as_json else "\n".join(of_rows.as_text(tried)))
+            outputs.write(of_rows.report_of(rows, of_rows.teeth(rows, changes, progress)))
         return
-    text = [
-        *lab.as_text(rows, "published" if own is None else "given"),
-        *(line for note in notes for line in paragraph(note, "")),
-    ]
-    say(json_text(rows) if as_json else "\n".join(text))
+    outputs.write(lab.report_of(rows, "published" if own is None else "given", notes))

@@ -2,27 +2,20 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from sandbox import entries
-from sandbox.cli.arguments import (
-    changes_options,
-    json_option,
-    load,
-    optional_scene,
-    say,
-    scene_argument,
-    units_option,
-)
+from sandbox.cli.arguments import changes_options, load, optional_scene, scene_argument, units_option
+from sandbox.cli.reports import Outputs, report_options
 from sandbox.errors import RequestError, RunError
-from sandbox.files import check_distinct, check_file, check_installed, is_stream, json_text, writing
+from sandbox.files import check_file, is_stream
 
 if TYPE_CHECKING:
     from sandbox.lab.plan import Plan
-    from sandbox.lab.spread import Spread
     from sandbox.scene import Scene
 
 #: The part of an extension that writes a sweep as a page.
@@ -37,16 +30,14 @@ PAGES = "pages of sweeps"
 @click.option("--target", metavar="NAME=VALUE", multiple=True, help="A result and its target value; once or twice.")
 @click.option("--maximize", metavar="NAME", help="Result to maximize.")
 @changes_options
-@json_option
-@click.option("--show", metavar="F.png", type=Path, help="Draw the results of all trials.")
+@report_options
 def aim(
     scene: str,
     vary: tuple[str, ...],
     target: tuple[str, ...],
     maximize: str | None,
     changes: dict[str, Any],
-    as_json: bool,
-    show: Path | None,
+    outputs: Outputs,
 ) -> None:
     """Find all values in a range that give a result.
 
@@ -62,13 +53,14 @@ def aim(
     \b
     Examples:
       sandbox aim golf --vary launch.angle=2:75 --target carry=200
-      sandbox aim basketball --vary launch.speed=6:10 --target made=true --show tries.png
+      sandbox aim basketball --vary launch.speed=6:10 --target made=true --plot tries.png
       sandbox aim basketball --vary launch.speed=6:9 --vary launch.angle=35:70 --target made=true
       sandbox aim golf --vary launch.angle=2:60 --maximize carry
       sandbox aim golf --vary launch.angle=2:60 --vary launch.speed=40:90 --target carry="219 yd" --target apex=30
     """
     from sandbox.lab.aim import parse_target, search
     from sandbox.lab.aim.question import MAXIMIZE, Target
+    from sandbox.lab.aim.report import report_of
     from sandbox.lab.axes import parse_span
     from sandbox.progress import bar
 
@@ -79,22 +71,9 @@ def aim(
         targets.append(Target(maximize, MAXIMIZE))
     if not targets:
         raise RequestError("nothing to aim at: give --target NAME=VALUE or --maximize NAME")
-    if show is not None:
-        from sandbox.lab.chart import check_chart
-
-        check_chart("--show", show)
     with bar("aim") as progress:
         found = search(chosen, spans, targets, progress)
-    from sandbox.lab.aim import report
-
-    if show is not None:
-        with writing("--show", show):
-            report.draw(found, show)
-    if as_json:
-        say(report.as_json(found))
-    else:
-        written = [] if show is None else [f"wrote {show}"]
-        say("\n".join([*report.as_text(found), *written]))
+    outputs.write(report_of(found))
 
 
 @click.command()
@@ -108,7 +87,6 @@ def aim(
 )
 @click.option("--of", metavar="NAME", multiple=True, help="A result to report; repeatable.  [default: all]")
 @changes_options
-@json_option
 @click.option(
     "--samples", metavar="N", type=click.IntRange(16, 1_000_000), default=1024, show_default=True,
     help="Number of shots; as many again for each cause.",
@@ -126,21 +104,18 @@ def aim(
 )
 @click.option("--no-causes", is_flag=True, help="Leave out how much of the variance each cause accounts for.")
 @units_option
-@click.option("--plot", metavar="F.png", type=Path, help="Draw histograms and causes.")
-@click.option("--page", "--html", "page", metavar="F.html", type=Path, help="Write them as a page for any browser.")
+@report_options
 def spread(
     scene: str,
     by: tuple[str, ...],
     of: tuple[str, ...],
     changes: dict[str, Any],
-    as_json: bool,
     samples: int,
     seed: int,
     sampling: str,
     within: tuple[str, ...],
     no_causes: bool,
-    plot: Path | None,
-    page: Path | None,
+    outputs: Outputs,
 ) -> None:
     """Show how results scatter when parameters do.
 
@@ -153,11 +128,12 @@ def spread(
       sandbox spread basketball
       sandbox spread golf --by launch.speed=1% --by launch.angle=1deg --plot spread.png
       sandbox spread golf --by launch.spin="200 rpm" --by air.wind[0]=-3:3 --of carry --within carry=1
-      sandbox spread billiards/nine-ball-break --by cue.speed=3% --samples 256 --page breaks.html
+      sandbox spread billiards/nine-ball-break --by cue.speed=3% --samples 256 --html breaks.html
     """
-    from sandbox.lab.spread import check_scipy, report, spread_of
+    from sandbox.lab.spread import check_scipy, spread_of
     from sandbox.lab.spread.causes import causes_of, parse_cause
     from sandbox.lab.spread.needs import parse_within
+    from sandbox.lab.spread.report import report_of
     from sandbox.progress import bar
     from sandbox.text import no_such_result
 
@@ -167,40 +143,10 @@ def spread(
         if name not in chosen.facts:
             raise RequestError(f"--of {name}: {no_such_result(name, list(chosen.facts))}")
     widths = dict(parse_within(chosen, text) for text in within)
-    _check_outputs(plot, page)
     check_scipy()
     with bar("spread") as progress:
         found = spread_of(chosen, causes, of, samples, seed, sampling, not no_causes, widths, progress)
-    _write_outputs(found, plot, page)
-    written = [f"wrote {path}" for path in (plot, page) if path is not None]
-    say(report.as_json(found) if as_json else "\n".join([*report.as_text(found), *written]))
-
-
-def _check_outputs(plot: Path | None, page: Path | None) -> None:
-    """Raise RequestError if the scatter cannot be written there."""
-    if plot is not None:
-        from sandbox.lab.chart import check_chart
-
-        check_chart("--plot", plot)
-    if page is not None:
-        check_file("--page", page, ".html")
-        check_installed("--page", "matplotlib")
-    check_distinct({"--plot": plot, "--page": page})
-
-
-def _write_outputs(found: Spread, plot: Path | None, page: Path | None) -> None:
-    """Write the scatter as picture and page, where they are asked for."""
-    if plot is not None:
-        from sandbox.lab.spread.chart import draw
-
-        with writing("--plot", plot):
-            draw(found, plot)
-    if page is not None:
-        from sandbox.page.parts import save
-        from sandbox.page.spread import page_of
-
-        with writing("--page", page):
-            save(page_of(found), page)
+    outputs.write(report_of(found))
 
 
 @click.command()
@@ -224,10 +170,6 @@ def _write_outputs(found: Spread, plot: Path | None, page: Path | None) -> None:
 )
 @click.option("--seed", metavar="N", type=click.IntRange(0), help="Seed of the random points.  [default: 0]")
 @click.option("--check", is_flag=True, help="Rerun each point at finer accuracy and add its errors.")
-@click.option("--plot", metavar="F.png", type=Path, help="A map over two parameters, a curve over one.")
-@click.option(
-    "--html", metavar="F.html", type=Path, help="A page with the map, and the path of the point under the cursor."
-)
 @click.option("--of", metavar="NAME", help="The result that --plot and --html show.")
 @click.option(
     "--family",
@@ -236,6 +178,7 @@ def _write_outputs(found: Spread, plot: Path | None, page: Path | None) -> None:
 )
 @click.option("--jobs", metavar="N", type=int, help="Number of processes.  [default: chosen automatically]")
 @click.option("--scheduler", metavar="ADDRESS", help="Run on the workers of a Dask scheduler.")
+@report_options
 def sweep(
     scene: str,
     over: tuple[str, ...],
@@ -245,12 +188,11 @@ def sweep(
     samples: int | None,
     seed: int | None,
     check: bool,
-    plot: Path | None,
-    html: Path | None,
     of: str | None,
     family: str | None,
     jobs: int | None,
     scheduler: str | None,
+    outputs: Outputs,
 ) -> None:
     """Run a scene at many points: a grid, random, or a table.
 
@@ -267,20 +209,26 @@ def sweep(
         --plot put.png --family release.height
       sandbox sweep golf --points measured-launches.csv --out carry.csv
     """
+    from sandbox.lab.row_file import rows
     from sandbox.lab.sweep import sweep_to_file, workers, worthwhile_jobs
     from sandbox.progress import bar
 
     plan = _plan(load(scene, changes), over, points, samples, seed, check)
     check_file("--out", out, ".csv")
-    _check_pictures(plan, plot, html, of, family)
-    check_distinct({"--out": out, "--plot": plot, "--html": html})
+    _check_chart(plan, outputs, of, family)
+    outputs.check({"--out": out})
     with workers(worthwhile_jobs(plan) if jobs is None else jobs, scheduler) as pool, bar("sweep") as progress:
         done = sweep_to_file(plan, out, pool, progress)
-    _draw(plan, out, plot, html, of, family)
-    if not is_stream(out):
-        new = out if done.points > done.resumed else None
-        written = [f"wrote {path}" for path in (new, plot, html) if path is not None]
-        say("\n".join([done.as_text(), *written]))
+    charts, page = [], None
+    if outputs.plot is not None or outputs.page is not None:
+        from sandbox.lab.maps import chart_of, read
+
+        shown = read(plan, rows(out), of)
+        charts.append(chart_of(plan, shown, family))
+        if outputs.page is not None:
+            page = partial(entries.require(PAGES, "--html").page_of, plan, shown, of, family)
+    new = [out] if done.points > done.resumed else []
+    outputs.write(done.report(charts), others=new, page_of=page, quiet=is_stream(out))
     if done.failures == done.points - done.resumed > 0:
         raise RunError(f"every point failed, the first with: {done.first_error}")
 
@@ -305,45 +253,26 @@ def _plan(
     return plan
 
 
-def _check_pictures(plan: Plan, plot: Path | None, html: Path | None, of: str | None, family: str | None) -> None:
+def _check_chart(plan: Plan, outputs: Outputs, of: str | None, family: str | None) -> None:
     """Raise RequestError if a sweep cannot be drawn so."""
-    if of is not None and plot is None and html is None:
-        raise RequestError(f"--of {of}: requires --plot or --html")
-    if family is not None and plot is None:
-        raise RequestError(f"--family {family}: requires --plot")
-    if plot is not None:
-        from sandbox.lab.chart import check_chart
-        from sandbox.lab.maps import check_plot
+    if outputs.plot is None and outputs.page is None:
+        for option, given in (("--of", of), ("--family", family)):
+            if given is not None:
+                raise RequestError(f"{option} {given}: requires --plot or --html")
+        return
+    from sandbox.lab.maps import check_plot
 
-        check_chart("--plot", plot)
-        check_plot(plan, of, family)
-    if html is not None:
-        check_file("--html", html, ".html")
-        check_installed("--html", "matplotlib")
+    check_plot(plan, of, family)
+    if outputs.page is not None:
         entries.require(PAGES, "--html").check_page(plan)
-
-
-def _draw(plan: Plan, out: Path, plot: Path | None, html: Path | None, of: str | None, family: str | None) -> None:
-    """Draw the rows of a sweep as picture and page, where they are asked for."""
-    from sandbox.lab.row_file import rows
-
-    if plot is not None:
-        from sandbox.lab.maps import draw_sweep
-
-        with writing("--plot", plot):
-            draw_sweep(plan, rows(out), plot, of, family)
-    if html is not None:
-        with writing("--html", html):
-            entries.require(PAGES, "--html").save_page(plan, rows(out), html, of)
 
 
 @click.command()
 @scene_argument
 @changes_options
-@json_option
 @click.option("--all", "everything", is_flag=True, help="Every setting, verdict, and part of the model.")
-@click.option("--plot", metavar="F.png", type=Path, help="Plot error against speed, one curve per method.")
-def trade(scene: str, changes: dict[str, Any], as_json: bool, everything: bool, plot: Path | None) -> None:
+@report_options
+def trade(scene: str, changes: dict[str, Any], everything: bool, outputs: Outputs) -> None:
     """Measure the speed-accuracy trade-off of a scene.
 
     The cheapest way to each accuracy, and how many times as long pymunk alone takes (the plain method). Verdicts of
@@ -355,27 +284,22 @@ def trade(scene: str, changes: dict[str, Any], as_json: bool, everything: bool, 
       sandbox trade basketball/rattle --plot rattle.png
       sandbox trade my-shot.toml --set air.wind=[-8,0] --json
     """
-    from sandbox.lab import chart
-    from sandbox.lab import trade as lab
+    from sandbox.lab.trade import report_of
+    from sandbox.lab.trade import trade as measured
     from sandbox.progress import bar
 
     chosen = load(scene, changes)
-    if plot is not None:
-        chart.check_chart("--plot", plot)
     with bar("trade") as progress:
-        found = lab.trade(chosen, progress)
-    if plot is not None:
-        with writing("--plot", plot):
-            chart.draw_trade(found, plot)
-    say(json_text(lab.as_dict(found)) if as_json else "\n".join(lab.as_text(found, everything)))
+        found = measured(chosen, progress)
+    outputs.write(report_of(found), everything)
 
 
 @click.command()
 @optional_scene
 @changes_options
-@json_option
 @click.option("--all", "everything", is_flag=True, help="Every extreme.")
-def stress(scene: str | None, changes: dict[str, Any], as_json: bool, everything: bool) -> None:
+@report_options
+def stress(scene: str | None, changes: dict[str, Any], everything: bool, outputs: Outputs) -> None:
     """Run a scene, or all of them, at extreme values.
 
     What held, what was refused with a clear error, and what failed, by method; then each failure.
@@ -386,30 +310,23 @@ def stress(scene: str | None, changes: dict[str, Any], as_json: bool, everything
       sandbox stress golf
       sandbox stress golf/driver --accuracy fast --json
     """
-    from sandbox.lab import stress as lab
+    from sandbox.lab.stress import report_of
+    from sandbox.lab.stress import stress as tried
     from sandbox.progress import bar
     from sandbox.scene import listings
 
     names = [listing.name for listing in listings() if "/" not in listing.name] if scene is None else [scene]
     scenes = [load(name, changes) for name in names]
     with bar("stress") as progress:
-        outcomes = lab.stress(scenes, changes.get("accuracy.level", "balanced"), scene is None, progress)
-    say(json_text(outcomes) if as_json else "\n".join(lab.as_text(outcomes, everything)))
+        outcomes = tried(scenes, changes.get("accuracy.level", "balanced"), scene is None, progress)
+    outputs.write(report_of(outcomes), everything)
 
 
 @click.command()
 @scene_argument
 @changes_options
-@click.option(
-    "--plot",
-    metavar="[F.png]",
-    type=Path,
-    is_flag=False,
-    flag_value=Path("-"),
-    help="Draw Cd over Reynolds number and Cl over spin ratio.  [default: SCENE-coefficients.png]",
-)
-@json_option
-def coefficients(scene: str, changes: dict[str, Any], plot: Path | None, as_json: bool) -> None:
+@report_options
+def coefficients(scene: str, changes: dict[str, Any], outputs: Outputs) -> None:
     """Table the drag and lift coefficients of a ball by model.
 
     \b
@@ -417,15 +334,6 @@ def coefficients(scene: str, changes: dict[str, Any], plot: Path | None, as_json
       sandbox coefficients soccer
       sandbox coefficients golf --plot golf.png
     """
-    from sandbox.lab import chart
-    from sandbox.lab import coefficients as of_ball
+    from sandbox.lab.coefficients import report_of
 
-    chosen = load(scene, changes)
-    if plot is not None:
-        plot = Path(f"{chosen.name}-coefficients.png") if plot == Path("-") else plot
-        chart.check_chart("--plot", plot)
-    found = of_ball.coefficients(chosen)
-    if plot is not None:
-        of_ball.draw(chosen, plot)
-    wrote = [] if plot is None else ["", f"wrote {plot}"]
-    say(json_text(of_ball.as_json(found)) if as_json else "\n".join([*of_ball.as_text(found), *wrote]))
+    outputs.write(report_of(load(scene, changes)))

@@ -14,7 +14,8 @@ from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.surface import Bounce, BounceLaw, ConstantBounce, Surface
 from sandbox.engine.motion.forces_on_ball import cause
 from sandbox.lab.reference import Reference, apart, places, until
-from sandbox.lab.tables import length_or_below, table
+from sandbox.lab.report import Column, Table, words
+from sandbox.lab.tables import length_or_below
 from sandbox.lab.timing import Timed, repeat
 from sandbox.lab.verdicts import verdict
 from sandbox.physics.air import UniformWind
@@ -114,16 +115,13 @@ def _changed_words(before: str, after: str) -> str:
     )
 
 
-def as_text(rows: Sequence[Ablated], time: float) -> list[str]:
-    """Two tables; ``time`` (s) is when the shift is measured."""
-    headings = ("part", "", "shift at first touch", f"after {time:.4g} s", "saves")
-    effects = [(f"{row.part} {row.change}", row.effect) for row in rows]
+def tables(rows: Sequence[Ablated], time: float) -> list[Table]:
+    """The shifts, and the changes in the result; ``time`` (s) is when the shift is measured."""
+    columns = [words("part"), words(), *map(Column, ("shift at first touch", f"after {time:.4g} s", "saves"))]
+    effects = [(f"{row.part} {row.change}", row.effect) for row in rows if row.effect]
     return [
-        "effect of each part of the model",
-        *table(headings, [row.cells() for row in rows], "llrrr"),
-        "",
-        "changes in the result",
-        *table(("", ""), [cells for cells in effects if cells[1]], "ll"),
+        Table(columns, [row.cells() for row in rows], "effect of each part of the model", detail=True),
+        Table([words(), words()], effects, "changes in the result", detail=True),
     ]
 
 

@@ -1,33 +1,19 @@
-"""The frame of all charts of the lab, and the chart of ``sandbox trade``; with matplotlib (extra ``lab``)."""
+"""The charts of reports: one figure, one style and one legend for all; with matplotlib (extra ``lab``)."""
 
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from itertools import takewhile
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from sandbox import resources
 from sandbox.files import atomic_write, check_file, check_installed
-from sandbox.lab.tables import length
-from sandbox.sport.amounts import significant
+from sandbox.lab.report import Chart, Report
 
-if TYPE_CHECKING:
-    from sandbox.lab.trade import Point, Trade
-
-#: Size in inches, dots per inch, and the drawing area: left, bottom, width and height as fractions.
-_SIZE, _DOTS, _FRAME = (9.6, 6.0), 130, (0.02, 0.02, 0.96, 0.96)
-
-#: Errors in m that are marked.
-_TARGETS = (0.1, 0.01, 0.001, 0.0001)
-
-#: Smaller errors, in m, are drawn at this value: they do not matter.
-_LEAST = 1e-9
-
-#: What is not written into a file, so that the same chart is the same file.
-_UNDATED: dict[str, dict[str, Any]] = {"svg": {"Date": None}}
+#: Width in inches, dots per inch, and the free edge as a share of the picture.
+_WIDTH, _DOTS, _EDGE = 9.6, 130, 0.02
 
 #: Behind a text on a drawing.
 PLATE = {"facecolor": "white", "edgecolor": "none", "alpha": 0.75, "pad": 1.5}
@@ -39,32 +25,17 @@ def check_chart(option: str, path: Path) -> None:
     check_installed(option, "matplotlib")
 
 
-@contextmanager
-def chart(path: Path, title: str, about: str) -> Iterator[tuple[Any, dict[str, Any]]]:
-    """Axes to draw into, and the palette; the file is written at the end."""
-    with _sheet(path, _SIZE) as (sheet, colours):
-        axes = sheet.subplots()
-        axes.set_title(f"{about}\n", loc="left", fontsize=10, color=colours["card"]["ink_quiet"])
-        axes.annotate(title, (0, 1), xytext=(0, 36), xycoords="axes fraction", textcoords="offset points",
-                      fontsize=15, fontweight="bold")  # fmt: skip
-        yield axes, colours
+def draw(report: Report, path: Path) -> None:
+    """Write the charts of a report as one picture (PNG)."""
+    charts = report.charts()
+    title, about = next(((chart.title, chart.about) for chart in charts), ("", ""))
+    with drawn(charts, title or report.title, about) as sheet, atomic_write(path) as out:
+        sheet.savefig(out.buffer, format="png")
 
 
 @contextmanager
-def figure(path: Path, title: str, about: str, size: tuple[float, float]) -> Iterator[tuple[Any, dict[str, Any]]]:
-    """A figure for several axes, ``size`` in inches, and the palette; the file is written at the end."""
-    with _sheet(path, size) as (sheet, colours):
-        inches = 0.55 + 0.25 * len(about.split("\n"))
-        sheet.get_layout_engine().set(rect=(0.02, 0.02, 0.96, 1.0 - inches / size[1] - 0.02))
-        sheet.text(0.02, 1.0 - 0.18 / size[1], title, ha="left", va="top", fontsize=15, fontweight="bold")
-        sheet.text(0.02, 1.0 - 0.5 / size[1], about, ha="left", va="top", fontsize=10,
-                   color=colours["card"]["ink_quiet"], linespacing=1.3)  # fmt: skip
-        yield sheet, colours
-
-
-@contextmanager
-def _sheet(path: Path, size: tuple[float, float]) -> Iterator[tuple[Any, dict[str, Any]]]:
-    """An empty figure in the style of all charts, and the palette; written at the end."""
+def drawn(charts: Sequence[Chart], title: str = "", about: str = "", width: float = _WIDTH) -> Iterator[Any]:
+    """A figure of charts, one below the other, with a title, ``width`` in inches; to be saved inside."""
     import matplotlib
     from matplotlib import font_manager
     from matplotlib.figure import Figure
@@ -73,12 +44,36 @@ def _sheet(path: Path, size: tuple[float, float]) -> Iterator[tuple[Any, dict[st
     colours = tomllib.loads((resources.folder("assets") / "palette.toml").read_text("utf-8"))
     for file in sorted((resources.folder("assets") / "fonts").glob("*.ttf")):
         font_manager.fontManager.addfont(str(file))
+    head = 0.55 + 0.25 * len(about.split("\n")) if title else 0.0
+    heights = [chart.height * -(-len(chart.panels) // chart.across) for chart in charts]
+    tall = head + sum(heights)
+    frame = (_EDGE, _EDGE, 1.0 - 2.0 * _EDGE, 1.0 - head / tall - 2.0 * _EDGE)
     with matplotlib.rc_context(_style(colours)):
-        sheet = Figure(figsize=size, dpi=_DOTS, facecolor="white", layout=ConstrainedLayoutEngine(rect=_FRAME))
-        yield sheet, colours
-        with atomic_write(path) as out:
-            kind = path.suffix[1:].lower()
-            sheet.savefig(out.buffer, format=kind, metadata=_UNDATED.get(kind))
+        layout = ConstrainedLayoutEngine(rect=frame)
+        sheet = Figure(figsize=(width, tall), dpi=_DOTS, facecolor="white", layout=layout)
+        sheet.text(_EDGE, 1.0 - 0.18 / tall, title, ha="left", va="top", fontsize=15, fontweight="bold")
+        sheet.text(_EDGE, 1.0 - 0.5 / tall, about, ha="left", va="top", fontsize=10,
+                   color=colours["card"]["ink_quiet"], linespacing=1.3)  # fmt: skip
+        if charts:
+            parts = sheet.subfigures(len(charts), 1, height_ratios=heights, squeeze=False).flat
+            for part, chart in zip(parts, charts, strict=True):
+                _fill(part, chart, colours)
+        yield sheet
+
+
+def _fill(part: Any, chart: Chart, colours: Mapping[str, Any]) -> None:
+    """Draw the panels of a chart into a part of a figure."""
+    down = -(-len(chart.panels) // chart.across)
+    in_line = chart.across == 1 and not any(panel.x for panel in chart.panels[:-1])
+    places = part.subplots(down, chart.across, squeeze=False, sharex=in_line).flat
+    for panel, axes in zip(chart.panels, places, strict=False):
+        panel.draw(axes, colours)
+        axes.set_title(panel.title, loc="left", fontsize=11, fontweight="bold")
+        axes.set(**{f"{side}label": text for side, text in (("x", panel.x), ("y", panel.y)) if text})
+        if axes.get_legend_handles_labels()[1] and axes.get_legend() is None:
+            legend(axes)
+    for axes in places:  # what is left of the last row
+        axes.set_axis_off()
 
 
 def _style(colours: dict[str, Any]) -> Any:
@@ -126,49 +121,3 @@ def mark(axes: Any, place: tuple[float, ...], text: str, card: dict[str, str], b
     where = {"xytext": (8, 8), "va": "bottom"} if beside else {"xytext": (0, 11), "ha": side, "va": "bottom"}
     axes.annotate(text, place, textcoords="offset points", fontsize=10.5, fontweight="bold", zorder=6, bbox=PLATE,
                   **where)  # fmt: skip
-
-
-# ---------------------------------------------------------------------------------------------------------------- trade
-
-
-def draw_trade(found: Trade, path: Path) -> None:
-    """Error against speed: one curve per method, best at the top right, levels marked."""
-    floor = max(_LEAST, found.reference.error)
-
-    def places(*points: Point) -> tuple[list[float], list[float]]:
-        return [point.times_real_time for point in points], [max(point.error_m or 0.0, floor) for point in points]
-
-    with chart(path, f"{found.reference.scene.title}: error against speed", _measure(found)) as (axes, colours):
-        card, methods = colours["card"], list(dict.fromkeys(point.method for point in found.points))
-        traces = iter(colours["trace"]["colours"])  # the levels' method, which is the last, has the first
-        own = {method: card["quiet"] if method == "plain" else next(traces) for method in reversed(methods)}
-        for method in methods:
-            finest_first = reversed([point for point in found.points if point.method == method])
-            points = list(takewhile(lambda point: point.stable, finest_first))
-            if points:
-                axes.plot(*places(*points), color=own[method], marker="o", markersize=4.5, label=method, zorder=3)
-        for level, point in found.levels.items():
-            if point.error_m is not None:
-                mark(axes, tuple(value for (value,) in places(point)), level, card, beside=True)
-        for target in _TARGETS:
-            axes.axhline(target, color=card["quiet"], linewidth=0.8, linestyle=(0, (1, 3)), zorder=1)
-            axes.annotate(length(target), (1.008, target), xycoords=("axes fraction", "data"), va="center",
-                          fontsize=9, color=card["ink_quiet"])  # fmt: skip
-        axes.set(xscale="log", yscale="log", xlabel="speed, times real time", ylabel="error, smaller upwards")
-        slowest, fastest = axes.get_xlim()
-        axes.set_xlim(slowest, fastest * (fastest / slowest) ** 0.1)  # room for the levels' names
-        axes.invert_yaxis()
-        axes.xaxis.set_major_formatter(lambda value, position: significant(value))
-        axes.tick_params(axis="x", which="minor", pad=7)  # aligned with the other labels, which have ticks
-        axes.xaxis.set_minor_formatter(lambda value, position: significant(value) if f"{value:e}"[0] in "25" else "")
-        axes.yaxis.set_major_formatter(lambda value, position: length(value))
-        axes.get_figure().legend(
-            loc="outside lower center", ncols=len(methods), fontsize=9.5, handlelength=1.4, columnspacing=1.4
-        )
-
-
-def _measure(found: Trade) -> str:
-    reference = found.reference
-    what = "the worst ball" if len(reference.points) > 1 else "the ball"
-    text = f"position error of {what} after {reference.time:.3g} s, on this machine"
-    return text if reference.diverges_at is None else f"{text}; chaotic from {reference.diverges_at:.3g} s on"

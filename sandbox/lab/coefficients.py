@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from sandbox.errors import RequestError
-from sandbox.lab.chart import figure, legend
-from sandbox.lab.tables import paragraph, table
+from sandbox.lab.report import Chart, Column, Panel, Report, Table, words
 from sandbox.parameters import choices_of, value_at, walk
 from sandbox.scene import Scene
 from sandbox.sport.air import Air
@@ -75,42 +73,40 @@ def _curves(scene: Scene, name: str, over: str, at: Sequence[float], fixed: floa
     return Curves(name, over, list(at), fixed, found, str(chosen.value))
 
 
-def as_text(found: Sequence[Curves]) -> list[str]:
-    """A table of each coefficient; the model that the scene has is marked."""
-    lines = []
-    for one in found:
-        what, other = ("Cd by Reynolds number", "no spin") if one.name == "drag" else ("Cl by spin ratio r w / v", "")
-        lines += paragraph(f"{what}, {other or f'Re {one.fixed:.2g}'}", "")
-        heads = [f"{x:.2g}" for x in one.at]
-        rows = [(word, *(f"{v:.3f}" for v in row), _mark(one, word)) for word, row in one.models.items()]
-        lines += table(("", *heads, ""), rows, "l" + "r" * len(heads) + "l") if rows else ["  none"]
-        lines.append("")
-    return lines[:-1]
+def report_of(scene: Scene) -> Report:
+    """A table of each coefficient at round points, the scene's model marked, and both as curves.
+
+    Raises RequestError for a scene without a ball that flies.
+    """
+    found = coefficients(scene)
+    chart = Chart(
+        [_panel(one) for one in coefficients(scene, _POINTS)],
+        title=f"{scene.name}: drag and lift coefficients",
+        about="Each line is a model that the scene file may name; the thick one is the scene's.",
+        height=3.4,
+    )
+    return Report(
+        lambda: {one.name: one for one in found},
+        f"{scene.title}: drag and lift coefficients",
+        [*map(_table, found), chart],
+    )
 
 
-def _mark(one: Curves, word: str) -> str:
-    return "the scene's" if word == one.chosen else ""
+def _table(one: Curves) -> Table:
+    drag = one.name == "drag"
+    title = "Cd by Reynolds number, no spin" if drag else f"Cl by spin ratio r w / v, Re {one.fixed:.2g}"
+    columns = [words(), *(Column(f"{x:.2g}", write="{:.3f}".format) for x in one.at), words()]
+    rows = [(word, *row, "the scene's" if word == one.chosen else "") for word, row in one.models.items()]
+    return Table(columns, rows, title)
 
 
-def as_json(found: Sequence[Curves]) -> dict[str, Any]:
-    """The curves, by the name of the coefficient."""
-    return {one.name: vars(one) for one in found}
+def _panel(one: Curves) -> Panel:
+    def curves(axes: Any, colours: Mapping[str, Any]) -> None:
+        for word, values in one.models.items():
+            axes.plot(one.at, values, label=word, linewidth=3.2 if word == one.chosen else 1.6)
+        axes.set_ylim(bottom=0.0)
+        axes.grid(visible=True)
 
-
-def draw(scene: Scene, path: Path) -> None:
-    """Both coefficients as curves, one for each model; the scene's own is drawn thicker."""
-    about = "Each line is a model that the scene file may name; the thick one is the scene's."
-    with figure(path, f"{scene.name}: drag and lift coefficients", about, (11.0, 4.6)) as (sheet, _):
-        axes = sheet.subplots(1, 2)
-        for place, one in zip(axes, coefficients(scene, _POINTS), strict=True):
-            for word, values in one.models.items():
-                place.plot(one.at, values, label=word, linewidth=3.2 if word == one.chosen else 1.6)
-            drag = one.name == "drag"
-            place.set_xlabel("Reynolds number" if drag else f"spin ratio r w / v, at Re = {one.fixed:.2g}")
-            place.set_ylabel("drag coefficient, without spin" if drag else "lift coefficient")
-            place.set_ylim(bottom=0.0)
-            place.grid(visible=True)
-            if drag:
-                place.ticklabel_format(axis="x", style="sci", scilimits=(0, 0))
-            if one.models:
-                legend(place)
+    drag = one.name == "drag"
+    x = "Reynolds number, without spin" if drag else f"spin ratio r w / v, at Re = {one.fixed:.2g}"
+    return Panel(curves, x, f"{one.name} coefficient")

@@ -1,4 +1,4 @@
-"""Charts of sweeps: a map over two parameters, a curve or a strip over one, in the frame of chart.py."""
+"""Charts of sweeps: a map over two parameters, a curve or a strip over one."""
 
 from __future__ import annotations
 
@@ -6,19 +6,20 @@ import json
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from sandbox.errors import RequestError
 from sandbox.lab.axes import Axis, Values, label, result_label
-from sandbox.lab.chart import PLATE, chart, legend
+from sandbox.lab.chart import PLATE, legend
 from sandbox.lab.plan import Plan
+from sandbox.lab.report import Chart, Panel
 from sandbox.lab.row_file import cell
 from sandbox.parameters import value_at
 from sandbox.sport.amounts import significant
-from sandbox.text import no_such_result
+from sandbox.text import no_such_result, with_noun
 
 #: Most words in a legend; rarer ones are grouped.
 _MOST_WORDS, _OTHERS = 8, "others"
@@ -83,31 +84,45 @@ def check_plot(plan: Plan, of: str | None, family: str | None = None) -> None:
         raise RequestError(f"--of {of}: {no_such_result(of, plan.columns[:-1])}")
 
 
-def draw_sweep(plan: Plan, rows: Iterable[Row], path: Path, of: str | None = None, family: str | None = None) -> None:
-    """A chart of these rows; ``of`` names the column, by default the verdict or the first result; over two parameters a
-    map, or for each value of ``family``, one of them, a curve with its greatest value marked. Raises RequestError for a
-    family of what is not a number."""
-    found = read(plan, rows, of)
+def chart_of(plan: Plan, found: ChartData, family: str | None = None) -> Chart:
+    """Over two parameters a map, or for each value of ``family``, one of them, a curve with its greatest value marked.
+    Raises RequestError for a family of what is not a number."""
     if family is not None and found.numbers is None:
         raise RequestError(f"--family {family}: curves need a number, and {found.label} is not one; name another --of")
-    shots = f"{plan.samples:,} shots at random" if plan.samples else f"{plan.size:,} shots"
-    about = f"{shots}; all other parameters as in the scene file"
-    with chart(path, f"{plan.scene.title}: {found.label.partition(' (')[0]}", about) as (axes, colours):
-        shown = _curves(axes, plan, found, family) if found.numbers is not None else None
-        if shown is None:
-            shown = list(range(len(plan.axes)))
-            (_map if plan.is_grid or len(shown) != 2 else _cloud)(axes, plan, found, colours)
-        for place, side in zip(shown, ("x", "y"), strict=False):
-            axis = plan.axes[place]
-            axes.set(**{f"{side}label": label(plan.scene, axis.key)})
-            if isinstance(axis, Values) and not has_numbers(axis):
-                axes.set(**{f"{side}ticks": range(len(axis.distinct))})
-                axes.set(**{f"{side}ticklabels": [cell(value) for value in axis.distinct]})
-        if len(shown) == 1:
-            axes.set_ylabel(found.label if not found.words else "")
-        own = own_place(plan)
-        if own is not None:
-            _mark_own(axes, [own[place] for place in shown], found, found.axes[shown[0]], colours["card"]["ink"])
+    shots = f"{plan.samples:,} shots at random" if plan.samples else with_noun(plan.size, "shot")
+    shown = axes_shown(plan, found, family)
+    x, y = (label(plan.scene, plan.axes[place].key) for place in (shown[0], shown[-1]))
+    if len(shown) == 1:
+        y = found.label if found.numbers is not None else ""
+    title = f"{plan.scene.title}: {found.label.partition(' (')[0]}"
+    panel = Panel(partial(_draw, plan, found, shown, family), x, y)
+    return Chart([panel], title, f"{shots}; all other parameters as in the scene file")
+
+
+def axes_shown(plan: Plan, found: ChartData, family: str | None = None) -> list[int]:
+    """The places of the axes that the chart has: both, or the one along which curves run."""
+    if len(plan.axes) == 2 and found.numbers is not None and plan.is_grid:
+        several = [axis for axis in plan.axes if axis.key == family or (family is None and not has_numbers(axis))]
+        if len(several) == 1 and isinstance(several[0], Values) and len(several[0].values) <= _MOST_CURVES:
+            return [1 - plan.axes.index(several[0])]
+    return list(range(len(plan.axes)))
+
+
+def _draw(
+    plan: Plan, found: ChartData, shown: Sequence[int], family: str | None, axes: Any, colours: Mapping[str, Any]
+) -> None:
+    if len(shown) == 1 and found.numbers is not None:
+        _curves(axes, plan, found, shown[0], family)
+    else:
+        (_map if plan.is_grid or len(shown) != 2 else _cloud)(axes, plan, found, colours)
+    for place, side in zip(shown, ("x", "y"), strict=False):
+        axis = plan.axes[place]
+        if isinstance(axis, Values) and not has_numbers(axis):
+            axes.set(**{f"{side}ticks": range(len(axis.distinct))})
+            axes.set(**{f"{side}ticklabels": [cell(value) for value in axis.distinct]})
+    own = own_place(plan)
+    if own is not None:
+        _mark_own(axes, [own[place] for place in shown], found, found.axes[shown[0]], colours["card"]["ink"])
 
 
 # ---------------------------------------------------------------------------------------------------------------------
@@ -198,28 +213,22 @@ def own_place(plan: Plan) -> list[float] | None:
 # ---------------------------------------------------------------------------------------------------------------------
 
 
-def _curves(axes: Any, plan: Plan, found: ChartData, family: str | None) -> list[int] | None:
-    """A number over one axis, with a curve for each value of the other: of words, if there is one, or of the family.
-    Returns the place of the axis that runs along, or None if this is not such a chart."""
-    several = [axis for axis in plan.axes if axis.key == family or (family is None and not has_numbers(axis))]
-    along, values, names = 0, np.zeros(1), [""]
+def _curves(axes: Any, plan: Plan, found: ChartData, along: int, family: str | None) -> None:
+    """A number over one axis, with a curve for each value of the other, if there is one."""
+    values, names = np.zeros(1), [""]
     if len(plan.axes) == 2:
-        if not plan.is_grid or len(several) != 1 or not isinstance(several[0], Values):
-            return None
-        if len(several[0].values) > _MOST_CURVES:
-            return None
-        along = 1 - plan.axes.index(several[0])
+        other = plan.axes[1 - along]
+        assert isinstance(other, Values)
         values = np.unique(found.axes[1 - along])
-        named = values.tolist() if has_numbers(several[0]) else several[0].distinct
+        named = values.tolist() if has_numbers(other) else other.distinct
         names = [f"{value:g}" if isinstance(value, float) else cell(value) for value in named]
     assert found.numbers is not None
-    for place, value in enumerate(values):
+    for value, name in zip(values, names, strict=True):
         here = found.axes[1 - along] == value if len(plan.axes) == 2 else np.full(len(found.numbers), True)
         order = np.argsort(found.axes[along][here])
         style = "-" if has_numbers(plan.axes[along]) else ""
         dots = "o" if len(order) <= _MOST_DOTS and family is None else ""
         x, y = found.axes[along][here][order], found.numbers[here][order]
-        name = names[place]
         (line,) = axes.plot(x, y, linestyle=style, marker=dots, markersize=3.5, label=name)
         if family is not None and np.isfinite(y).any():
             best = int(np.nanargmax(y))
@@ -229,8 +238,7 @@ def _curves(axes: Any, plan: Plan, found: ChartData, family: str | None) -> list
                               textcoords="offset points", ha="center", fontsize=9.5, bbox=PLATE)  # fmt: skip
     axes.grid(axis="y")
     if len(plan.axes) == 2:
-        legend(axes, title=label(plan.scene, several[0].key), alignment="left")
-    return [along]
+        legend(axes, title=label(plan.scene, plan.axes[1 - along].key), alignment="left")
 
 
 def _map(axes: Any, plan: Plan, found: ChartData, colours: Mapping[str, Any]) -> None:
@@ -253,13 +261,15 @@ def _map(axes: Any, plan: Plan, found: ChartData, colours: Mapping[str, Any]) ->
         chosen, codes = coded(found, colours)
         cells = grid(codes)
         colour_map = ListedColormap(list(chosen.values()))
-        mesh = axes.pcolormesh(across, up, cells, shading="nearest", cmap=colour_map, vmin=-0.5, vmax=len(chosen) - 0.5)
+        mesh = axes.pcolormesh(across, up, cells, shading="nearest", cmap=colour_map, vmin=-0.5,
+                               vmax=len(chosen) - 0.5, rasterized=True)  # fmt: skip
         _outline(axes, mesh.get_coordinates(), cells, colours["card"]["ink"])
         _legend(axes, found, chosen, colours)
         return
     assert found.numbers is not None
     heights = np.ma.masked_invalid(grid(found.numbers))
-    _key(axes, axes.pcolormesh(across, up, heights, shading="nearest", **_colours(found, heights)), found, colours)
+    mesh = axes.pcolormesh(across, up, heights, shading="nearest", rasterized=True, **_colours(found, heights))
+    _key(axes, mesh, found)
     if not found.counts and min(heights.shape) >= _FEWEST_FOR_LINES and heights.count() > 1:
         lines = axes.contour(across, up, heights, levels=8, colors="white", linewidths=0.7, alpha=0.8)
         axes.clabel(lines, fontsize=8.5, fmt=significant)
@@ -293,7 +303,7 @@ def _cloud(axes: Any, plan: Plan, found: ChartData, colours: Mapping[str, Any]) 
     """A dot for each shot."""
     size = float(np.clip(20_000 / max(len(found.axes[0]), 1), 2.0, 40.0))
     if found.numbers is not None:
-        _key(axes, axes.scatter(*found.axes, c=found.numbers, s=size, cmap=_HEIGHTS), found, colours)
+        _key(axes, axes.scatter(*found.axes, c=found.numbers, s=size, cmap=_HEIGHTS), found)
         return
     chosen, codes = coded(found, colours)
     for code, colour in reversed(list(enumerate(chosen.values()))):  # success on top
@@ -357,7 +367,7 @@ def _legend(axes: Any, found: ChartData, chosen: Mapping[str, str], colours: Map
     legend(axes, handles=[Patch(facecolor=chosen[word], label=f"{word}  {texts[word]}", **edge) for word in chosen])
 
 
-def _key(axes: Any, drawn: Any, found: ChartData, colours: Mapping[str, Any]) -> None:
+def _key(axes: Any, drawn: Any, found: ChartData) -> None:
     """The colour scale."""
     bar = axes.figure.colorbar(drawn, ax=axes, aspect=30, pad=0.02, label=found.label)
     bar.outline.set_visible(False)

@@ -54,10 +54,12 @@ class Numbers:
 
     def histogram(self, bars: int | None = None) -> tuple[np.ndarray, np.ndarray]:
         """Counts, and the edges of the bars: by the rule of Freedman and Diaconis, or so many ``bars``; those of whole
-        numbers are one wide."""
+        numbers are one wide, and there is one of what does not vary."""
         low, high = float(self.values.min()), float(self.values.max())
         if high - low < _MOST_BARS and bool((self.values == np.round(self.values)).all()):
             return np.histogram(self.values, np.arange(low - 0.5, high + 1.0))
+        if not self.varies:
+            return np.histogram(self.values, 1, (low - 0.5, high + 0.5))
         if bars is None:
             quarter, rest = np.quantile(self.values, (0.25, 0.75))
             wide = 2.0 * (rest - quarter) / self.count ** (1 / 3)

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections import defaultdict
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import takewhile
 from math import inf, isfinite
@@ -33,8 +33,9 @@ from sandbox.engine.paths.phase import Phase
 from sandbox.engine.paths.run import Run
 from sandbox.errors import RequestError, SandboxError
 from sandbox.lab.extremes import Extreme, of_scene, setups_without_scene
+from sandbox.lab.report import Chart, Column, Notes, Panel, Report, Table, words
 from sandbox.lab.runs import Progress, no_progress
-from sandbox.lab.tables import length, paragraph, percent, table
+from sandbox.lab.tables import length, percent
 from sandbox.physics.integrators import INTEGRATORS
 from sandbox.scene import Scene
 from sandbox.sport.amounts import significant
@@ -263,35 +264,62 @@ def _overlaps_of_balls(run: Run) -> Iterator[tuple[float, float]]:
 # -------------------------------------------------------------------------------------------------------------- report
 
 
-#: Headings of what ``_sums`` gives.
-_SUMS = ("held", "refused", "failed", "energy", "overlap")
+#: Columns of what ``_sums`` gives.
+_SUMS = (
+    *(Column(outcome, write=str) for outcome in (HELD, REFUSED, FAILED)),
+    Column("energy", write=percent),
+    Column("overlap", write=length),
+)
 
 
-def as_text(outcomes: Sequence[Outcome], everything: bool = False) -> list[str]:
-    """What held and what failed, by method, and each failure; with ``everything`` a table for each scene before it,
-    with its refusals."""
-    lines: list[str] = []
+def report_of(outcomes: Sequence[Outcome]) -> Report:
+    """How often each method held, and each failure; as details each extreme of each scene, with its refusals."""
     sensible = _sensible(outcomes)
-    for scene, own in _grouped(outcomes, "scene") if everything else ():
-        rows = []
-        for extreme, tries in _grouped(own, "extreme"):
-            sums = _sums([each for each in tries if each.method != "plain"], tries)
-            rows.append([extreme, *("" if cell == "0" else cell for cell in sums)])
-        lines += [scene or _BARE, *table(("extreme", *_SUMS), rows, "lrrrrr"), *_remarks(own), ""]
-    headings, rows = summary(outcomes)
-    scenes = [scene or _BARE for scene, _ in _grouped(outcomes, "scene")]
-    lines += [
-        *paragraph(f"{_extremes(sensible)} extremes of {', '.join(scenes)}", ""),
-        *table(headings, rows, "l" + "r" * (len(headings) - 1)),
+    counts = summary(outcomes)
+    scenes = {scene: scene or _BARE for scene, _ in _grouped(outcomes, "scene")}
+    senseless = _extremes(outcomes) - _extremes(sensible)
+    absent = [f"not counted, as they make no sense and are refused: {senseless}"] if senseless else []
+    failures = [
+        Notes(list(_remarks(own, FAILED)), scenes[scene])
+        for scene, own in _grouped(sensible, "scene")
+        if any(each.outcome == FAILED for each in own)
     ]
-    if not everything:
-        for scene, own in _grouped(sensible, "scene"):
-            failures = list(_remarks(own, FAILED))
-            lines += [scene or _BARE, *failures] if failures else []
-        lines.append("--all shows each extreme, and what was refused and why")
-    if senseless := _extremes(outcomes) - _extremes(sensible):
-        lines.append(f"not counted, as they make no sense and are refused: {senseless}")
-    return lines
+    return Report(
+        lambda: outcomes,
+        f"{_extremes(sensible)} extremes of {', '.join(scenes.values())}",
+        [
+            replace(counts, notes=absent),
+            _chart(counts.rows),
+            *failures,
+            *(_each_extreme(scenes[scene], own) for scene, own in _grouped(outcomes, "scene")),
+        ],
+        more="each extreme, and what was refused and why",
+    )
+
+
+def _each_extreme(scene: str, outcomes: Sequence[Outcome]) -> Table:
+    rows = []
+    for extreme, tries in _grouped(outcomes, "extreme"):
+        *counts, energy, overlap = _sums([each for each in tries if each.method != "plain"], tries)
+        rows.append([extreme, *(count or None for count in counts), energy, overlap])
+    refused = list(_remarks(outcomes, REFUSED, SENSELESS))
+    return Table([words("extreme"), *_SUMS], rows, scene, refused, detail=True)
+
+
+def _chart(counts: Sequence[Sequence[Any]]) -> Chart:
+    """Bars of what held, was refused and failed, by method."""
+
+    def bars(axes: Any, colours: Mapping[str, Any]) -> None:
+        card, methods = colours["card"], [row[0] for row in counts][::-1]
+        left = np.zeros(len(methods))
+        for place, (word, colour) in enumerate(((HELD, card["good"]), (REFUSED, card["quiet"]), (FAILED, card["bad"]))):
+            runs = np.array([row[1 + place] for row in counts][::-1], float)
+            axes.barh(methods, runs, left=left, color=colour, height=0.62, label=word)
+            left = left + runs
+        axes.tick_params(axis="y", length=0)
+        axes.spines["left"].set_visible(False)
+
+    return Chart([Panel(bars, "runs at extremes")], height=0.5 + 0.4 * len(counts))
 
 
 def _sensible(outcomes: Sequence[Outcome]) -> list[Outcome]:
@@ -308,16 +336,16 @@ def _extremes(outcomes: Sequence[Outcome]) -> int:
 _BARE = "setups without a scene"
 
 
-def summary(outcomes: Sequence[Outcome]) -> tuple[list[str], list[list[str]]]:
-    """Headings and rows: how often each method held, its largest energy gain and its largest overlap, and the longest
-    step at which it held in every scene."""
-    rows = []
+def summary(outcomes: Sequence[Outcome]) -> Table:
+    """How often each method held, its largest energy gain and its largest overlap, and the longest step at which
+    it held in every scene."""
+    rows: list[list[Any]] = []
     for method, own in _grouped(_sensible(outcomes), "method"):
         steps = _grouped([each for each in own if each.extreme.startswith("step ")], "extreme")
         held = takewhile(lambda step: all(each.outcome == HELD for each in step[1]), steps)
         longest = "".join([step for step, _ in held][-1:])
         rows.append([method, *_sums(own, own), longest])
-    return ["method", *_SUMS, "holds up to"], rows
+    return Table([words("method"), *_SUMS, Column("holds up to")], rows)
 
 
 def _grouped(outcomes: Sequence[Outcome], by: str) -> list[tuple[str, list[Outcome]]]:
@@ -327,13 +355,12 @@ def _grouped(outcomes: Sequence[Outcome], by: str) -> list[tuple[str, list[Outco
     return list(groups.items())
 
 
-def _sums(measured: Sequence[Outcome], outcomes: Sequence[Outcome]) -> list[str]:
+def _sums(measured: Sequence[Outcome], outcomes: Sequence[Outcome]) -> list[Any]:
     """The runs that held, were refused, and failed, counted; of those measured the largest energy gain and overlap."""
     counts = [sum(each.outcome == word for each in outcomes) for word in (HELD, REFUSED, FAILED)]
     energy = [each.energy_gained for each in measured if each.energy_gained is not None]
     overlap = [each.penetration_m for each in measured if each.penetration_m is not None]
-    worst = [percent(max(energy)), length(max(overlap))] if energy and overlap else ["", ""]
-    return [*map(str, counts), *worst]
+    return [*counts, max(energy, default=None), max(overlap, default=None)]
 
 
 def _remarks(outcomes: Sequence[Outcome], *words: str) -> Iterator[str]:
@@ -349,4 +376,4 @@ def _remarks(outcomes: Sequence[Outcome], *words: str) -> Iterator[str]:
     for (outcome, message, methods), extremes in by_extreme.items():
         who = "" if len(methods) == everybody else f" ({', '.join(methods)})"
         where = ", ".join(extremes) if len(extremes) <= _NAMED else f"{len(extremes)} extremes"
-        yield from paragraph(f"{outcome}, {where}{who}: {message}", "    ")
+        yield f"{outcome}, {where}{who}: {message}"

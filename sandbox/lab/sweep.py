@@ -5,7 +5,7 @@ from __future__ import annotations
 import pickle
 import platform
 from collections import deque
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from functools import lru_cache
@@ -20,11 +20,13 @@ from sandbox import display
 from sandbox.errors import RequestError, RunError, Stopped
 from sandbox.lab.axes import Values, as_axis
 from sandbox.lab.many import as_array
+from sandbox.lab.maps import chart_of, check_plot, read
 from sandbox.lab.plan import Plan, Record, records
-from sandbox.lab.row_file import RowFile
+from sandbox.lab.report import Chart, Notes, Report
+from sandbox.lab.row_file import RowFile, cell
 from sandbox.lab.runs import Progress, no_progress
 from sandbox.scene import Scene, as_scene
-from sandbox.text import check_mapping
+from sandbox.text import check_mapping, with_noun
 from sandbox.workers import Call, Cluster, InTurn, Processes, WorkerLost, Workers, cores
 
 #: Target time in s of one call to a worker, so that progress is shown and Ctrl-C handled a few times a second.
@@ -54,7 +56,7 @@ _HERE = uuid4().hex
 
 
 @dataclass(frozen=True)
-class Sweep:
+class Sweep(display.Reported):
     """The rows of a sweep.
 
     ``sweep["carry"]`` is an array in the shape of the grid, ``sweep.columns`` a dictionary of flat arrays (for
@@ -72,13 +74,23 @@ class Sweep:
     def __repr__(self) -> str:
         return f"<Sweep of {self.plan.scene.title}: {len(self.records):,} points over {', '.join(self.plan.keys)}>"
 
+    def report(self, of: str | None = None) -> Report:
+        """The map or the curves of one result (``of``, by default the verdict or the first)."""
+        check_plot(self.plan, of)
+        rows = [{name: cell(record.get(name)) for name in self.plan.columns} for record in self.records]
+        return Report(lambda: self.records, repr(self), [chart_of(self.plan, read(self.plan, rows, of))])
+
     def plot(self, path: Path | str | None = None, of: str | None = None) -> Any:
         """The map or the curves of one result (``of``, by default the verdict or the first): written to ``path`` (a
         PNG), or without one handed back as a Pillow image."""
-        return display.notebook().sweep_plot(self, path, of)
+        return display.notebook().report_plot(self.report(of), path)
 
     def _repr_html_(self) -> str:
-        return display.notebook().sweep_html(self)
+        try:
+            report = self.report()
+        except RequestError as error:  # it cannot be drawn
+            report = Report(lambda: self.records, repr(self), [Notes([str(error)])])
+        return display.notebook().report_html(report)
 
     @property
     def axes(self) -> dict[str, np.ndarray]:
@@ -154,23 +166,24 @@ class SweepSummary:
     before: Path | None = None  # backup of the file's previous content, if from another sweep
     alone: str = ""  # why its shots ran one by one, if they need not
 
-    def as_text(self) -> str:
-        """A summary: number of points, speed, failures, and the file's previous content."""
+    def report(self, charts: Sequence[Chart] = ()) -> Report:
+        """Number of points, speed, failures, and the file's previous content."""
         new = self.points - self.resumed
         before = f", {self.resumed:,} already in the file" if self.resumed else ""
-        points = "1 point" if self.points == 1 else f"{self.points:,} points"
+        title = (
+            f"{with_noun(self.points, 'point')}{before}; {new:,} in {self.seconds:.1f} s, {new / self.seconds:,.0f}/s"
+        )
         if not new:
-            return f"{points}, all already in the file: the sweep is complete"
-        lines = [f"{points}{before}; {new:,} in {self.seconds:.1f} s, {new / self.seconds:,.0f}/s"]
-        if self.alone:
-            lines.append(self.alone)
+            title = f"{with_noun(self.points, 'point')}, all already in the file: the sweep is complete"
+        notes = [self.alone] if self.alone else []
         if self.failures:
-            lines.append(f"{self.failures:,} failed, first with: {self.first_error}")
+            notes.append(f"{self.failures:,} failed, first with: {self.first_error}")
         if self.damaged is not None:
-            lines.append(f"row {self.damaged:,} was damaged: computed again, with all rows after it")
+            notes.append(f"row {self.damaged:,} was damaged: computed again, with all rows after it")
         if self.before is not None:
-            lines.append(f"the previous rows are in {self.before}")
-        return "\n".join(lines)
+            notes.append(f"the previous rows are in {self.before}")
+        document = {**vars(self), "before": None if self.before is None else str(self.before)}
+        return Report(lambda: document, title, [Notes(notes if new else []), *charts])
 
 
 def sweep_to_file(plan: Plan, path: Path, pool: Workers, progress: Progress = no_progress) -> SweepSummary:

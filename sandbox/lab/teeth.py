@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 from sandbox.engine.model.accuracy import resolve
@@ -21,8 +22,8 @@ from sandbox.engine.model.setup import Setup
 from sandbox.engine.motion.forces_on_ball import cause
 from sandbox.errors import RequestError, SandboxError
 from sandbox.lab.published import assignments
+from sandbox.lab.report import Report, Table, words
 from sandbox.lab.runs import Progress, no_progress
-from sandbox.lab.tables import paragraph, table
 from sandbox.lab.validate import Compared, cells, compare, scene_of
 from sandbox.parameters import walk
 from sandbox.scene import Scene
@@ -141,7 +142,19 @@ def _scaled(setup: Setup, effect: str, factor: float) -> Setup:
 # ------------------------------------------------------------------------------------------------------------- report
 
 
-def as_json(rows: Sequence[Compared], tried: Sequence[Tried]) -> list[dict[str, Any]]:
+def report_of(rows: Sequence[Compared], tried: Sequence[Tried]) -> Report:
+    """The rows that hold though an effect that they name is left out; those that hold with a fifth of it more and less;
+    and how many do not."""
+    blunt = [(one, one.unnoticed()) for one in tried if not one.has_teeth]
+    weak = [(one, one.unnoticed(*FIFTH)) for one in tried if one.has_teeth]
+    sections = [
+        _table("rows that hold whatever their effect is", blunt),
+        _table("rows that fall only without it", weak),
+    ]
+    return Report(partial(_document, rows, tried), summary(tried), sections)
+
+
+def _document(rows: Sequence[Compared], tried: Sequence[Tried]) -> list[dict[str, Any]]:
     """The rows, each with ``trials`` and ``has_teeth``; None for those that do not hold."""
     of_row = {id(one.row): one for one in tried}
     found = ((row, of_row.get(id(row))) for row in rows)
@@ -151,17 +164,13 @@ def as_json(rows: Sequence[Compared], tried: Sequence[Tried]) -> list[dict[str, 
     ]
 
 
-def as_text(tried: Sequence[Tried]) -> list[str]:
-    """The rows that hold though an effect that they name is left out; those that hold with a fifth of it more and less;
-    and how many do not."""
-    lines = []
-    for title, found in {
-        "rows that hold whatever their effect is": [(one, one.unnoticed()) for one in tried if not one.has_teeth],
-        "rows that fall only without it": [(one, one.unnoticed(*FIFTH)) for one in tried if one.has_teeth],
-    }.items():
-        rows = [_cells(one, effects) for one, effects in found if effects or not one.trials]
-        lines += [title, *table(("case", "result", "effect"), rows, "lll"), ""] if rows else []
-    return [*lines, *paragraph(summary(tried), "")]
+def _table(title: str, found: Sequence[tuple[Tried, list[str]]]) -> Table:
+    rows = []
+    for one, effects in found:
+        if effects or not one.trials:
+            case, result, *_ = cells(one.row)
+            rows.append((f"{one.row.sport} {case}", result, ", ".join(effects) or "none named"))
+    return Table([words("case"), words("result"), words("effect")], rows, title)
 
 
 def summary(tried: Sequence[Tried]) -> str:
@@ -170,8 +179,3 @@ def summary(tried: Sequence[Tried]) -> str:
     fifth = sum(not one.unnoticed(*FIFTH) for one in sharp)
     without = f"{len(sharp)} of {len(tried)} rows that hold fall without their effect"
     return f"{without}, {fifth} with a fifth more or less of it"
-
-
-def _cells(one: Tried, effects: Sequence[str]) -> tuple[str, ...]:
-    case, result, *_ = cells(one.row)
-    return f"{one.row.sport} {case}", result, ", ".join(effects) or "none named"

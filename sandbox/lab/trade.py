@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
+from functools import partial
+from itertools import takewhile
 from math import isfinite
 from typing import Any
 
 from sandbox.engine.model.accuracy import LEVELS, Accuracy, settle_for
 from sandbox.lab.ablation import Ablated, ablation
-from sandbox.lab.ablation import as_text as ablation_text
+from sandbox.lab.ablation import tables as ablation_tables
+from sandbox.lab.chart import mark
 from sandbox.lab.reference import Reference, converge
+from sandbox.lab.report import Chart, Column, Notes, Panel, Report, Table, words
 from sandbox.lab.runs import Progress, no_progress
-from sandbox.lab.tables import length, length_or_below, paragraph, table, time
+from sandbox.lab.tables import length, length_or_below, time
 from sandbox.lab.timing import Timed, repeat
 from sandbox.lab.verdicts import VerdictChanges, shot_map
 from sandbox.physics.integrators import INTEGRATORS
 from sandbox.scene import Scene
+from sandbox.scene.writing import command
 from sandbox.sport.amounts import significant
 
 #: Steps of the fixed-step methods, in 1/s, from the longest to the shortest.
@@ -25,8 +30,8 @@ RATES = (2, 5, 10, 20, 60, 240, 1000, 4000, 16_000, 64_000)
 #: Tolerances of the method with error control, in m.
 TOLERANCES = (1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
 
-#: Errors in m for which the cheapest setting is reported.
-TARGETS = (0.1, 0.01, 0.001, 0.0001)
+#: Errors in m for which the cheapest setting is reported; and the least that is drawn, for smaller ones do not matter.
+TARGETS, _LEAST = (0.1, 0.01, 0.001, 0.0001), 1e-9
 
 #: A finer setting is left out if it would take longer than this, in s.
 LONGEST = 1.0
@@ -62,10 +67,10 @@ class Point:
         return f"{self.method} {self.setting}".strip()
 
     @property
-    def error(self) -> str:
-        """Its error, or the name of its failure."""
+    def failure(self) -> str:
+        """The name of its failure."""
         name = self.problem.partition(":")[0]
-        return length(self.error_m) or (name if name.isalpha() else "failed")
+        return name if name.isalpha() else "failed"
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON."""
@@ -180,7 +185,39 @@ def _point(reference: Reference, method: str, setting: str, trial: Timed[tuple[f
 # --------------------------------------------------------------------------------------------------------------- report
 
 
-def as_dict(found: Trade) -> dict[str, Any]:
+def report_of(found: Trade) -> Report:
+    """The cheapest way to each accuracy, and its time compared with that of pymunk alone; error against speed; and as
+    details every setting, the levels, the parts of the model, and the verdicts."""
+    reference = found.reference
+    error, took = Column("error", write=partial(length_or_below, least=reference.error)), Column("time", write=time)
+    choice = [Column("for", write=length, align="l"), words("cheapest"), error, took]
+    choice += [words("pymunk alone"), took, Column("times", write=significant)]
+    cost = [error, took, Column("x real time", write=significant)]
+    behind = Column("x cheapest equally accurate setting", write=significant)
+    levels = [
+        [name, point.accuracy.tolerance, *_cells(point), found.slowdown_from_pareto(name)]
+        for name, point in found.levels.items()
+    ]
+    settings = [[point.method, point.setting, *_cells(point), point.force_evaluations] for point in found.points]
+    return Report(
+        partial(document, found),
+        f"{reference.scene.title}: position of {_whose(reference)} after {reference.time:.4g} s",
+        [
+            Table(choice, [_choice(found, target) for target in TARGETS], notes=list(_in_short(found))),
+            _chart(found),
+            Notes(_about(reference), detail=True),
+            Table([words("method"), words("setting"), *cost, Column("forces", write=str)], settings,
+                  notes=list(_problems(found.points)), detail=True),
+            Table([words("level"), Column("target", write=length), *cost, behind], levels, "levels", detail=True),
+            *ablation_tables(found.ablation, reference.time),
+            *([] if found.verdicts is None else [found.verdicts.table()]),
+        ],
+        more="every setting, the verdicts, and the parts of the model",
+        command=command(reference.scene, "trade", "--html", "trade.html"),
+    )  # fmt: skip
+
+
+def document(found: Trade) -> dict[str, Any]:
     """For JSON."""
     reference = found.reference
     return {
@@ -204,95 +241,53 @@ def as_dict(found: Trade) -> dict[str, Any]:
     }
 
 
-def as_text(found: Trade, everything: bool = False) -> list[str]:
-    """For people: the cheapest way to each accuracy, and its time compared with that of pymunk alone; or everything."""
-    reference = found.reference
-    lines = [
-        f"{reference.scene.title}: position of {_whose(reference)} after {reference.time:.4g} s",
-        *table(
-            ("for", "cheapest", "error", "time", "pymunk alone", "time", "times"),
-            [_choice(found, target) for target in TARGETS],
-            "llrrlrr",
-        ),
-        *paragraph(f"levels: {', '.join(_in_short(found, name) for name in found.levels)}"),
-        *(paragraph(f"verdicts: {_verdicts(found.verdicts)}") if found.verdicts is not None else []),
-    ]
-    if not everything:
-        return [*lines, "  --all shows every setting, the verdicts, and the parts of the model"]
-    return [*lines, "", *_everything(found)]
-
-
 def _whose(reference: Reference) -> str:
     return "every ball" if len(reference.points) > 1 else "the ball"
 
 
-def _choice(found: Trade, target: float) -> list[str]:
+def _choice(found: Trade, target: float) -> list[Any]:
     """The cheapest setting of all for an error in m, the cheapest of pymunk alone, and the ratio of their times."""
     best, plain = found.best(target), found.best(target, "plain")
-    ours, theirs = ["none", "", ""], ["none", "", ""]
-    if best is not None:
-        ours = [best.name, length_or_below(best.error_m, found.reference.error), time(best.wall_s)]
+    ours: list[Any] = ["none", None, None] if best is None else [best.name, best.error_m, best.wall_s]
+    theirs: list[Any] = ["none", None, None]
     if best is not None and plain is not None:
-        theirs = [plain.setting, time(plain.wall_s), significant(plain.wall_s / best.wall_s)]
-    return [length(target), *ours, *theirs]
+        theirs = [plain.setting, plain.wall_s, plain.wall_s / best.wall_s]
+    return [target, *ours, *theirs]
 
 
-def _in_short(found: Trade, name: str) -> str:
-    point = found.levels[name]
-    return f"{name} {length_or_below(point.error_m, found.reference.error) or point.error} in {time(point.wall_s)}"
+def _cells(point: Point) -> list[Any]:
+    """The error in m, or the name of the failure; the time in s, and how many times real time that is."""
+    return [point.failure if point.error_m is None else point.error_m, point.wall_s, point.times_real_time]
 
 
-def _verdicts(changes: VerdictChanges) -> str:
-    """How many shots come out differently or fail, by method."""
-    counts = (
-        f"{name} {of.other} other" + (f", {of.failed} failed" if of.failed else "")
-        for name, of in changes.methods.items()
-    )
-    return f"of {changes.shots} shots around it, by {'; '.join(counts)}"
+def _in_short(found: Trade) -> Iterator[str]:
+    """Sentences on the levels, and on how many shots come out differently or fail by each method."""
 
+    def level(name: str, point: Point) -> str:
+        error = point.failure if point.error_m is None else length_or_below(point.error_m, found.reference.error)
+        return f"{name} {error} in {time(point.wall_s)}"
 
-def _everything(found: Trade) -> list[str]:
-    """Every setting, the levels, the verdicts, and the parts of the model."""
-    least = found.reference.error
-
-    def cells(point: Point) -> list[str]:
-        error = length_or_below(point.error_m, least) or point.error
-        return [error, time(point.wall_s), significant(point.times_real_time)]
-
-    settings = [[p.method, p.setting, *cells(p), str(p.force_evaluations)] for p in found.points]
-    levels = [
-        [name, length(point.accuracy.tolerance), *cells(point), "" if behind is None else significant(behind)]
-        for name, point in found.levels.items()
-        for behind in [found.slowdown_from_pareto(name)]
-    ]
-    return [
-        *_about(found.reference),
-        "",
-        *table(("method", "setting", "error", "time", "x real time", "forces"), settings, "llrrrr"),
-        *_problems(found.points),
-        "",
-        "levels",
-        *table(
-            ("level", "target", "error", "time", "x real time", "x cheapest equally accurate setting"), levels, "lrrrrr"
-        ),
-        *(["", *ablation_text(found.ablation, found.reference.time)] if found.ablation else []),
-        *(["", *found.verdicts.as_text()] if found.verdicts is not None else []),
-    ]
+    yield f"levels: {', '.join(level(name, point) for name, point in found.levels.items())}"
+    changes = found.verdicts
+    if changes is not None:
+        counts = (
+            f"{name} {of.other} other" + (f", {of.failed} failed" if of.failed else "")
+            for name, of in changes.methods.items()
+        )
+        yield f"verdicts: of {changes.shots} shots around it, by {'; '.join(counts)}"
 
 
 def _about(reference: Reference) -> list[str]:
-    scene, chaotic = reference.scene, reference.diverges_at
-    closed = reference.closed_form
-    how = "contacts are computed, the rest is in closed form" if closed else "checked with another integrator"
+    chaotic = reference.diverges_at
+    how = (
+        "contacts are computed, the rest is in closed form"
+        if reference.closed_form
+        else "checked with another integrator"
+    )
     growth = f"a nudge at the start grows {significant(reference.growth)} times until then"
     if chaotic is not None:
         growth = f"chaotic: a nudge of 1e-9 m has grown to 1 mm after {chaotic:.4g} s"
-    return [
-        scene.title,
-        f"  measure    position of {_whose(reference)} after {reference.time:.4g} s",
-        f"  reference  error {length(reference.error)}, {how}",
-        f"  growth     {growth}",
-    ]
+    return [f"reference: error {length(reference.error)}, {how}", growth]
 
 
 def _problems(points: Sequence[Point]) -> Iterator[str]:
@@ -303,4 +298,43 @@ def _problems(points: Sequence[Point]) -> Iterator[str]:
             if point.problem == problem:
                 settings.setdefault(point.method, []).append(point.setting)
         where = "; ".join(f"{method} at {', '.join(own)}" for method, own in settings.items())
-        yield from paragraph(f"{problem}: {where}", "    ")
+        yield f"{problem}: {where}"
+
+
+def _chart(found: Trade) -> Chart:
+    """Error against speed: one curve per method, best at the top right, levels marked."""
+    reference = found.reference
+    floor = max(_LEAST, reference.error)
+
+    def places(*points: Point) -> tuple[list[float], list[float]]:
+        return [point.times_real_time for point in points], [max(point.error_m or 0.0, floor) for point in points]
+
+    def curves(axes: Any, colours: Mapping[str, Any]) -> None:
+        card, methods = colours["card"], list(dict.fromkeys(point.method for point in found.points))
+        traces = iter(colours["trace"]["colours"])  # the levels' method, which is the last, has the first
+        own = {method: card["quiet"] if method == "plain" else next(traces) for method in reversed(methods)}
+        for method in methods:
+            finest_first = reversed([point for point in found.points if point.method == method])
+            points = list(takewhile(lambda point: point.stable, finest_first))
+            if points:
+                axes.plot(*places(*points), color=own[method], marker="o", markersize=4.5, label=method, zorder=3)
+        for level, point in found.levels.items():
+            if point.error_m is not None:
+                mark(axes, tuple(value for (value,) in places(point)), level, card, beside=True)
+        for target in TARGETS:
+            axes.axhline(target, color=card["quiet"], linewidth=0.8, linestyle=(0, (1, 3)), zorder=1)
+        axes.set(xscale="log", yscale="log")
+        slowest, fastest = axes.get_xlim()
+        axes.set_xlim(slowest, fastest * (fastest / slowest) ** 0.1)  # room for the levels' names
+        axes.invert_yaxis()
+        axes.xaxis.set_major_formatter(lambda value, position: significant(value))
+        axes.tick_params(axis="x", which="minor", pad=7)  # aligned with the other labels, which have ticks
+        axes.xaxis.set_minor_formatter(lambda value, position: significant(value) if f"{value:e}"[0] in "25" else "")
+        axes.yaxis.set_major_formatter(lambda value, position: length(value))
+
+    what = "the worst ball" if len(reference.points) > 1 else "the ball"
+    about = f"position error of {what} after {reference.time:.3g} s, on this machine"
+    if reference.diverges_at is not None:
+        about += f"; chaotic from {reference.diverges_at:.3g} s on"
+    panel = Panel(curves, "speed, times real time", "error, smaller upwards")
+    return Chart([panel], f"{reference.scene.title}: error against speed", about)

@@ -11,12 +11,15 @@ from sandbox import units
 from sandbox.errors import RequestError
 from sandbox.lab.against import own_cases
 from sandbox.lab.published import COUNTED, KINDS, Case, assignments, cases, cases_of
+from sandbox.lab.report import Chart, Column, Notes, Panel, Report, Table, words
 from sandbox.lab.runs import Progress, no_progress
-from sandbox.lab.tables import paragraph, table
 from sandbox.scene import Scene, load, simulate
 from sandbox.scene.finding import as_path, find, is_installed
 from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.amounts import significant
+
+#: Tolerances by which a number may be off on the chart; more is drawn there.
+_FARTHEST = 4.0
 
 
 @dataclass(frozen=True)
@@ -97,31 +100,62 @@ def compare(case: Case, run: SceneRun) -> Compared:
 # ------------------------------------------------------------------------------------------------------------- report
 
 
-def as_text(rows: Sequence[Compared], given: str = "published") -> list[str]:
-    """A table for each source; what the numbers are is said by ``given``."""
-    tables: dict[str, list[Compared]] = {}
+def report_of(rows: Sequence[Compared], given: str = "published", notes: Sequence[str] = ()) -> Report:
+    """A table for each source, with what does not hold and why; the numbers are called ``given``."""
+    sources: dict[str, list[Compared]] = {}
     for row in rows:
-        tables.setdefault(f"{row.sport}, {row.kind}: {row.source}", []).append(row)
-    headings = ("case", "result", given, "computed", "off by", "allowed", "")
-    lines = [*counts_by_kind(rows), ""]
-    for title, own in tables.items():
-        lines += [*paragraph(title, ""), *table(headings, [cells(row) for row in own], "llrrrrl")]
-        for row in own:
-            if not row.holds:
-                case, result, *_ = cells(row)
-                lines += paragraph(f"{case}, {result}, does not hold: {row.reason or 'no reason known'}")
-        lines.append("")
-    return lines[:-1]
-
-
-def counts_by_kind(rows: Sequence[Compared]) -> list[str]:
-    """The counts of rows that hold, those that say how true the models are first."""
-    own = {kind: [row for row in rows if row.kind == kind] for kind in sorted(KINDS, key=lambda it: it not in COUNTED)}
-    body = [(kind, _holding(those), KINDS[kind]) for kind, those in own.items() if those]
+        sources.setdefault(f"{row.sport}, {row.kind}: {row.source}", []).append(row)
     measured = [row for row in rows if row.kind in COUNTED]
     first = f"{share_that_holds(rows)} hold" if measured else "nothing measured among these"
     others = "; those of the other kinds do not count" if len(measured) < len(rows) else ""
-    return [*paragraph(first + others, ""), *table(("kind", "hold", ""), body, "lrl")]
+    return Report(
+        lambda: rows,
+        first + others,
+        [_kinds(rows), _chart(rows), *(_table(*own, given) for own in sources.items()), Notes(notes)],
+    )
+
+
+def _kinds(rows: Sequence[Compared]) -> Table:
+    """The counts of rows that hold, those that say how true the models are first."""
+    own = {kind: [row for row in rows if row.kind == kind] for kind in sorted(KINDS, key=lambda it: it not in COUNTED)}
+    body = [(kind, _holding(those), KINDS[kind]) for kind, those in own.items() if those]
+    return Table([words("kind"), Column("hold"), words()], body)
+
+
+def _table(title: str, rows: Sequence[Compared], given: str) -> Table:
+    columns = [words("case"), words("result"), *map(Column, (given, "computed", "off by", "allowed")), words()]
+    body = [cells(row) for row in rows]
+    missed = [
+        f"{case}, {result}, does not hold: {row.reason or 'no reason known'}"
+        for row, (case, result, *_) in zip(rows, body, strict=True)
+        if not row.holds
+    ]
+    return Table(columns, body, title, notes=missed)
+
+
+def _chart(rows: Sequence[Compared]) -> Chart:
+    """How far off each number is, in its tolerance, by scene: those that count in colour."""
+    scenes = list(dict.fromkeys(row.sport for row in rows))[::-1]
+    known = [row for row in rows if row.difference is not None and row.tolerance]
+
+    def dots(axes: Any, colours: Mapping[str, Any]) -> None:
+        card = colours["card"]
+        axes.axvspan(-1.0, 1.0, color=card["quiet"], alpha=0.2, linewidth=0.0)
+        groups = {"does not count": card["quiet"], "holds": card["good"], "does not": card["bad"]}
+        for name, colour in groups.items():
+            own = [row for row in known if name == (_verdict(row) if row.kind in COUNTED else "does not count")]
+            off = [max(-_FARTHEST, min(_FARTHEST, (row.difference or 0.0) / (row.tolerance or 1.0))) for row in own]
+            places = [scenes.index(row.sport) for row in own]
+            axes.scatter(off, places, s=18, color=colour, label=name, zorder=3)
+        axes.set_yticks(range(len(scenes)), scenes)
+        axes.set_xlim(-1.05 * _FARTHEST, 1.05 * _FARTHEST)
+
+    label = f"off by, over what is allowed; {_FARTHEST:g} and more at the edge"
+    return Chart([Panel(dots, label)], "Computed and given numbers", height=0.8 + 0.3 * len(scenes))
+
+
+def _verdict(row: Compared) -> str:
+    return "holds" if row.holds else "does not"
 
 
 def share_that_holds(rows: Sequence[Compared]) -> str:
@@ -136,9 +170,8 @@ def _holding(rows: Sequence[Compared]) -> str:
 def cells(row: Compared) -> tuple[str, ...]:
     """A row of the table."""
     about = f"{row.preset} {row.name}".strip(), row.result.replace("_", " ")
-    verdict = "holds" if row.holds else "does not"
     if row.difference is None:
-        return *about, row.value, "none" if row.computed is None else row.computed, "", "", verdict
+        return *about, row.value, "none" if row.computed is None else row.computed, "", "", _verdict(row)
     digits = _digits(row)
     published = f"{float(row.value):.{digits}f}" if len(row.value.partition(".")[2]) > digits else row.value
     return (
@@ -147,7 +180,7 @@ def cells(row: Compared) -> tuple[str, ...]:
         f"{row.computed:.{digits}f}",
         ("-" if row.difference < 0.0 else "+") + significant(abs(row.difference)),
         significant(row.tolerance or 0.0),
-        verdict,
+        _verdict(row),
     )
 
 

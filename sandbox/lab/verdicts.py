@@ -12,8 +12,8 @@ from typing import Any
 from sandbox import parameters as declared
 from sandbox.engine.model.accuracy import LEVELS
 from sandbox.engine.model.setup_errors import MethodFailed
+from sandbox.lab.report import Column, Table, words
 from sandbox.lab.runs import outcomes
-from sandbox.lab.tables import paragraph, table
 from sandbox.scene import Scene
 
 #: Range of the map: fraction of the speed, and degrees to either side.
@@ -53,16 +53,13 @@ class VerdictChanges:
     methods: dict[str, Verdicts]
     failures: dict[str, dict[str, int]] = field(default_factory=dict)  # of each method, how many by their name
 
-    def as_text(self) -> list[str]:
+    def table(self) -> Table:
+        """How many shots have the same verdict, another one, or failed, and how, by method."""
         about = f"{self.shots} shots, {self.over[0]} within {100 * _SPEED:.0f} %, {self.over[1]} within {_ANGLE:g} deg"
-        rows = [
-            [name, *(str(count) if count else "-" for count in (of.same, of.other, of.failed)), self.named(name)]
-            for name, of in self.methods.items()
-        ]
-        return [
-            *paragraph(f"verdicts, compared with the finest run's ({about})", ""),
-            *table(("by", "same", "other", "failed", ""), rows, "lrrrl"),
-        ]
+        count = [Column(heading, write=lambda shots: str(shots or "-")) for heading in ("same", "other", "failed")]
+        rows = [[name, of.same, of.other, of.failed, self.named(name)] for name, of in self.methods.items()]
+        title = f"verdicts, compared with the finest run's ({about})"
+        return Table([words("by"), *count, words()], rows, title, detail=True)
 
     def named(self, method: str) -> str:
         """How its shots failed, with counts."""

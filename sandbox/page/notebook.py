@@ -1,17 +1,18 @@
-"""Display of a run, a scene, a sweep and a search in notebooks; and their pages and charts."""
+"""Display of runs, scenes and reports in notebooks; and their pages and charts."""
 
 from __future__ import annotations
 
 import io
 import tempfile
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PIL import Image
 
-from sandbox.errors import RequestError
+from sandbox.lab.chart import check_chart, draw
+from sandbox.page import report as reports
 from sandbox.page.parts import html, picture, save, table
 from sandbox.page.replay import page_of, text_of
 from sandbox.parameters import walk
@@ -21,10 +22,7 @@ from sandbox.scene.setup_scene import with_scene
 
 if TYPE_CHECKING:
     from sandbox.engine.paths.run import Run
-    from sandbox.lab.aim import Aim
-    from sandbox.lab.fit import Fit
-    from sandbox.lab.spread import Spread
-    from sandbox.lab.sweep import Sweep
+    from sandbox.lab.report import Report
     from sandbox.scene import Scene
 
 #: Height of the page of a run in a notebook, in px.
@@ -70,103 +68,25 @@ def scene_html(scene: Scene) -> str:
     return f"<h3>{html(scene.title)}</h3><p>{html(scene.about)}</p>{table(cells, scene.title, 'parameters')}"
 
 
-def sweep_html(sweep: Sweep) -> str:
-    """Its map or curves; its size alone where it cannot be drawn."""
-    try:
-        return f"<p>{html(repr(sweep))}</p>{_image(sweep.plot())}"
-    except RequestError as error:
-        return f"<p>{html(repr(sweep))}: {html(str(error))}</p>"
+def report_html(report: Report) -> str:
+    """Its tables and sentences, and its charts as images."""
+    return reports.notebook_html(report)
 
 
-def aim_html(aim: Aim) -> str:
-    """Return the solutions as a table, and all trials as a chart."""
-    from sandbox.lab.aim import report
-
-    return _reported(report.as_text(aim), _drawn(lambda path: report.draw(aim, path)))
+def report_page(report: Report, path: Path | str | None) -> str | None:
+    """Its page: written to ``path``, or its text."""
+    return _paged(lambda: reports.page_of(report), path)
 
 
-def _reported(lines: Iterable[str], chart: Image.Image | None) -> str:
-    """A report as text, and its chart."""
-    text = escape("\n".join(lines))
-    return f'<pre style="font-family: monospace; white-space: pre">{text}</pre>{_image(chart)}'
-
-
-def sweep_plot(sweep: Sweep, path: Path | str | None, of: str | None) -> Image.Image | None:
-    """The chart of a sweep: written to ``path``, or handed back; ``of`` names the result."""
-    from sandbox.lab.maps import check_plot, draw_sweep
-    from sandbox.lab.row_file import cell
-
-    check_plot(sweep.plan, of)
-    rows = [{name: cell(record.get(name)) for name in sweep.plan.columns} for record in sweep.records]
-
-    return _plotted(lambda file: draw_sweep(sweep.plan, rows, file, of), path, "--plot")
-
-
-def _plotted(draw: Callable[[Path], None], path: Path | str | None, option: str = "plot") -> Image.Image | None:
-    """A chart: written to ``path``, which ``option`` names in errors, or handed back."""
-    from sandbox.lab.chart import check_chart
-
-    def checked(file: Path) -> None:
-        check_chart(option, file)
-        draw(file)
-
-    if path is None:
-        return _drawn(checked)
-    check_path(path)
-    checked(Path(path))
-    return None
-
-
-def _drawn(draw: Callable[[Path], None]) -> Image.Image:
-    """The image that a function writes to a file."""
+def report_plot(report: Report, path: Path | str | None) -> Image.Image | None:
+    """Its charts: written to ``path``, or handed back."""
+    if path is not None:
+        check_path(path)
+        check_chart("path", Path(path))
+        draw(report, Path(path))
+        return None
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder, "chart.png")
-        draw(file)
+        check_chart("plot", file)
+        draw(report, file)
         return Image.open(io.BytesIO(file.read_bytes()))
-
-
-def _image(image: Image.Image | None) -> str:
-    assert image is not None
-    return f'<img alt="chart" width="{min(960, image.width)}" src="{picture(image.convert("RGB"))}">'
-
-
-def spread_plot(spread: Spread, path: Path | str | None) -> Image.Image | None:
-    """Its histograms and causes: written to ``path``, or handed back."""
-    from sandbox.lab.spread.chart import draw
-
-    return _plotted(lambda file: draw(spread, file), path)
-
-
-def spread_page(spread: Spread, path: Path | str | None) -> str | None:
-    """Its page: written to ``path``, or its text."""
-    from sandbox.page.spread import page_of
-
-    return _paged(lambda: page_of(spread), path)
-
-
-def fit_plot(fit: Fit, path: Path | str | None) -> Image.Image | None:
-    """Its points, path and residuals: written to ``path``, or handed back."""
-    from sandbox.lab.fit.chart import draw
-
-    return _plotted(lambda file: draw(fit, file), path)
-
-
-def fit_page(fit: Fit, path: Path | str | None) -> str | None:
-    """Its page: written to ``path``, or its text."""
-    from sandbox.page.fit import page_of
-
-    return _paged(lambda: page_of(fit), path)
-
-
-def fit_html(fit: Fit) -> str:
-    """Its report as text, and its picture."""
-    from sandbox.lab.fit.report import as_text
-
-    return _reported(as_text(fit), fit.plot())
-
-
-def spread_html(spread: Spread) -> str:
-    """Its numbers as text, and its picture."""
-    from sandbox.lab.spread.report import as_text
-
-    return _reported(as_text(spread), spread.plot())

@@ -9,10 +9,10 @@ async function unpacked(text) {
   return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate")));
 }
 
-/** The page's data, once its fonts are there. */
+/** The page's data, once its fonts are there, if it has its own. */
 async function received() {
   const data = await (await unpacked($("data").textContent)).json();
-  const fonts = Object.entries(data.fonts).map(async ([weight, packed]) =>
+  const fonts = Object.entries(data.fonts ?? {}).map(async ([weight, packed]) =>
     new FontFace("Sandbox Sans", await (await unpacked(packed)).arrayBuffer(), { weight }).load());
   for (const font of await Promise.all(fonts)) document.fonts.add(font);
   return data;

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import base64
 import io
-import re
-import tempfile
 import zlib
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from functools import cache
 from html import escape
 from itertools import zip_longest
@@ -112,29 +110,3 @@ def table(cells: Iterable[Iterable[str]], caption: str, kind: str, heads: Mappin
         f'<table class="{kind}" role="table"><caption class="hidden">{html(caption)}</caption>{head}\n'
         f'<tbody role="rowgroup">\n{rows(cells, ["inherit", *list((heads or {}).values())[1:]])}\n</tbody></table>'
     )
-
-
-def captioned(caption: str, heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """A table with its heading; "" without rows, and without columns that are empty."""
-    if not rows:
-        return ""
-    used = [place for place in range(len(heads)) if any(row[place] for row in rows)]  # an empty column is left out
-    head = "".join(f'<th scope="col">{html(heads[place])}</th>' for place in used)
-    body = "\n".join(
-        "<tr>" + "".join(f"<{'td' if place else 'th'}>{html(row[place])}</{'td' if place else 'th'}>" for place in used)
-        + "</tr>"
-        for row in rows
-    )  # fmt: skip
-    heading = f"<thead><tr>{head}</tr></thead>" if any(heads) else ""
-    return f"<section><h2>{html(caption)}</h2><table>{heading}<tbody>\n{body}\n</tbody></table></section>"
-
-
-def svg(draw: Callable[[Path], None], label: str) -> str:
-    """A chart as SVG, which is sharp at any size; ``draw`` writes it to a file."""
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "chart.svg"
-        draw(path)
-        text = path.read_text("utf-8")
-    image = text[text.index("<svg") :]
-    return re.sub(r'^<svg ([^>]*?)width="[^"]*" height="[^"]*"|^<svg ([^>]*?)height="[^"]*" width="[^"]*"',
-                  rf'<svg \1\2role="img" aria-label="{html(label)}"', image, count=1)  # fmt: skip

@@ -12,12 +12,9 @@ from sandbox.page.playing import event_rows, force_data, layout_data, path_data,
 from sandbox.parameters import Group, walk
 from sandbox.picture.sheet import CARD, drawn_at
 from sandbox.picture.view import View
-from sandbox.scene import Scene
 from sandbox.scene.scene_run import SceneRun
-from sandbox.scene.setup_scene import SetupScene
-from sandbox.scene.writing import differences, source_of
+from sandbox.scene.writing import command
 from sandbox.sport.amounts import exact
-from sandbox.text import command_line
 
 #: The picture on a wide screen and on a phone: size in px, and how many times as large letters are drawn on it.
 LAYOUTS = (((1600, 900), 1.0), ((801, 1001), 1.78))
@@ -75,13 +72,6 @@ def page_of(run: SceneRun, ghosts: Mapping[str, SceneRun] | None = None, options
 def _code(text: str) -> str:
     """Text as a command, if there is one."""
     return f"<code>{html(text)}</code>" if text else ""
-
-
-def command(scene: Scene, does: str = "run", *options: str) -> str:
-    """The command line that runs a scene with these parameters, or ``does`` something else with it; "" for a setup."""
-    if isinstance(scene, SetupScene):
-        return ""
-    return command_line(source_of(scene), differences(scene), does, *options)
 
 
 def text_of(value: Any, unit: str | None) -> str:

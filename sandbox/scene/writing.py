@@ -8,6 +8,8 @@ from typing import Any
 from sandbox.parameters import walk
 from sandbox.scene.finding import as_path, is_installed, reference
 from sandbox.scene.scene import Scene, load
+from sandbox.scene.setup_scene import SetupScene
+from sandbox.text import command_line
 
 
 def source_of(scene: Scene) -> str:
@@ -22,6 +24,13 @@ def differences(scene: Scene) -> dict[str, Any]:
     usual = {parameter.key: parameter.value for parameter in walk(load(source_of(scene)).parameters)}
     values = {parameter.key: parameter.value for parameter in walk(scene.parameters)}
     return {key: value for key, value in values.items() if value is not None and usual.get(key) != value}
+
+
+def command(scene: Scene, does: str = "run", *options: str) -> str:
+    """The command line that runs a scene with these parameters, or ``does`` something else with it; "" for a setup."""
+    if isinstance(scene, SetupScene):
+        return ""
+    return command_line(source_of(scene), differences(scene), does, *options)
 
 
 def scene_text(scene: Scene, folder: Path, about: str = "", track: str = "") -> str:

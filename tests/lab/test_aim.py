@@ -17,9 +17,9 @@ from sandbox.errors import RequestError, RunError
 from sandbox.lab.aim import Target, aim, as_target, parse_target, search
 from sandbox.lab.aim.maximize import peak
 from sandbox.lab.aim.question import MAXIMIZE
-from sandbox.lab.aim.report import as_json, as_text
 from sandbox.lab.aim.root import bracketed, is_met
 from sandbox.lab.axes import Span, parse_span
+from sandbox.lab.report import as_json, as_text
 from sandbox.lab.runs import runs
 from sandbox.parameters import walk
 from sandbox.scene import load
@@ -84,7 +84,7 @@ def test_a_result_that_jumps_over_the_target_is_no_solution():
     for one, other in found.jumps:
         assert {one.found[0], other.found[0]} == {2, 3}
         assert 0 < other.values[0] - one.values[0] < 1e-10
-    told = " ".join(" ".join(as_text(found)).split())
+    told = " ".join(" ".join(as_text(found.report())).split())
     assert "no solution in this range" in told
     assert "bounces jumps from 3 to 2, over the target" in told
 
@@ -208,8 +208,10 @@ def test_no_gap_of_the_stated_width_is_missed(tmp_path):
     seen = sorted((solution.interval.low, solution.interval.high) for solution in found.solutions)
     assert seen == [pytest.approx(band, abs=1e-6) for band in bands]
     assert found.resolution == {"launch.height": pytest.approx(1.28 / 2048)}
-    assert "gaps and intervals narrower than 0.0007 m may be missed" in " ".join(" ".join(as_text(found)).split())
-    assert json.loads(as_json(found))["resolution"] == found.resolution
+    assert "gaps and intervals narrower than 0.0007 m may be missed" in " ".join(
+        " ".join(as_text(found.report())).split()
+    )
+    assert json.loads(as_json(found.report()))["resolution"] == found.resolution
 
 
 def test_an_interval_of_baskets_holds_no_shot_that_misses():
@@ -269,7 +271,7 @@ def test_what_holds_by_two_parameters_has_regions():
     assert (room["launch.height"] / wide, room["gravity"] / tall) == pytest.approx((radius, radius), abs=spacing)
     assert solution.region.share == pytest.approx(at_bottom + 0.5 * lean, abs=2.0 * spacing)
     everywhere = replace(solution, region=replace(solution.region, share=1.0))
-    assert " 100 %" in "\n".join(as_text(replace(found, solutions=[everywhere])))
+    assert " 100 %" in "\n".join(as_text(replace(found, solutions=[everywhere]).report()))
     assert aim(DROP, {"launch.height": (9.0, 10.0), "gravity": (5.0, 6.0)}, {"bounced": True}).solutions == []
 
 
@@ -350,7 +352,7 @@ def test_a_range_in_which_nothing_runs_is_an_error():
 def test_the_command(vacuum, tmp_path, capsys):
     fixed = ["--set", "air.density=0", "--set", f"launch.speed={SPEED}", "--set", "pin.distance=1000"]
     command = ["aim", "golf", *fixed, "--vary", "launch.angle=5:85", "--target", "carry=120 m"]
-    assert main([*command, "--json", "--show", str(tmp_path / "tries.png")]) == 0
+    assert main([*command, "--json", "--plot", str(tmp_path / "tries.png")]) == 0
     out, err = capsys.readouterr()
     assert err == ""
     told = json.loads(out)
@@ -379,7 +381,7 @@ def test_the_command(vacuum, tmp_path, capsys):
 
 def test_intervals_and_pairs_are_told_and_drawn(tmp_path, capsys):
     made = ["aim", str(DROP), "--vary", "launch.height=0.1:20", "--target", "bounced=true"]
-    assert main([*made, "--show", str(tmp_path / "a.png")]) == 0
+    assert main([*made, "--plot", str(tmp_path / "a.png")]) == 0
     out = capsys.readouterr().out
     assert (
         "most forgiving within this range: launch.height = 2.5275 m, with a margin of ±2.4 m; it continues "
@@ -396,7 +398,7 @@ def test_intervals_and_pairs_are_told_and_drawn(tmp_path, capsys):
         "--target",
         "apex=25",
     ]
-    assert main(["aim", "golf", "--set", "air.density=0", *pair, "--show", str(tmp_path / "b.png")]) == 0
+    assert main(["aim", "golf", "--set", "air.density=0", *pair, "--plot", str(tmp_path / "b.png")]) == 0
     assert "39.80557" in capsys.readouterr().out  # atan(4 25 / 120)
     assert {path.name for path in tmp_path.iterdir()} == {"a.png", "b.png"}
 

@@ -8,7 +8,8 @@ import pytest
 
 import sandbox
 from sandbox.cli.program import call
-from sandbox.lab.coefficients import as_text, coefficients
+from sandbox.lab.coefficients import coefficients, report_of
+from sandbox.lab.report import as_text
 from sandbox.physics.coefficients import asai_lift, goff_carre_drag
 
 
@@ -25,7 +26,7 @@ def test_they_are_those_of_the_models():
 def test_a_constant_is_shown_if_the_scene_has_it():
     drag, lift = coefficients(sandbox.load("basketball"))
     assert drag.models == {"constant": [0.5] * 5}
-    assert "the scene's" in as_text([drag])[2]
+    assert "the scene's" in "".join(as_text(report_of(sandbox.load("basketball"))))
     assert (lift.chosen, [*lift.models]) == ("none", ["spin-ratio"])
 
 

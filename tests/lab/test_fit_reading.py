@@ -16,8 +16,8 @@ from sandbox.lab.fit.data import Reading, data_of, read_data, table_of
 from sandbox.lab.fit.launches import Launches
 from sandbox.lab.fit.outline import distances
 from sandbox.lab.fit.reading import Film, measurements, parse_scale
-from sandbox.lab.fit.report import as_text
 from sandbox.lab.formats import forms, parse_entry, recognized
+from sandbox.lab.report import as_text
 from sandbox.lab.selection import LeftOut
 from sandbox.lab.table_file import read_table
 
@@ -311,7 +311,7 @@ def test_results_that_a_run_meets_exactly_are_no_error():
     columns = {"launch.speed": "launch.speed m/s", "apex": "apex m"}
     found = sandbox.fit("throws", {**speeds, "apex": apexes}, {"gravity": (8, 12)}, columns=columns)
     assert found.values["gravity"].value == pytest.approx(9.81, abs=1e-9)
-    assert as_text(found)
+    assert as_text(found.report())
 
 
 def test_known_columns_are_listed_without_a_scene():

@@ -14,9 +14,9 @@ from sandbox.lab.fit.descent import descend
 from sandbox.lab.fit.intervals import errors_of
 from sandbox.lab.fit.loss import SQUARES, TUKEYS, Loss
 from sandbox.lab.fit.problem import Problem
-from sandbox.lab.fit.report import as_json, as_text
 from sandbox.lab.fit.rivals import Weighted, rivals
 from sandbox.lab.fit.squares import solve
+from sandbox.lab.report import as_json, as_text
 
 FIRST, SECOND = 10.0, 13.0  # m/s
 
@@ -83,9 +83,9 @@ def test_values_that_explain_the_data_as_well_are_said():
     found = solve(scene, TwoRoots(0.01), [Span("launch.speed", 0.0, 30.0)])
     (other,) = found.others
     assert {round(found.values["launch.speed"].value), round(other.values["launch.speed"])} == {10, 13}
-    said = " ".join(line.strip() for line in as_text(found))
+    said = " ".join(line.strip() for line in as_text(found.report()))
     assert f"other values explain these points as well: launch.speed = {other.values['launch.speed']:.2f}" in said
-    assert json.loads(as_json(found))["others"][0]["chi2_more"] == pytest.approx(other.more)
+    assert json.loads(as_json(found.report()))["others"][0]["chi2_more"] == pytest.approx(other.more)
 
 
 def test_the_better_of_two_minima_is_the_fit():

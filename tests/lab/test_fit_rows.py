@@ -16,9 +16,9 @@ from sandbox.errors import RequestError
 from sandbox.lab.axes import Span
 from sandbox.lab.fit.data import Reading, read_data
 from sandbox.lab.fit.problem import Problem
-from sandbox.lab.fit.report import as_text
 from sandbox.lab.formats import parse_entry
 from sandbox.lab.mapped import TILTED
+from sandbox.lab.report import as_text
 from sandbox.lab.selection import LeftOut
 from sandbox.lab.table_file import read_table
 from sandbox.parameters import value_at, walk
@@ -123,7 +123,7 @@ def test_ground_balls_are_left_out_by_rule(tmp_path: Path):
     assert [each.row for each in found.measured.left_out] == [5, 6, 7]
     assert (
         "used 4 of 7 shots: rows 5 and 7, is a ground ball: its distance is where it was fielded; row 6, "
-        in text_of(as_text(found))
+        in text_of(as_text(found.report()))
     )
 
 
@@ -254,7 +254,7 @@ def test_side_columns_are_listed_with_what_they_cost(tmp_path: Path, carries: li
         line.replace(",3\n", f",{tilt},2\n") for line, tilt in zip(shots(carries), (0, 5, 9, 20, 34), strict=True)
     )
     found = sandbox.fit("golf", written(tmp_path, head + rows), {"air.density": (1.0, 1.3)})
-    said = text_of(as_text(found))
+    said = text_of(as_text(found.report()))
     assert "Spin Axis: only its cosine counts" in said
     assert (
         "too long by 0.5 % at 10 deg, 2.1 % at 20 deg, 4.7 % at 30 deg. Here it is 9 deg at the median, 34 at most"

@@ -11,9 +11,10 @@ from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
 from PIL import Image
 
-from sandbox.lab import maps, row_file
+from sandbox.lab import chart, maps, row_file
 from sandbox.lab.axes import parse_axis
 from sandbox.lab.plan import Plan
+from sandbox.lab.report import Report
 from sandbox.lab.sweep import sweep_to_file, workers
 from sandbox.scene import load
 from tests.own_scene import DROP
@@ -22,6 +23,11 @@ from tests.own_scene import DROP
 def plan_of(source: str, *over: str) -> Plan:
     scene = load(source)
     return Plan(scene, tuple(parse_axis(scene, "--over", text) for text in over))
+
+
+def report_of(plan: Plan, rows: Path, of: str) -> Report:
+    """The chart of the rows of a sweep."""
+    return Report(dict, "", [maps.chart_of(plan, maps.read(plan, row_file.rows(rows), of))])
 
 
 @pytest.mark.parametrize(
@@ -41,7 +47,7 @@ def test_a_picture_of_one_word_keeps_clear_of_the_edges(tmp_path: Path):
     plan, rows, plot = plan_of("basketball", "launch.angle=50:55:5"), tmp_path / "x.csv", tmp_path / "x.png"
     with workers(1) as pool:
         sweep_to_file(plan, rows, pool)
-    maps.draw_sweep(plan, row_file.rows(rows), plot, "ended")
+    chart.draw(report_of(plan, rows, "ended"), plot)
     with Image.open(plot) as picture:
         inked = np.asarray(picture.convert("RGB")).min(axis=2) < 250
     across, down = (np.flatnonzero(inked.any(axis=axis)) for axis in (0, 1))
@@ -56,7 +62,7 @@ def axes_of(tmp_path: Path, of: str, *over: str) -> Axes:
         sweep_to_file(plan, rows, pool)
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr(Figure, "savefig", lambda figure, *args, **kwargs: shown.append(figure.axes[0]))
-        maps.draw_sweep(plan, row_file.rows(rows), tmp_path / "x.png", of)
+        chart.draw(report_of(plan, rows, of), tmp_path / "x.png")
     (axes,) = shown
     return axes
 

@@ -14,9 +14,11 @@ from sandbox import RequestError
 from sandbox.cli.program import call
 from sandbox.lab.axes import Span
 from sandbox.lab.many import Runs
-from sandbox.lab.spread import Spread, report
+from sandbox.lab.report import as_json, as_text
+from sandbox.lab.spread import Spread
 from sandbox.lab.spread.causes import Cause, points_of, shares_of
-from sandbox.lab.statistics import Ellipse, Share, shots_for_mean, shots_for_share, wilson
+from sandbox.lab.spread.texts import mean_and_deviation
+from sandbox.lab.statistics import Ellipse, Numbers, Share, shots_for_mean, shots_for_share, wilson
 from sandbox.sport.amounts import shown_in
 
 GOLF = {"launch.speed": "1%", "launch.angle": "1deg"}
@@ -99,7 +101,7 @@ def test_the_same_seed_gives_the_same_evenly_spread_shots(throws: Spread):
 
 
 def test_json_has_all_that_the_text_has(throws: Spread):
-    told = json.loads(report.as_json(throws))
+    told = json.loads(as_json(throws.report()))
     assert told["samples"] == 256
     made, verdicts = told["share"]["made"], told["words"]["verdict"]
     assert made["low"] < made["value"] < made["high"]
@@ -109,9 +111,14 @@ def test_json_has_all_that_the_text_has(throws: Spread):
     assert sum(angle["histogram"]["counts"]) == angle["shots"] == 256
     assert set(told["causes"]["made"]) == set(told["by"])
     assert told["causes"]["apex"]["launch.angle"]["total"] > 0.4
-    text = "\n".join(report.as_text(throws))
+    text = "\n".join(as_text(throws.report()))
     assert f"{100 * made['value']:.1f} %" in text
     assert [need["shots"] for need in told["needed"]][:2] == sorted(need["shots"] for need in told["needed"][:2])
+
+
+def test_a_histogram_of_what_differs_by_rounding_has_one_bar():
+    counts, edges = Numbers(np.nextafter(20.0, [19.0, 21.0])).histogram()
+    assert (counts.tolist(), len(edges)) == ([2], 2)
 
 
 def test_picture_and_page_are_written(throws: Spread, tmp_path: Path):
@@ -121,7 +128,7 @@ def test_picture_and_page_are_written(throws: Spread, tmp_path: Path):
     assert "<svg" in page
     assert "launch.angle" in page
     assert "sandbox spread basketball --by launch.speed=" in page
-    assert page.count("<section>") == 4
+    assert page.count("<section>") == 5
     assert throws.page() == page  # without a date, and with names that are the same each time
 
 
@@ -137,7 +144,7 @@ def test_picture_and_page_are_written(throws: Spread, tmp_path: Path):
 def test_mean_and_deviation_are_in_one_unit(throws, units, mean, sd, expected):
     fact = next(key for key, fact in throws.scene.facts.items() if fact.unit == "m" and fact.digits is None)
     with shown_in(units):
-        assert report.mean_and_deviation(throws, fact, mean, sd) == expected
+        assert mean_and_deviation(throws, fact, mean, sd) == expected
 
 
 def test_every_column_is_in_the_chosen_units(capsys):
@@ -166,7 +173,7 @@ def test_every_column_is_in_the_chosen_units(capsys):
         (["--within", "carry=-1"], "--within carry=-1: must be more than 0"),
         (["--samples", "3"], "16<=x<=1000000"),
         (["--plot", "x.pdf"], "--plot x.pdf"),
-        (["--page", "x.png"], "--page x.png"),
+        (["--html", "x.png"], "--html x.png"),
     ],
 )
 def test_a_wrong_request_is_one_line_and_writes_nothing(

@@ -13,6 +13,7 @@ from sandbox.engine.paths.run import Run
 from sandbox.errors import RequestError
 from sandbox.lab import provenance as provenances
 from sandbox.lab.plan import CHANGED, Plan, records
+from sandbox.lab.report import as_text
 from sandbox.lab.row_file import RowFile
 from sandbox.lab.sweep import SweepSummary, sweep_to_file, workers
 from sandbox.scene import load
@@ -27,6 +28,10 @@ def test_two_processes_write_the_same_file_as_one(falling, tmp_path):
         done = sweep_to_file(plan, tmp_path / "two.csv", pool)
     assert (tmp_path / "two.csv").read_bytes() == expected
     assert len(table(tmp_path / "two.csv")) == done.points == plan.size
+
+
+def text_of(done: SweepSummary) -> str:
+    return "\n".join(as_text(done.report()))
 
 
 def resumed(plan: Plan, path: Path, left: bytes) -> SweepSummary:
@@ -68,7 +73,7 @@ def test_damaged_rows_are_computed_again(falling, tmp_path, kind):
     assert path.read_bytes() == expected
     assert (tmp_path / "rows.csv~").read_bytes() == b"".join(lines)
     assert done.damaged == done.resumed + 1
-    assert f"row {done.damaged} was damaged: computed again" in done.as_text()
+    assert f"row {done.damaged} was damaged: computed again" in text_of(done)
 
 
 def test_what_is_before_or_after_the_rows_is_mended(falling, tmp_path):
@@ -135,7 +140,7 @@ def test_rows_of_another_sweep_are_kept_as_a_backup(falling, tmp_path):
     first, other = grid(falling, "launch.height=0.5:2:3"), grid(falling, "launch.height=0.5:2:4")
     found = whole(first, path)
     again = swept(first, path)
-    assert (again.resumed, again.as_text()) == (3, "3 points, all already in the file: the sweep is complete")
+    assert (again.resumed, text_of(again)) == (3, "3 points, all already in the file: the sweep is complete")
     path.with_name(".rows.csv.complete").unlink()
     assert (swept(first, path).resumed, before.exists()) == (0, False)  # the same rows are not kept twice
     path.write_bytes(found.replace(b"1.25", b"1.35"))  # no longer what the sweep wrote
@@ -144,7 +149,7 @@ def test_rows_of_another_sweep_are_kept_as_a_backup(falling, tmp_path):
     before.unlink()
     done = swept(other, path)
     assert (before.read_bytes(), done.before) == (found, before)
-    assert f"the previous rows are in {before}" in done.as_text()
+    assert f"the previous rows are in {before}" in text_of(done)
     assert path.read_bytes() == whole(other, tmp_path / "fresh.csv") != found
 
 

@@ -4,7 +4,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sandbox.lab.stress import FAILED, HELD, Outcome, as_text
+from sandbox.lab.report import as_text
+from sandbox.lab.stress import FAILED, HELD, Outcome, report_of
 from sandbox.lab.tables import length, paragraph, table, unit_of_length
 
 WORD = st.text("abcdefg-.", min_size=1, max_size=30)
@@ -94,7 +95,7 @@ def test_outcomes_of_stress_fit_80_columns():
         for method in ("semi-implicit-euler", "plain")
         for word in (HELD, FAILED)
     ]
-    assert max(map(len, as_text(outcomes))) <= 80
+    assert max(map(len, as_text(report_of(outcomes)))) <= 80
 
 
 def test_a_column_without_text_takes_no_room():

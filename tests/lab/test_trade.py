@@ -25,8 +25,9 @@ from sandbox.lab import reference as references
 from sandbox.lab import timing, verdicts
 from sandbox.lab import trade as lab
 from sandbox.lab.ablation import Ablated, ablation, variants
-from sandbox.lab.chart import draw_trade
+from sandbox.lab.chart import draw
 from sandbox.lab.reference import DIVERGED, REFERENCE, Reference, converge
+from sandbox.lab.report import as_text
 from sandbox.lab.tables import length_or_below
 from sandbox.lab.verdicts import VerdictChanges, Verdicts, shot_map, verdict
 from sandbox.physics.coefficients import Constant
@@ -152,7 +153,7 @@ def test_every_method_has_its_points_and_finer_ones_are_better(basketball: lab.T
     fast, balanced, precise = (basketball.levels[name].error_m for name in ("fast", "balanced", "precise"))
     assert fast > balanced > precise
     assert set(basketball.levels) == set(LEVELS)
-    assert max(map(len, lab.as_text(basketball))) <= 80
+    assert max(map(len, as_text(lab.report_of(basketball)))) <= 80
 
 
 def test_a_slow_machine_measures_all_levels_and_coarse_methods(monkeypatch: pytest.MonkeyPatch):
@@ -178,15 +179,16 @@ def test_a_failed_run_has_a_word_in_the_table(basketball: lab.Trade):
         replace(basketball.points[0], error_m=None, problem=said)
         for said in ("tunnelled: t = 1 s, ball 'ball': went through 'floor'", "t = 1 s, ball 'ball': diverged")
     )
-    assert (tunnelled.error, diverged.error) == ("tunnelled", "failed")
-    text = "\n".join(lab.as_text(replace(basketball, points=[tunnelled, *basketball.points[1:]]), everything=True))
+    assert (tunnelled.failure, diverged.failure) == ("tunnelled", "failed")
+    found = replace(basketball, points=[tunnelled, *basketball.points[1:]])
+    text = "\n".join(as_text(lab.report_of(found), everything=True))
     assert re.search(r"plain +1/2 s +tunnelled", text)
 
 
 def test_the_answer_is_ten_lines(basketball: lab.Trade):
     """The cheapest setting for each error, that of pymunk alone, and the ratio of their times."""
-    brief = lab.as_text(basketball)
-    assert len(brief) <= 12
+    brief = as_text(lab.report_of(basketball))
+    assert len([line for line in brief if line]) <= 12
     assert max(map(len, brief)) <= 80
     best, plain = basketball.best(0.01), basketball.best(0.01, "plain")
     row = next(line for line in brief if line.startswith("  1 cm"))
@@ -387,7 +389,7 @@ def test_same_other_and_failed_verdicts_are_counted_apart(monkeypatch: pytest.Mo
     assert verdicts.compared(truth, found) == Verdicts(same=2, other=1, failed=2)
     assert [verdicts.failure(each) for each in (fell, lost)] == ["tunnelled", "RunError"]
     table = VerdictChanges(("a", "b"), 5, {"plain": Verdicts(2, 1, 2)}, {"plain": {"tunnelled": 1, "RunError": 1}})
-    assert re.search(r"plain +2 +1 +2 +tunnelled 1, RunError 1", "\n".join(table.as_text()))
+    assert table.table().cells == [["plain", "2", "1", "2", "tunnelled 1, RunError 1"]]
 
 
 @pytest.mark.parametrize(
@@ -432,7 +434,7 @@ def test_names_of_levels_hide_no_point(basketball: lab.Trade, monkeypatch: pytes
     monkeypatch.setattr(Figure, "savefig", lambda figure, *_, **__: drawn.append(figure))
     points = [replace(basketball.points[-1], times_real_time=float(speed), error_m=0.0) for speed in range(1, 9)]
     levels = {name: replace(points[place], method="level") for place, name in ((1, "precise"), (4, "balanced"))}
-    draw_trade(replace(basketball, points=points, levels=levels), tmp_path / "trade.png")
+    draw(lab.report_of(replace(basketball, points=points, levels=levels)), tmp_path / "trade.png")
     (axes,) = drawn[0].axes
     drawn[0].draw_without_rendering()
     names = [text for text in axes.texts if isinstance(text, Annotation) and text.get_text() in levels]
@@ -457,7 +459,8 @@ def test_the_command_prints_tables(
         "verdicts, compared",
     ):
         assert heading in out
-    assert "verdicts" not in "".join(lab.as_text(replace(basketball, verdicts=None))).replace("the verdicts", "")
+    without = as_text(lab.report_of(replace(basketball, verdicts=None)))
+    assert "verdicts" not in "".join(without).replace("the verdicts", "")
 
 
 def test_a_picture_of_another_kind_is_refused_before_any_work(capsys: pytest.CaptureFixture[str]):

@@ -78,9 +78,10 @@ def test_pictures_of_a_run(tmp_path: Path):
     assert (state.x, state.vy) == (state[0], state[3])
 
 
-def test_a_table_as_text_is_in_letters_of_one_width():
+def test_a_search_is_shown_as_a_table_and_a_chart():
     found = sandbox.aim("throws", {"launch.angle": (20.0, 30.0)}, {"distance": 19.0})._repr_html_()
-    assert '<pre style="font-family: monospace; white-space: pre">' in found
+    assert "<th>launch.angle (deg)</th>" in found
+    assert '<img alt="throws: distance = 19 m"' in found
 
 
 def test_html_of_scene_sweep_and_aim(tmp_path: Path):

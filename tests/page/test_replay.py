@@ -18,8 +18,9 @@ import sandbox
 from sandbox.cli import main
 from sandbox.page.parts import save
 from sandbox.page.playing import stage_data
-from sandbox.page.replay import LAYOUTS, command, page_of
+from sandbox.page.replay import LAYOUTS, page_of
 from sandbox.parameters import parse_assignment
+from sandbox.scene.writing import command
 from sandbox.sport.amounts import amount, shown_in
 from tests.own_scene import HANG
 from tests.scenes.play import run_of

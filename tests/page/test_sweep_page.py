@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import base64
+import json
+import re
 import shlex
+import zlib
 from html import unescape
 from pathlib import Path
 
@@ -26,10 +30,10 @@ def test_the_point_under_the_cursor(browser, tmp_path: Path, capsys):
     sweep = sandbox.sweep("basketball", OVER)
     i = 4 * 7 + 2
     x, y = browser.run(f"explorer.at({i})")
-    canvas = browser.driver.find_element(By.ID, "map")
-    box = canvas.rect
+    chart = browser.driver.find_element(By.ID, "map")
+    box = chart.rect
     ActionChains(browser.driver).move_to_element_with_offset(
-        canvas, round(x - box["width"] / 2), round(y - box["height"] / 2)
+        chart, round(x - box["width"] / 2), round(y - box["height"] / 2)
     ).perform()
     said = dict(zip(browser.text("#here dt"), browser.text("#here dd"), strict=True))
     row = sweep.records[i]
@@ -40,9 +44,9 @@ def test_the_point_under_the_cursor(browser, tmp_path: Path, capsys):
     width = np.ptp(run.trajectory("ball")[:, 1])
     for near in path[[0, len(path) // 2]]:  # the page draws to a px
         assert np.hypot(*(run.trajectory("ball", 1e-3)[:, 1:3] - near).T).min() < 0.01 * width
-    ActionChains(browser.driver).click(canvas).send_keys_to_element(canvas, "").perform()
+    ActionChains(browser.driver).click(chart).send_keys_to_element(chart, "").perform()
     before = browser.run("explorer.chosen")
-    canvas.send_keys("\ue014")  # the right arrow
+    chart.send_keys("\ue014")  # the right arrow
     assert browser.run("explorer.chosen") == before + 7
     browser.resize(390, 844, dark=True)
     assert browser.run("document.documentElement.scrollWidth") <= 390
@@ -69,31 +73,20 @@ def test_the_command_on_a_page_makes_that_page(asked: list[str], tmp_path: Path,
     assert Path("sweep.csv").read_text("utf-8") == Path("first.csv").read_text("utf-8")
 
 
-def test_the_ring_is_at_the_shot_of_the_scene_file(browser, tmp_path: Path):
-    """Not at the nearest point of the grid; on a curve, on the curve."""
-    page, out = tmp_path / "map.html", tmp_path / "map.csv"
-    own = sandbox.load("throws").parameters
-    over = {"launch.angle": (20.0, 60.0, 3), "launch.speed": (10.0, 16.0, 2)}
-    for keys in (list(over), list(over)[:1]):
-        asked = [f"--over={key}={low}:{high}:{count}" for key, (low, high, count) in over.items() if key in keys]
-        assert main(["sweep", "throws", *asked, f"--out={out}", f"--html={page}", "--of=distance"]) == 0
-        browser.open(page)
-        rings = browser.run("""(() => {
-          const arcs = [];
-          explorer.ring = (context, place) => arcs.push(place);
-          explorer.map();
-          delete explorer.ring;
-          return arcs.map(([x, y]) => [x, y]);
-        })()""")
-        axes, places = browser.run("[0, 1].map((axis) => [-1, 1].map((value) => explorer.place(axis, value)))"), []
-        for (zero, one), pixel in zip(axes, rings[0], strict=True):
-            places.append(2.0 * (pixel - zero) / (one - zero) - 1.0)
-        assert places[0] == pytest.approx(own.launch.angle)
-        if len(keys) == 2:
-            assert places[1] == pytest.approx(own.launch.speed)
-        else:  # between the points at 20 and 40 or at 40 and 60 deg
-            curve = sandbox.sweep("throws", {"launch.angle": [20.0, 40.0, 60.0]})["distance"]
-            assert places[1] == pytest.approx(np.interp(own.launch.angle, [20.0, 40.0, 60.0], curve))
+def test_each_point_is_where_the_chart_has_its_mark(tmp_path: Path):
+    """At first the one nearest to the scene file's own shot, of 35.7 deg, is chosen."""
+    page = tmp_path / "curve.html"
+    asked = ["--over=launch.angle=20:60:9", f"--out={tmp_path / 'curve.csv'}", f"--html={page}", "--of=distance"]
+    assert main(["sweep", "throws", *asked]) == 0
+    text = page.read_text("utf-8")
+    data = json.loads(zlib.decompress(base64.b64decode(re.search('id="data">([^<]*)', text)[1])))
+    wide, tall = map(float, re.search('viewBox="0 0 ([0-9. ]+)"', text)[1].split())
+    marks = re.findall('(?i)<use [^>]*x="([0-9.]+)" y="([0-9.]+)" style="fill: #d55e00', text)
+    places = [(x * wide, y * tall) for x, y in zip(data["x"], data["y"], strict=True)]
+    assert np.allclose(np.array(marks, float), places, atol=0.02)
+    angles = np.linspace(20.0, 60.0, 9)
+    own = sandbox.load("throws").parameters.launch.angle
+    assert data["chosen"] == np.argmin(abs(angles - own))
 
 
 def test_a_curve_and_what_is_too_much(browser, tmp_path: Path, capsys):
@@ -103,7 +96,7 @@ def test_a_curve_and_what_is_too_much(browser, tmp_path: Path, capsys):
     said = "sandbox sweep throws --set launch.speed=13 --over launch.angle=20:60:9 --out sweep.csv"
     assert said in page.read_text()
     browser.open(page)
-    assert browser.run("explorer.data.curves[0].points.length") == 9
+    assert browser.run("explorer.data.x.length") == 9
     assert browser.complaints() == []
     large = ["--over=launch.angle=20:60:100", "--over=launch.speed=10:15:100"]
     assert main(["sweep", "throws", *large, f"--out={out}", f"--html={page}"]) == 2

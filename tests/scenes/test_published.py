@@ -9,9 +9,10 @@ from pathlib import Path
 import pytest
 
 from sandbox.lab.published import KINDS, cases
-from sandbox.lab.teeth import as_json, teeth
-from sandbox.lab.teeth import as_text as as_text_of_teeth
-from sandbox.lab.validate import Compared, as_text, share_that_holds, validate
+from sandbox.lab.report import as_text
+from sandbox.lab.teeth import report_of as report_of_teeth
+from sandbox.lab.teeth import teeth
+from sandbox.lab.validate import Compared, report_of, share_that_holds, validate
 from sandbox.scene import listings
 from tests.own_scene import DROP, assert_refused, copy_of
 
@@ -31,7 +32,7 @@ def test_every_case_holds_or_says_why_not_and_most_hold(rows):
     exact = [row for row in rows if row.kind == "exact"]
     assert len(exact) >= 20
     assert all(row.holds for row in exact)
-    assert max(map(len, as_text(rows))) <= 80
+    assert max(map(len, as_text(report_of(rows)))) <= 80
 
 
 def test_every_case_has_a_source_a_kind_and_a_reasoned_tolerance(rows):
@@ -52,9 +53,10 @@ def test_a_row_without_teeth_is_listed():
     carry = [row for row in validate("golf") if (row.name, row.result) == ("PGA 7i", "carry")]
     blunt = [replace(row, tolerance=100.0) for row in carry]
     (one,) = tried = teeth(blunt)
-    assert (one.has_teeth, one.not_shown()) == (False, ["lift"])
-    assert "PGA 7i" in as_text_of_teeth(tried)[2]
-    assert as_json(blunt, tried)[0]["has_teeth"] is False
+    assert (one.has_teeth, one.unnoticed()) == (False, ["lift"])
+    report = report_of_teeth(blunt, tried)
+    assert "PGA 7i" in "".join(as_text(report))
+    assert report.document()[0]["has_teeth"] is False
 
 
 def test_the_readme_counts_measured_rows_as_validate_does(rows):
@@ -78,7 +80,7 @@ def test_a_result_that_a_changed_scene_lacks_does_not_hold():
     lacking = [row for row in rows if row.computed is None]
     assert [row.result for row in lacking] == ["met.3"]
     assert not lacking[0].holds
-    assert "none" in "\n".join(as_text(lacking))
+    assert "none" in "\n".join(as_text(report_of(lacking)))
 
 
 def test_another_model_takes_the_place_of_the_one_in_a_case():

@@ -76,7 +76,7 @@ def search(scene: Scene, spans: Sequence[Span], targets: Sequence[Target], progr
     for option, names in (("--vary", [span.key for span in spans]), ("--target", [each.name for each in targets])):
         twice = next((name for name in names if names.count(name) > 1), None)
         if twice is not None:
-            both = any(each.name == twice and each.value is MAXIMIZE for each in targets)
+            both = any(each.name == twice and each.is_maximum for each in targets)
             why = "--maximize names the same number; give one of the two" if both else "given twice"
             raise RequestError(f"{option} {twice}: {why}")
     if len(targets) == 1:
@@ -90,7 +90,7 @@ def search(scene: Scene, spans: Sequence[Span], targets: Sequence[Target], progr
         )
     shots = Shots(scene, spans, targets, progress)
     jumps: list[tuple[Trial, Trial]] = []
-    if targets[0].value is MAXIMIZE:
+    if targets[0].is_maximum:
         solutions = maximize(shots)
     elif len(targets) == 2:
         solutions = pairs(shots)

@@ -10,7 +10,9 @@ import numpy as np
 
 from sandbox import display, units
 from sandbox.errors import RequestError
+from sandbox.lab.aim.report import report_of
 from sandbox.lab.axes import Span
+from sandbox.lab.report import Report
 from sandbox.scene import Scene
 
 #: The wanted value of a number that is to be maximized.
@@ -35,8 +37,13 @@ class Target:
         """True for any number, which results can be near to."""
         return isinstance(self.value, int | float) and not isinstance(self.value, bool)
 
+    @property
+    def is_maximum(self) -> bool:
+        """True if the result is to be maximized."""
+        return self.value is MAXIMIZE
+
     def __str__(self) -> str:
-        return f"maximum {self.name}" if self.value is MAXIMIZE else f"{self.name} = {self.value}"
+        return f"maximum {self.name}" if self.is_maximum else f"{self.name} = {self.value}"
 
     def met(self, value: Any) -> bool:
         """True if a run's value is the wanted one, or holds it; for targets that are not numbers."""
@@ -91,7 +98,7 @@ class Solution:
 
 
 @dataclass(frozen=True)
-class Aim:
+class Aim(display.Reported):
     """The result of a search. ``solutions`` are in order of the value, or the widest interval first.
 
     >>> import sandbox
@@ -116,8 +123,8 @@ class Aim:
         found = "; ".join(", ".join(f"{k} = {v:.6g}" for k, v in one.values.items()) for one in self.solutions)
         return f"<Aim of {self.scene.title} at {wanted}: {found or 'no solution'}>"
 
-    def _repr_html_(self) -> str:
-        return display.notebook().aim_html(self)
+    def report(self) -> Report:
+        return report_of(self)
 
     @property
     def misses(self) -> dict[str, float]:

@@ -1,39 +1,69 @@
-"""Reports of a search: text for the terminal, JSON, and a chart of its tries."""
+"""The report of a search: its solutions, and a chart of its tries."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict
+from functools import partial
 from math import ceil, floor, log10
-from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from sandbox.files import json_text
-from sandbox.lab.aim.question import MAXIMIZE, Aim, Interval, Solution, Target, Trial
 from sandbox.lab.axes import label, result_label, unit_of
-from sandbox.lab.chart import chart, legend, mark
-from sandbox.lab.tables import paragraph, table
+from sandbox.lab.chart import mark
+from sandbox.lab.report import Chart, Column, Notes, Panel, Report, Section, Table, words
+from sandbox.scene.writing import command
 from sandbox.sport.amounts import significant
+from sandbox.text import argument, with_noun
+
+if TYPE_CHECKING:
+    from sandbox.lab.aim.question import Aim, Interval, Solution, Target, Trial
 
 #: Most solutions, and most jumps, in the text; a target met in narrow bands can have dozens.
 _SHOWN = 12
 
 
-# ---------------------------------------------------------------------------------------------------------------------
-# JSON
-# ---------------------------------------------------------------------------------------------------------------------
+def report_of(aim: Aim) -> Report:
+    """The question, and every solution with its numerical error, or the nearest miss; all tries as a chart."""
+    solutions = _solutions(aim)
+    closing: list[str] = []
+    for one, other in aim.jumps[:_SHOWN]:
+        places = " and ".join(f"{side.values[0]:.10g}" for side in (one, other))
+        closing.append(
+            f"between {aim.spans[0].key} = {places} {aim.targets[0].name} jumps from {one.found[0]:.6g} to "
+            f"{other.found[0]:.6g}, over the target"
+        )
+    if len(aim.jumps) > _SHOWN:
+        closing.append(f"... {len(aim.jumps) - _SHOWN} more jumps; --json has them all")
+    failures = f", {aim.failures} of which failed" if aim.failures else ""
+    runs = f"{with_noun(len(aim.tries), 'run')}{failures}{_resolution(aim)}"
+    return Report(partial(document, aim), _question(aim), [*solutions, _chart(aim), Notes(closing), Notes([runs])],
+                  command=_command(aim))  # fmt: skip
 
 
-def as_json(aim: Aim) -> str:
-    """One JSON object; an unknown numerical error is null."""
-    told: dict[str, Any] = {
+def _command(aim: Aim) -> str:
+    """The command that makes the page of a search."""
+    options = [
+        word for span in aim.spans for word in ("--vary", f"{span.key}={argument(span.low)}:{argument(span.high)}")
+    ]
+    for target in aim.targets:
+        options += (
+            ["--maximize", target.name]
+            if target.is_maximum
+            else ["--target", f"{target.name}={argument(target.value)}"]
+        )
+    return command(aim.scene, "aim", *options, "--html", "aim.html")
+
+
+def document(aim: Aim) -> dict[str, Any]:
+    """For JSON; an unknown numerical error is null."""
+    return {
         "scene": aim.scene.name,
         "preset": aim.scene.preset,
         "vary": {span.key: [span.low, span.high] for span in aim.spans},
-        "target": {target.name: target.value for target in aim.targets if target.value is not MAXIMIZE},
-        "maximize": next((target.name for target in aim.targets if target.value is MAXIMIZE), None),
+        "target": {target.name: target.value for target in aim.targets if not target.is_maximum},
+        "maximize": next((target.name for target in aim.targets if target.is_maximum), None),
         "solutions": [_solution(solution) for solution in aim.solutions],
         "nearest": None if aim.nearest is None else _try(aim, aim.nearest) | {"misses": aim.misses},
         "jumps": [[_try(aim, side) for side in jump] for jump in aim.jumps],
@@ -41,14 +71,13 @@ def as_json(aim: Aim) -> str:
         "failures": aim.failures,
         "resolution": aim.resolution,
     }
-    return json_text(told)
 
 
 def _solution(solution: Solution) -> dict[str, Any]:
-    told = {key: value for key, value in asdict(solution).items() if value is not None}
+    found = {key: value for key, value in asdict(solution).items() if value is not None}
     if solution.interval is not None:
-        told["interval"]["width"] = solution.interval.width
-    return {"parameters": told.pop("values"), **told}
+        found["interval"]["width"] = solution.interval.width
+    return {"parameters": found.pop("values"), **found}
 
 
 def _try(aim: Aim, one: Trial) -> dict[str, Any]:
@@ -61,30 +90,17 @@ def _named(aim: Aim, values: tuple[float, ...]) -> dict[str, float]:
 
 
 # ---------------------------------------------------------------------------------------------------------------------
-# Text
+# Tables
 # ---------------------------------------------------------------------------------------------------------------------
 
 
-def as_text(aim: Aim) -> list[str]:
-    """Lines for the terminal: the question, and every solution with its numerical error, or the nearest miss."""
-    lines = [*paragraph(_question(aim), ""), ""]
+def _solutions(aim: Aim) -> list[Section]:
+    """The solutions as a table, whose kind is that of the first; or the nearest miss."""
     if not aim.solutions:
-        lines += _no_solution(aim)
-    elif aim.solutions[0].interval is not None:
-        lines += _interval_lines(aim)
-    elif aim.solutions[0].region is not None:
-        lines += _region_lines(aim)
-    else:
-        lines += _root_lines(aim)
-    for one, other in aim.jumps[:_SHOWN]:
-        places = " and ".join(f"{side.values[0]:.10g}" for side in (one, other))
-        lines += paragraph(
-            f"between {aim.spans[0].key} = {places} {aim.targets[0].name} jumps from {one.found[0]:.6g} to "
-            f"{other.found[0]:.6g}, over the target"
-        )
-    lines += _more(len(aim.jumps), " jumps")
-    failures = f", {aim.failures} of which failed" if aim.failures else ""
-    return [*lines, "", *paragraph(f"{len(aim.tries):,} runs{failures}{_resolution(aim)}")]
+        return [Notes(_no_solution(aim))]
+    if aim.solutions[0].interval is not None:
+        return _intervals(aim)
+    return [_regions(aim) if aim.solutions[0].region is not None else _roots(aim)]
 
 
 def _resolution(aim: Aim) -> str:
@@ -103,13 +119,13 @@ def _above(width: float) -> str:
 
 
 def _question(aim: Aim) -> str:
-    wanted = " and ".join(_wanted(target, aim) for target in aim.targets)
     ranges = [f"{span.key} from {span.low:g} to {span.high:g} {unit_of(aim.scene, span.key)}" for span in aim.spans]
-    return f"{aim.scene.title}: {wanted} by {' and '.join(map(str.rstrip, ranges))}"
+    return f"{_goal(aim)} by {' and '.join(map(str.rstrip, ranges))}"
 
 
-def _wanted(target: Target, aim: Aim) -> str:
-    return str(target) if target.value is MAXIMIZE else f"{target.name} = {_value(target, aim)}"
+def _goal(aim: Aim) -> str:
+    goals = (str(target) if target.is_maximum else f"{target.name} = {_value(target, aim)}" for target in aim.targets)
+    return f"{aim.scene.title}: {' and '.join(goals)}"
 
 
 def _value(target: Target, aim: Aim) -> str:
@@ -119,64 +135,63 @@ def _value(target: Target, aim: Aim) -> str:
     return f"{target.value:g} {unit}".rstrip() if target.is_ordered else str(target.value)
 
 
-def _root_lines(aim: Aim) -> list[str]:
+def _roots(aim: Aim) -> Table:
     keys, names = [span.key for span in aim.spans], [target.name for target in aim.targets]
-    headings = [part for key in keys for part in (label(aim.scene, key), "±")]
+    units = [aim.scene.units.get(name) for name in names]
+    headings = [label(aim.scene, key) for key in keys]
+    headings += [f"{name} ({unit})" if unit else name for name, unit in zip(names, units, strict=True)]
+    columns = [column for heading in headings for column in (Column(heading, write="{:.8g}".format), _ERROR)]
     rows = []
-    for solution in aim.solutions[:_SHOWN]:
-        row = [part for key in keys for part in (f"{solution.values[key]:.8g}", _error(solution.errors[key]))]
-        for name in names:
-            row += [f"{solution.result[name]:.8g}", _error(solution.result_errors.get(name))]
-        rows.append(row)
-    headings += [part for name in names for part in (_heading(aim, name), "±")]
+    for solution in aim.solutions:
+        row = [part for key in keys for part in (solution.values[key], solution.errors[key])]
+        rows.append(
+            row + [part for name in names for part in (solution.result[name], solution.result_errors.get(name))]
+        )
     unsure = any(error is None for solution in aim.solutions[:_SHOWN] for error in solution.errors.values())
-    why = "without ±: a finer run has no such result, or the result does not change there"
-    return [
-        *table(headings, rows, "r" * len(headings)),
-        *_more(len(aim.solutions)),
-        *(paragraph(why) if unsure else []),
-    ]
+    why = ["without ±: a finer run has no such result, or the result does not change there"]
+    return Table(columns, rows, notes=why if unsure else [], most=_SHOWN)
 
 
-def _heading(aim: Aim, name: str) -> str:
-    unit = aim.scene.units.get(name)
-    return f"{name} ({unit})" if unit else name
-
-
-def _interval_lines(aim: Aim) -> list[str]:
+def _intervals(aim: Aim) -> list[Section]:
     key = aim.spans[0].key
-    rows = []
-    for solution in aim.solutions[:_SHOWN]:
+    number, rows = "{:.7g}".format, []
+    for solution in aim.solutions:
         interval = solution.interval
         assert interval is not None  # the target has intervals
-        low, high = f"{interval.low:.7g}", f"{interval.high:.7g}"
-        error = max((e for e in (interval.low_error, interval.high_error) if e is not None), default=None)
-        unsure = "" if None not in (interval.low_error, interval.high_error) else "an end depends on the accuracy"
+        errors = interval.low_error, interval.high_error
+        unsure = "an end depends on the accuracy" if None in errors else ""
         cut = "continues beyond the range" if _is_cut(interval) else ""
-        middle = f"{solution.values[key]:.7g}"
-        rows.append(
-            [middle, significant(interval.width, 3), low, high, _error(error), "; ".join(filter(None, (cut, unsure)))]
-        )
-    headings = [f"middle, {unit_of(aim.scene, key)}".rstrip(", "), "width", "from", "to", "±", ""]
+        error = max((error for error in errors if error is not None), default=None)
+        ends = interval.width, interval.low, interval.high
+        rows.append([solution.values[key], *ends, error, "; ".join(filter(None, (cut, unsure)))])
+    columns = [
+        Column(f"middle, {unit_of(aim.scene, key)}".rstrip(", "), write=number),
+        Column("width", write=partial(significant, digits=3)),
+        *(Column(heading, write=number) for heading in ("from", "to")),
+        _ERROR,
+        words(),
+    ]
     best = aim.solutions[0].interval
     assert best is not None
     room = _with_unit(aim, 0, significant(0.5 * best.width))
     side = "both sides" if best.open_low and best.open_high else "the lower side" if best.open_low else "the upper side"
     cut = f"; it continues beyond the range on {side}: widen the range to see its middle" if _is_cut(best) else ""
-    forgiving = paragraph(f"{_forgiving(aim)}, with a margin of ±{room}{cut}")
-    return [*table(headings, rows, "rrrrrl"), *_more(len(aim.solutions)), "", *forgiving]
+    return [Table(columns, rows, most=_SHOWN), Notes([f"{_forgiving(aim)}, with a margin of ±{room}{cut}"])]
 
 
-def _region_lines(aim: Aim) -> list[str]:
+def _regions(aim: Aim) -> Table:
     """Most forgiving points, with the room around them: both parameters may be off by it together as on an ellipse."""
     rows = []
-    for solution in aim.solutions[:_SHOWN]:
+    for solution in aim.solutions:
         assert solution.region is not None  # the target has regions
         room = solution.region.room
-        row = [part for key, value in solution.values.items() for part in (f"{value:.5g}", significant(room[key], 2))]
-        rows.append([*row, f"{significant(100.0 * solution.region.share, 2)} %"])
-    headings = [part for span in aim.spans for part in (label(aim.scene, span.key), "room")]
-    return ["  most forgiving points", *table([*headings, "of the range"], rows, "rrrrr"), *_more(len(aim.solutions))]
+        row = [part for key, value in solution.values.items() for part in (value, room[key])]
+        rows.append([*row, solution.region.share])
+    columns = []
+    for span in aim.spans:
+        columns += [Column(label(aim.scene, span.key), write="{:.5g}".format), Column("room", write=significant)]
+    share = Column("of the range", write=lambda share: f"{significant(100.0 * share, 2)} %")
+    return Table([*columns, share], rows, "most forgiving points", most=_SHOWN)
 
 
 def _is_cut(interval: Interval) -> bool:
@@ -195,27 +210,20 @@ def _with_unit(aim: Aim, axis: int, number: str) -> str:
     return f"{number} {unit_of(aim.scene, aim.spans[axis].key)}".rstrip()
 
 
-def _more(count: int, kind: str = "") -> list[str]:
-    left = count - _SHOWN
-    return [f"  ... {left} more{kind}; --json has them all"] if left > 0 else []
-
-
-def _error(error: float | None) -> str:
-    if error is None:
-        return ""
-    return significant(error, 1) if error > 0.0 else "0"
+#: Numerical errors.
+_ERROR = Column("±", write=lambda error: significant(error, 1))
 
 
 def _no_solution(aim: Aim) -> list[str]:
-    lines = ["  no solution in this range"]
+    notes = ["no solution in this range"]
     if aim.nearest is not None:
         place = ", ".join(f"{key} = {value:.6g}" for key, value in _named(aim, aim.nearest.values).items())
         got = ", ".join(
             f"{name} = {aim.nearest.found[index]:.6g} ({miss:+.3g})"
             for index, (name, miss) in enumerate(aim.misses.items())
         )
-        lines += paragraph(f"nearest: {got} at {place}")
-    return lines
+        notes.append(f"nearest: {got} at {place}")
+    return notes
 
 
 # ---------------------------------------------------------------------------------------------------------------------
@@ -223,24 +231,22 @@ def _no_solution(aim: Aim) -> list[str]:
 # ---------------------------------------------------------------------------------------------------------------------
 
 
-def draw(aim: Aim, path: Path) -> None:
+def _chart(aim: Aim) -> Chart:
     """A chart of the tries, those of the scan muted and those of the solvers vivid, with the solutions."""
-    title = _question(aim).partition(" by ")[0]
     what = "interval" if aim.solutions and aim.solutions[0].interval is not None else "solution"
-    found = f"{len(aim.solutions)} {what}{'' if len(aim.solutions) == 1 else 's'}" if aim.solutions else "no solution"
-    with chart(path, title, f"{found}; {len(aim.tries):,} runs") as (axes, colours):
-        if len(aim.spans) == 2 and aim.targets[0].is_number:
-            _draw_two(axes, aim, colours)
-        elif len(aim.spans) == 2:
-            _draw_plane(axes, aim, colours)
-        elif aim.targets[0].is_number or aim.targets[0].value is MAXIMIZE:
-            _draw_one(axes, aim, colours)
-        else:
-            _draw_intervals(axes, aim, colours)
-        axes.set_xlabel(label(aim.scene, aim.spans[0].key))
+    found = with_noun(len(aim.solutions), what) if aim.solutions else "no solution"
+    target, ordinate = aim.targets[0], ""
+    if len(aim.spans) == 2:
+        panel, ordinate = (_draw_two if target.is_number else _draw_plane), label(aim.scene, aim.spans[1].key)
+    elif target.is_number or target.is_maximum:
+        panel, ordinate = _draw_one, result_label(aim.scene, target.name)
+    else:
+        panel = _draw_intervals
+    panels = [Panel(partial(panel, aim), label(aim.scene, aim.spans[0].key), ordinate)]
+    return Chart(panels, _goal(aim), f"{found}; {with_noun(len(aim.tries), 'run')}")
 
 
-def _draw_one(axes: Any, aim: Aim, colours: Mapping[str, Any]) -> None:
+def _draw_one(aim: Aim, axes: Any, colours: Mapping[str, Any]) -> None:
     card, target = colours["card"], aim.targets[0]
     axes.set_xlim(aim.spans[0].low, aim.spans[0].high)
     for solving, colour, size in ((False, card["quiet"], 14.0), (True, colours["trace"]["colours"][0], 22.0)):
@@ -252,11 +258,9 @@ def _draw_one(axes: Any, aim: Aim, colours: Mapping[str, Any]) -> None:
     for solution in aim.solutions:
         place = solution.values[aim.spans[0].key]
         mark(axes, (place, solution.result[target.name]), _with_unit(aim, 0, f"{place:.6g}"), card)
-    axes.set_ylabel(result_label(aim.scene, target.name))
-    legend(axes)
 
 
-def _draw_two(axes: Any, aim: Aim, colours: Mapping[str, Any]) -> None:
+def _draw_two(aim: Aim, axes: Any, colours: Mapping[str, Any]) -> None:
     card, traces = colours["card"], colours["trace"]["colours"]
     scan = [each for each in aim.tries if each.phase == "scan"]
     places = [sorted({each.values[axis] for each in scan}) for axis in range(2)]
@@ -277,35 +281,31 @@ def _draw_two(axes: Any, aim: Aim, colours: Mapping[str, Any]) -> None:
     for solution in aim.solutions:
         place = tuple(solution.values.values())
         mark(axes, place, ", ".join(_with_unit(aim, axis, f"{value:.5g}") for axis, value in enumerate(place)), card)
-    axes.set_ylabel(label(aim.scene, aim.spans[1].key))
-    legend(axes)
 
 
-def _draw_plane(axes: Any, aim: Aim, colours: Mapping[str, Any]) -> None:
+def _draw_plane(aim: Aim, axes: Any, colours: Mapping[str, Any]) -> None:
     """All tries by two parameters: whether they meet the target, or how great the number is."""
     card, target = colours["card"], aim.targets[0]
-    if target.value is MAXIMIZE:
+    if target.is_maximum:
         tries = [each for each in aim.tries if each.found[0] is not None]
         places, heights = list(zip(*(each.values for each in tries), strict=True)), [each.found[0] for each in tries]
         axes.figure.colorbar(axes.scatter(*places, c=heights, s=9), label=result_label(aim.scene, target.name))
     else:
         for _, colour, name, some in _met(aim, card):
             axes.scatter(some[:, 0], some[:, 1], s=9, color=colour, label=name)
-        legend(axes)
     for solution in aim.solutions[:1]:
         place = tuple(solution.values.values())
         mark(axes, place, ", ".join(_with_unit(aim, axis, f"{value:.5g}") for axis, value in enumerate(place)), card)
-    axes.set_ylabel(label(aim.scene, aim.spans[1].key))
 
 
-def _draw_intervals(axes: Any, aim: Aim, colours: Mapping[str, Any]) -> None:
+def _draw_intervals(aim: Aim, axes: Any, colours: Mapping[str, Any]) -> None:
     card, key = colours["card"], aim.spans[0].key
     axes.set_xlim(aim.spans[0].low, aim.spans[0].high)
     for solution in aim.solutions:
         assert solution.interval is not None  # the target has intervals
         axes.axvspan(solution.interval.low, solution.interval.high, color=card["good"], alpha=0.35, linewidth=0)
-    for met, colour, name, some in _met(aim, card):
-        axes.scatter(some[:, 0], np.full(len(some), float(met)), s=14, color=colour, label=name, zorder=3)
+    for met, colour, _, some in _met(aim, card):
+        axes.scatter(some[:, 0], np.full(len(some), float(met)), s=14, color=colour, zorder=3)
     for solution in aim.solutions[:1]:
         mark(axes, (solution.values[key], 0.5), _forgiving(aim), card)
     axes.set_yticks([0.0, 1.0], ["not met", "met"])

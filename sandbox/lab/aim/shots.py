@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from sandbox.errors import RequestError, RunError
-from sandbox.lab.aim.question import MAXIMIZE, Target, Trial
+from sandbox.lab.aim.question import Target, Trial
 from sandbox.lab.axes import Span
 from sandbox.lab.runs import Outcome, Progress, fly_together, outcomes
 from sandbox.scene import Scene, compare
@@ -153,7 +153,7 @@ class Shots:
         if result is None:
             return
         for target in self.targets:
-            option, wanted = _option(target), 0.0 if target.value is MAXIMIZE else target.value
+            option, wanted = _option(target), 0.0 if target.is_maximum else target.value
             value = result[target.name]
             held = isinstance(value, list | dict) and isinstance(wanted, str)  # a word that a list may hold
             if value is not None and _kind(value) != _kind(wanted) and not held:
@@ -183,7 +183,7 @@ def _result(run: Outcome | Exception) -> dict[str, Any] | None:
 
 
 def _option(target: Target) -> str:
-    return "--maximize" if target.value is MAXIMIZE else "--target"
+    return "--maximize" if target.is_maximum else "--target"
 
 
 def _final_with(scene: Scene, names: Sequence[str]) -> list[str]:

@@ -1,21 +1,23 @@
-"""The picture of a fit: the points on the fitted path, and the residuals below; with matplotlib (extra ``lab``)."""
+"""The charts of a fit: the points on the fitted path, and the residuals."""
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Any
+from collections.abc import Mapping, Sequence
+from functools import partial
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from sandbox.engine.model.surface import Segment
-from sandbox.lab.chart import figure
 from sandbox.lab.fit.flown import flown
-from sandbox.lab.fit.report import title, value_rows
-from sandbox.lab.fit.squares import Fit
+from sandbox.lab.report import Chart, Panel
 from sandbox.lab.tables import length, unit_of_length
 from sandbox.scene.points import Points
 from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.amounts import significant
+
+if TYPE_CHECKING:
+    from sandbox.lab.fit.squares import Fit
 
 #: Width, and heights of the path and of a panel of residuals, in inches; the path's is between these two.
 _WIDTH, _LOWEST, _HIGHEST, _PANEL = 9.6, 1.6, 4.6, 1.25
@@ -27,27 +29,30 @@ _SAMPLES, _BEYOND, _ROOM = 800, 0.06, 2.5
 _MOST = 6
 
 
-def draw(found: Fit, path: Path) -> None:
-    """Draw points and path, if places were measured, and a panel with the residuals of each group."""
-    points, groups = found.measured.points(found.scene, found.free), found.measured.names
-    tall = 0.0 if points is None else _height(points)
-    about = _about(found)
-    heights = [tall] * (points is not None) + [_PANEL] * len(groups)
-    size = (_WIDTH, 1.2 + 0.25 * about.count("\n") + sum(heights) + 0.35 * len(heights))
-    with figure(path, title(found), about, size) as (sheet, colours):
-        panels = sheet.subplots(len(heights), 1, height_ratios=heights, squeeze=False).ravel().tolist()
-        if points is not None:
-            _path(panels.pop(0), found, points, colours)
-        for place, axes in enumerate(panels):
-            _residuals(axes, found, points, place, colours)
-            axes.sharex(panels[0])
-            axes.tick_params(labelbottom=axes is panels[-1])
-        panels[-1].set_xlabel("t (s)" if _has_times(found, points) else f"row of the {found.measured.what}")
+def charts(found: Fit, title: str, values: Sequence[Sequence[str]]) -> list[Chart]:
+    """Points and path, if places were measured, and a panel with the residuals of each group."""
+    points, names = found.measured.points(found.scene, found.free), found.measured.names
+    about, shown = _about(values), []
+    if points is not None:
+        note = "Points are black where one ball was measured, outliers red crosses."
+        path = Panel(partial(_path, found, points), "x (m)", "y (m)")
+        shown.append(Chart([path], title, about, height=_height(points) + 0.5, note=note))
+    x = "t (s)" if _has_times(found, points) else f"row of the {found.measured.what}"
+    last = len(names) - 1
+    panels = [
+        Panel(partial(_residuals, found, points, place), x if place == last else "", _unit(found, place),
+              _headline(found, place))
+        for place in range(len(names))
+    ]  # fmt: skip
+    note = (
+        "The band is two standard deviations of the residuals. A 95 % interval holds the true value in 95 of 100 "
+        "cases, if the model is right and errors are as assumed."
+    )
+    return [*shown, Chart(panels, title, about, height=_PANEL + 0.35, note=note)]
 
 
-def _about(found: Fit) -> str:
-    rows = [f"{key} = {value} {unit}".rstrip() + f" (95 %: {interval})"
-            for key, value, unit, interval, _ in value_rows(found)]  # fmt: skip
+def _about(values: Sequence[Sequence[str]]) -> str:
+    rows = [f"{key} = {value} {unit}".rstrip() + f" (95 %: {interval})" for key, value, unit, interval, _ in values]
     more = f" and {len(rows) - _MOST} more" if len(rows) > _MOST else ""
     pairs = [",   ".join(rows[place : place + 2]) for place in range(0, min(len(rows), _MOST), 2)]
     return "\n".join(pairs) + more
@@ -63,7 +68,7 @@ def _has_times(found: Fit, points: Points | None) -> bool:
     return points is not None and not bool(np.isnan(points.t).any())
 
 
-def _path(axes: Any, found: Fit, points: Points, colours: dict[str, Any]) -> None:
+def _path(found: Fit, points: Points, axes: Any, colours: Mapping[str, Any]) -> None:
     """Draw the path of each ball that was measured, up to the last point, with the points and what the ball meets."""
     card, traces = colours["card"], colours["trace"]["colours"]
     (run,) = flown(found.scene, (), np.empty((1, 0)), _last(found, points))
@@ -79,17 +84,15 @@ def _path(axes: Any, found: Fit, points: Points, colours: dict[str, Any]) -> Non
         if run is not None:
             times = np.linspace(0.0, run.duration, _SAMPLES)
             axes.plot(*run.states(ball, times)[:, :2].T, color=colour, linewidth=1.4, zorder=2)
-        axes.scatter(*points.positions[own].T, s=16, color=dots[own], zorder=3, label=ball)
+        axes.scatter(*points.positions[own].T, s=16, color=dots[own], zorder=3,
+                     label=ball if len(set(points.balls)) > 1 else None)  # fmt: skip
     axes.scatter(*points.positions[outlying].T, s=34, color=card["bad"], marker="x", linewidth=1.4, zorder=4)
-    axes.set(xlabel="x (m)", ylabel="y (m)")
     axes.set_xlim(low[0] - margin, high[0] + margin)
     axes.set_ylim(low[1] - margin, high[1] + margin)
     axes.set_aspect("equal", adjustable="box")
-    if len(set(points.balls)) > 1:
-        axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), markerscale=1.5)
 
 
-def _dots(points: Points, colours: dict[str, Any]) -> np.ndarray:
+def _dots(points: Points, colours: Mapping[str, Any]) -> np.ndarray:
     """The colour of each point: that of its ball's path, where there are several balls."""
     names = list(dict.fromkeys(points.balls))
     if len(names) == 1:
@@ -121,12 +124,11 @@ def _rows(found: Fit, count: int) -> np.ndarray:
     return rows[:: len(rows) // count]
 
 
-def _residuals(axes: Any, found: Fit, points: Points | None, place: int, colours: dict[str, Any]) -> None:
+def _residuals(found: Fit, points: Points | None, place: int, axes: Any, colours: Mapping[str, Any]) -> None:
     """Draw the residuals of one group, with a band of two standard deviations."""
     card, measured = colours["card"], found.measured
     own = measured.groups == place
-    name, unit = measured.names[place], measured.units[place]
-    sd, rows = found.residual_sd[name], measured.rows[own]
+    sd, rows = found.residual_sd[measured.names[place]], measured.rows[own]
     at = points.t if points is not None and _has_times(found, points) else rows
     outlying = np.isin(rows, found.outliers)
     left = found.residuals[own]
@@ -138,11 +140,19 @@ def _residuals(axes: Any, found: Fit, points: Points | None, place: int, colours
     axes.scatter(at[outlying], np.clip(left[outlying], -0.93 * reach, 0.93 * reach), s=30, color=card["bad"],
                  marker="x", linewidth=1.4, zorder=4)  # fmt: skip
     axes.set_ylim(-reach, reach)
-    axes.set_title(f"{name}: measured − computed, sd {length(sd) if unit == 'm' else f'{significant(sd)} {unit}'}",
-                   loc="left", fontsize=10, fontweight="bold")  # fmt: skip
     axes.locator_params(axis="y", nbins=5)
-    if unit == "m":
+    if measured.units[place] == "m":
         shown, factor = unit_of_length(reach)
         axes.yaxis.set_major_formatter(lambda value, position: f"{value * factor:g} {shown}" if value else "0")
-    else:
-        axes.set_ylabel(unit)
+
+
+def _unit(found: Fit, place: int) -> str:
+    """The unit of a group, for its axis; lengths have it at each number."""
+    unit = found.measured.units[place]
+    return "" if unit == "m" else unit
+
+
+def _headline(found: Fit, place: int) -> str:
+    name, unit = found.measured.names[place], found.measured.units[place]
+    sd = found.residual_sd[name]
+    return f"{name}: measured − computed, sd {length(sd) if unit == 'm' else f'{significant(sd)} {unit}'}"

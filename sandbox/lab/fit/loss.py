@@ -21,6 +21,9 @@ class Loss:
     bend: Callable[[np.ndarray], np.ndarray]  # second derivative of the cost
 
 
+#: A residual beyond so many robust standard deviations is an outlier.
+OUTLIER = 4.0
+
 #: From here on, in standard deviations, outliers count less (Huber) or not at all (Tukey); both lose 5 % of accuracy
 #: where errors are normally distributed.
 HUBER, TUKEY = 1.345, 4.685

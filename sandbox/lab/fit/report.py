@@ -1,20 +1,25 @@
-"""A fit as text and as JSON."""
+"""The report of a fit: its values, and what is to be said of them."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from functools import partial
 from math import inf
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from sandbox.files import json_text
 from sandbox.lab.fit.advice import advice
-from sandbox.lab.fit.loss import SQUARES, TUKEY
-from sandbox.lab.fit.squares import OUTLIER, Fit, Value
+from sandbox.lab.fit.chart import charts
+from sandbox.lab.fit.loss import OUTLIER, SQUARES, TUKEY
+from sandbox.lab.report import Column, Notes, Report, Table, words
 from sandbox.lab.selection import used
-from sandbox.lab.tables import length, paragraph, table
+from sandbox.lab.tables import length
+from sandbox.scene.writing import command
 from sandbox.sport.amounts import significant
 from sandbox.text import one_line, with_noun
+
+if TYPE_CHECKING:
+    from sandbox.lab.fit.squares import Fit, Value
 
 #: Two values whose errors are correlated more strongly than this can hardly be told apart, and this not at all.
 HARDLY, NOT = 0.95, 0.999
@@ -32,14 +37,30 @@ _SIDEWAYS = re.compile(r"side|direction|azimuth|curve|offline|deviation|launch h
 #: Digits of a value that are shown, at most: data without noise tell more.
 _SHOWN = 7
 
-#: The headings of ``value_rows``.
-VALUES = ("", "value", "", "95 % interval", "")
 
-
-def as_text(found: Fit) -> list[str]:
-    """Lines for the terminal."""
-    said = [line for sentence in sentences(found) for line in paragraph(sentence)]
-    return [*paragraph(title(found), ""), *table(VALUES, value_rows(found), "lrllr"), *said]
+def report_of(found: Fit) -> Report:
+    """The values with their intervals, points and residuals as charts, and what is to be said of them; as details the
+    correlations, and the models that were compared."""
+    pairs = [
+        (f"{one} and {other}", value, "hardly told apart" if abs(value) > HARDLY else "")
+        for (one, other), value in found.correlations.items()
+    ]
+    correlations = [words(), Column("correlation", write="{:.3f}".format), words()]
+    models = [(name, each.failure if each.fit is None else each.behind) for name, each in found.models.items()]
+    behind = [words(), Column("AICc above the best", write="{:.1f}".format)]
+    values = [words(), Column("value"), words(), words("95 % interval"), Column()]
+    return Report(
+        partial(document, found),
+        title(found),
+        [
+            Table(values, value_rows(found)),
+            *charts(found, title(found), value_rows(found)),
+            Notes(list(sentences(found))),
+            Table(correlations, pairs, "correlations of the errors", detail=True),
+            Table(behind, models, f"models: {found.models_of}", detail=True),
+        ],
+        command=command(found.scene),
+    )
 
 
 def title(found: Fit) -> str:
@@ -172,9 +193,9 @@ def _of_others(found: Fit) -> Iterator[str]:
 def models_text(found: Fit) -> str:
     """Say in a sentence which model fits best."""
     (best, _), *others = found.models.items()
-    words = {("fits", "fit", "as well"): AS_GOOD, ("fits", "fit", "worse"): RULED_OUT, ("is", "are", "ruled out"): inf}
+    limits = {("fits", "fit", "as well"): AS_GOOD, ("fits", "fit", "worse"): RULED_OUT, ("is", "are", "ruled out"): inf}
     said, beyond = [f"{found.models_of}: {best} fits best"], -inf
-    for (one, several, rest), limit in words.items():
+    for (one, several, rest), limit in limits.items():
         some = [f"{name} (AICc {each.behind:.1f} more)" for name, each in others if beyond <= each.behind < limit]
         said += [f"{', '.join(some)} {several if len(some) > 1 else one} {rest}"] if some else []
         beyond = limit
@@ -182,26 +203,16 @@ def models_text(found: Fit) -> str:
     return "; ".join([*said, *(f"not fitted, {why}" for why in failed)])
 
 
-def as_json(found: Fit) -> str:
-    """One JSON object; every value in its unit."""
-    told: dict[str, Any] = {
+def document(found: Fit) -> dict[str, Any]:
+    """For JSON; every value in its unit."""
+    return {
         "scene": found.scene.name,
         "preset": found.scene.preset,
-        "values": {
-            key: {
-                "value": one.value,
-                "low": one.low,
-                "high": one.high,
-                "unit": one.unit,
-                "at_bound": one.at_bound,
-                "unknown": one.unknown,
-            }
-            for key, one in found.values.items()
-        },
-        "residual_sd": dict(found.residual_sd),
+        "values": found.values,
+        "residual_sd": found.residual_sd,
         "correlations": {f"{one}, {other}": value for (one, other), value in found.correlations.items()},
         "others": [{"values": other.values, "chi2_more": other.more} for other in found.others],
-        "outliers": list(found.outliers),
+        "outliers": found.outliers,
         "points": found.measured.count,
         "left_out": found.measured.left_out,
         "unused": found.measured.unused,
@@ -214,4 +225,3 @@ def as_json(found: Fit) -> str:
         },
         "said": list(sentences(found)),
     }
-    return json_text(told)

@@ -6,7 +6,7 @@ import tomllib
 from pathlib import Path
 
 from sandbox.errors import RequestError
-from sandbox.files import check_replaced, write_together
+from sandbox.files import check_file, check_installed, check_replaced, write_together
 from sandbox.lab.fit.report import residual_text, title, value_rows
 from sandbox.lab.fit.squares import Fit
 from sandbox.scene.writing import scene_text
@@ -17,9 +17,13 @@ def points_file(path: Path) -> Path:
     return path.with_suffix(".csv")
 
 
-def check_points(option: str, path: Path) -> None:
-    """Raise RequestError, before any work is done, if the points of a scene file would be written over a file that is
-    not those of the scene file which is replaced."""
+def check_saving(option: str, path: Path, has_points: bool) -> None:
+    """Raise RequestError, before any work is done, if the scene file cannot be written, or its points, if it has some,
+    would be written over a file that is not those of the scene file which is replaced."""
+    check_file(option, path, ".toml")
+    check_installed(option, "tomlkit")
+    if not has_points:
+        return
     points = points_file(path)
     if points.exists() and _points_named(path) != points.resolve():
         raise RequestError(f"{option} {path}: its points would be written over {points}; choose another name")

@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import combinations
 from math import inf
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -16,17 +15,16 @@ from sandbox.errors import RequestError, RunError
 from sandbox.lab.axes import Span
 from sandbox.lab.fit.descent import Place, descend
 from sandbox.lab.fit.intervals import Errors, errors_of, group_sds, pooled
-from sandbox.lab.fit.loss import HUBERS, SQUARES, TUKEYS, Loss
+from sandbox.lab.fit.loss import HUBERS, OUTLIER, SQUARES, TUKEYS, Loss
 from sandbox.lab.fit.measured import Measured
 from sandbox.lab.fit.problem import Problem
+from sandbox.lab.fit.report import report_of
 from sandbox.lab.fit.rivals import Weighted, rivals
 from sandbox.lab.fit.search import ALIKE, ENOUGH, neumann, robust_sds, search
+from sandbox.lab.report import Report
 from sandbox.lab.runs import runs
 from sandbox.scene import Scene
 from sandbox.text import with_noun
-
-#: A residual beyond so many robust standard deviations is an outlier.
-OUTLIER = 4.0
 
 #: Rounds in which values and standard deviations of the groups are found one from the other; and in which a minimum is
 #: looked for whose chi^2 is at least so much less.
@@ -87,7 +85,7 @@ class Model:
 
 
 @dataclass(frozen=True, repr=False)
-class Fit:
+class Fit(display.Reported):
     """The result of a fit: ``values`` with 95 % intervals, ``correlations``, ``residuals``, ``outliers``.
 
     >>> import sandbox
@@ -119,16 +117,8 @@ class Fit:
         """The values of what belongs to the measurement itself."""
         return [self.values[one.key].value for one in self.measured.free]
 
-    def plot(self, path: Path | str | None = None) -> Any:
-        """Points, path and residuals: written to ``path`` (a PNG), or without one handed back as a Pillow image."""
-        return display.notebook().fit_plot(self, path)
-
-    def page(self, path: Path | str | None = None) -> Any:
-        """The page with picture and tables: written to ``path`` (HTML), or without one its text."""
-        return display.notebook().fit_page(self, path)
-
-    def _repr_html_(self) -> str:
-        return display.notebook().fit_html(self)
+    def report(self) -> Report:
+        return report_of(self)
 
     def __repr__(self) -> str:
         values = ", ".join(f"{key} = {one.value:.6g} {one.unit}".rstrip() for key, one in self.values.items())

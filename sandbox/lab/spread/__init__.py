@@ -19,9 +19,11 @@ import numpy as np
 from sandbox import display
 from sandbox.errors import RequestError, RunError
 from sandbox.lab.many import Runs, simulate_many
+from sandbox.lab.report import Report
 from sandbox.lab.runs import Progress, no_progress
 from sandbox.lab.spread.causes import SAMPLINGS, Cause, Points, cause, causes_of, points_of
 from sandbox.lab.spread.needs import Need, width_of
+from sandbox.lab.spread.report import report_of
 from sandbox.lab.statistics import (
     Ellipse,
     Numbers,
@@ -57,7 +59,7 @@ class Indices:
 
 
 @dataclass(frozen=True)
-class Spread:
+class Spread(display.Reported):
     """The outcome of ``spread``.
 
     ``numbers`` has the distribution of each number, ``shares`` those of what is true or false, ``words`` those of each
@@ -81,16 +83,8 @@ class Spread:
     def __repr__(self) -> str:
         return f"<Spread of {self.scene.title}: {self.samples:,} shots by {', '.join(each.key for each in self.by)}>"
 
-    def plot(self, path: Path | str | None = None) -> Any:
-        """Histograms, shares and causes: written to ``path`` (a PNG), or without one handed back as a Pillow image."""
-        return display.notebook().spread_plot(self, path)
-
-    def page(self, path: Path | str | None = None) -> Any:
-        """The page with picture and tables: written to ``path`` (HTML), or without one its text."""
-        return display.notebook().spread_page(self, path)
-
-    def _repr_html_(self) -> str:
-        return display.notebook().spread_html(self)
+    def report(self) -> Report:
+        return report_of(self)
 
     @property
     def samples(self) -> int:

@@ -1,47 +1,43 @@
-"""The picture of a spread: histograms, the share that scores, and the causes; with matplotlib (extra ``lab``)."""
+"""The charts of a spread: histograms, where balls come to lie, and the causes."""
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Any
+from collections.abc import Mapping
+from functools import partial
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from sandbox.lab.axes import result_label
-from sandbox.lab.chart import figure
-from sandbox.lab.spread import Spread
-from sandbox.lab.spread.report import about, mean_and_deviation, name_of, percent, title
+from sandbox.lab.report import Chart, Panel
+from sandbox.lab.spread.texts import mean_and_deviation, name_of, percent
+from sandbox.lab.statistics import Ellipse
+
+if TYPE_CHECKING:
+    from sandbox.lab.spread import Spread
 
 #: Most histograms, and most rows of causes.
 _MOST, _ROWS = 6, 7
 
 
-def draw(spread: Spread, path: Path) -> None:
+def charts(spread: Spread, about: str) -> list[Chart]:
     """Histograms of the most important numbers, those of shots that score in another colour; the ellipse of one ball;
     and how much of the variance each cause accounts for."""
     names = [name for name in spread.displayed if name in spread.numbers][:_MOST]
     ellipses = list(spread.ellipses.items())[: max(0, _MOST - len(names))]
-    has_causes = any(len(by) > 1 for by in spread.causes.values())
-    panels = len(names) + len(ellipses)
-    across = min(3, max(panels, 1))
-    down = -(-panels // across)
-    parts = [0.3 + 2.2 * down] * (panels > 0) + [2.6] * has_causes
-    shots = title(spread).partition(": ")[2]
-    with figure(path, _headline(spread), f"{shots}\n{about(spread)}", (9.6, 1.2 + max(sum(parts), 1.0))) as (
-        sheet,
-        colours,
-    ):
-        rows = iter(sheet.subfigures(len(parts), 1, height_ratios=parts, squeeze=False).flat if parts else ())
-        if panels:
-            places = next(rows).subplots(down, across, squeeze=False).flat
-            for name, axes in zip(names, places, strict=False):
-                _histogram(axes, spread, name, colours)
-            for (name, ellipse), axes in zip(ellipses, places, strict=False):
-                _ellipse(axes, name, ellipse, colours)
-            for axes in places:  # what is left of the last row
-                axes.set_axis_off()
-        if has_causes:
-            _causes(next(rows).subplots(), spread, colours)
+    panels = [_histogram(spread, name) for name in names] + [_ellipse(*each) for each in ellipses]
+    found = []
+    if panels:
+        note = (
+            "Green bars are shots that score; the dashed lines hold 95 % of the shots. The interval of a share is "
+            "Wilson's, for so many random shots."
+        )
+        found.append(Chart(panels, _headline(spread), about, min(3, len(panels)), 2.3, note))
+    if any(len(by) > 1 for by in spread.causes.values()):
+        panel = Panel(partial(_causes, spread), title="share of the variance that each cause makes alone")
+        note = "What several causes do together is grey (Sobol's indices)."
+        found.append(Chart([panel], _headline(spread), about, height=2.6, note=note))
+    return found
 
 
 def _headline(spread: Spread) -> str:
@@ -54,7 +50,13 @@ def _headline(spread: Spread) -> str:
     return f"{spread.scene.title}: how it scatters"
 
 
-def _histogram(axes: Any, spread: Spread, name: str, colours: dict[str, Any]) -> None:
+def _histogram(spread: Spread, name: str) -> Panel:
+    found = spread.numbers[name]
+    title = mean_and_deviation(spread, name, found.mean, found.sd)
+    return Panel(partial(_bars, spread, name), result_label(spread.scene, name), title=title)
+
+
+def _bars(spread: Spread, name: str, axes: Any, colours: Mapping[str, Any]) -> None:
     """Bars; of shots that score green, if some score and some do not."""
     found, card = spread.numbers[name], colours["card"]
     _, edges = found.histogram()
@@ -73,26 +75,27 @@ def _histogram(axes: Any, spread: Spread, name: str, colours: dict[str, Any]) ->
     axes.axvline(found.mean, color=card["ink"], linewidth=1.0)
     for end in found.quantiles((0.025, 0.975)).values():
         axes.axvline(end, color=card["ink"], linewidth=0.9, linestyle=(0, (2, 2)))
-    axes.set_title(mean_and_deviation(spread, name, found.mean, found.sd), loc="left", fontsize=11, fontweight="bold")
-    axes.set_xlabel(result_label(spread.scene, name))
     axes.set(yticks=[], ylim=(0, 1.08 * max(float(base.max()), 1.0)))
     axes.spines["left"].set_visible(False)
     axes.locator_params(axis="x", nbins=5)
 
 
-def _ellipse(axes: Any, name: str, ellipse: Any, colours: dict[str, Any]) -> None:
+def _ellipse(name: str, ellipse: Ellipse) -> Panel:
+    long, short = ellipse.axes
+    return Panel(partial(_points, ellipse), "x (m)", "y (m)", f"{name}: {long:.2g} m by {short:.2g} m")
+
+
+def _points(ellipse: Ellipse, axes: Any, colours: Mapping[str, Any]) -> None:
     """The points where a ball comes to lie, and the ellipse that holds 95 % of them."""
     size = float(np.clip(4000 / len(ellipse.points), 2.0, 20.0))
     axes.scatter(*ellipse.points.T, s=size, color=colours["trace"]["colours"][0], alpha=0.5)
     axes.plot(*ellipse.outline().T, color=colours["card"]["ink"], linewidth=1.2)
-    long, short = ellipse.axes
-    axes.set_title(f"{name}: {long:.2g} m by {short:.2g} m", loc="left", fontsize=11, fontweight="bold")
-    axes.set(xlabel="x (m)", ylabel="y (m)", aspect="equal")
+    axes.set_aspect("equal")
     axes.set_adjustable("datalim")
     axes.locator_params(nbins=5)
 
 
-def _causes(axes: Any, spread: Spread, colours: dict[str, Any]) -> None:
+def _causes(spread: Spread, axes: Any, colours: Mapping[str, Any]) -> None:
     """A bar for each fact, divided by what each cause makes alone; the rest is what several do together."""
     names = [name for name, by in spread.causes.items() if len(by) > 1 and name in spread.displayed]
     first = [name for name in names if name in spread.shares]
@@ -107,7 +110,5 @@ def _causes(axes: Any, spread: Spread, colours: dict[str, Any]) -> None:
     axes.barh(labels, rest, left=left, color=colours["card"]["quiet"], alpha=0.35, height=0.62, label="together")
     axes.set_xlim(0, 1)
     axes.xaxis.set_major_formatter(lambda share, place: f"{100 * share:.0f} %")
-    axes.set_title("share of the variance that each cause makes alone", loc="left", fontsize=11, fontweight="bold")
     axes.tick_params(axis="y", length=0)
     axes.spines["left"].set_visible(False)
-    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), handlelength=1.0, handleheight=1.0)
