@@ -3,9 +3,9 @@
 Models: gravity; drag that grows with spin and Magnus lift, as fitted to tracked fly balls; spin about an upright axis,
 too, which costs distance; loss of spin; the air by weather and height above the sea; a bat that recoils, and that the
 ball grips.
-Leaves out: what the bend of the path by sidespin takes of the distance (2 ft of an average ball's, 11 ft with 2,500
-rpm); foul balls; the sidespin that a bat gives; fielders; the fence as a thing to hit,
-for the distance is that to where the ball would come down.
+Leaves out: what the bend of the path by sidespin takes of the distance (1 ft of an average ball's, 6 ft with 2,500
+rpm); foul balls; the sidespin that a bat gives; fielders; the fence as a thing to hit, for the distance is that to
+where the ball would come down.
 """
 
 from __future__ import annotations

@@ -7,6 +7,8 @@ from scipy.integrate import solve_ivp
 import sandbox
 from sandbox.physics.forces import SpinDecay
 from sandbox.sport.flight import RPM
+from sandbox.sport.readings import Moment
+from sandbox.sport.sideways import ground_track
 
 IRON = {"launch.speed": 55.0, "launch.angle": 16.1, "launch.spin": 7097.0}
 WEDGE = {"launch.speed": 46.5, "launch.angle": 23.7, "launch.spin": 9316.0}
@@ -68,6 +70,16 @@ def test_sidespin_about_an_upright_axis_bends_a_fly_ball():
     side = sandbox.simulate(scene).result["side"]
     assert side == pytest.approx(in_space(scene, upright=True), rel=0.01)
     assert side > 5.0
+
+
+def test_the_scene_says_what_the_bend_takes_of_the_distance():
+    def taken(sidespin: float) -> float:
+        run = sandbox.simulate(sandbox.load("baseball", {"launch.sidespin": sidespin, "launch.direction": 0.0}))
+        landed = Moment(run.duration, *run.before("ball", run.duration))
+        return (run.result["distance"] - np.hypot(*ground_track(run, run.scene.parameters, landed)[-1])) / 0.3048
+
+    said = f"({taken(849.0):.0f} ft of an average ball's, {taken(2500.0):.0f} ft with 2,500"
+    assert said in (sandbox.load("baseball").folder / "scene.py").read_text("utf-8")
 
 
 @pytest.mark.parametrize("name", ["golf", "soccer", "tennis", "baseball"])
