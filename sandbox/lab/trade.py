@@ -269,7 +269,7 @@ def _in_short(found: Trade) -> Iterator[str]:
 
     yield f"levels: {', '.join(level(name, point) for name, point in found.levels.items())}"
     changes = found.verdicts
-    if changes is not None:
+    if changes is not None and changes.methods:  # on a slow machine none may be quick enough to be counted
         counts = (
             f"{name} {of.other} other" + (f", {of.failed} failed" if of.failed else "")
             for name, of in changes.methods.items()
