@@ -31,7 +31,7 @@ def test_two_processes_write_the_same_file_as_one(falling, tmp_path):
 
 
 def text_of(done: SweepSummary) -> str:
-    return "\n".join(as_text(done.report()))
+    return " ".join(" ".join(as_text(done.report())).split())
 
 
 def resumed(plan: Plan, path: Path, left: bytes) -> SweepSummary:
