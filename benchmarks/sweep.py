@@ -177,7 +177,10 @@ def floor_of(name: str, speeds: tuple[float, float], angles: tuple[float, float]
     evaluations = mean(run.numerics.force_evaluations for run in found if isinstance(run, Run))
     ball, shots = scene.build().balls[0], shape[0] * shape[1]
     state = (*np.zeros((2, shots)), *np.full((2, shots), 5.0), np.full(shots, ball.spin))
-    once = min(timeit(lambda: acceleration_function(ball)(np.zeros(shots), state), number=9) / 9 for _ in range(5))
+    once = min(
+        timeit(lambda: acceleration_function(ball, floats=False)(np.zeros(shots), state), number=9) / 9
+        for _ in range(5)
+    )
     return evaluations * once
 
 

@@ -291,7 +291,7 @@ def test_the_rules_allow_what_they_should(own: str, source: str):
 
 #: The packages of the engine: a module may import from its own and from those before. Modules beside them, such as
 #: ``simulation``, stand between ``heap`` and ``many``; ``__init__`` is above all.
-ENGINE = ["model", "paths", "contact", "motion", "impact", "heap", "", "many", "__init__"]
+ENGINE = ["model", "paths", "contact", "kernel", "motion", "impact", "heap", "", "many", "__init__"]
 
 
 def engine_modules() -> dict[str, set[str]]:

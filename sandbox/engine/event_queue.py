@@ -8,7 +8,7 @@ from itertools import count
 from math import inf
 from typing import NamedTuple
 
-from sandbox.engine.motion.event_kind import EventKind
+from sandbox.engine.kernel.event_kind import EventKind
 from sandbox.engine.motion.moving_ball import MovingBall
 
 #: In place of the second ball of an event that has only one.

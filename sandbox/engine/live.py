@@ -31,7 +31,7 @@ from sandbox.engine.paths.arc import resting_arc
 from sandbox.engine.paths.path import Path
 from sandbox.engine.paths.phase import SetByHand
 from sandbox.engine.paths.run import Run
-from sandbox.engine.simulation import Simulation
+from sandbox.engine.single_flight import FlightSimulation
 from sandbox.engine.start import SLIGHT
 from sandbox.errors import RequestError
 from sandbox.physics.integrators import State
@@ -103,7 +103,7 @@ class Record:
             return simulation.complete(started)
 
 
-class LiveSimulation(Simulation):
+class LiveSimulation(FlightSimulation):
     """A simulation that can be stopped at any time, changed, and gone on with."""
 
     def __init__(self, setup: Setup, accuracy: Accuracy, checkpoint: Checkpoint | None = None) -> None:
@@ -180,10 +180,14 @@ class LiveSimulation(Simulation):
     def _resolve(self, event: QueuedEvent) -> None:
         clusters = self._numerics.clusters
         super()._resolve(event)
-        self._count += 1 if self._numerics.clusters == clusters else _EVENTS_OF_A_CLUSTER
+        self._count += self._at_once if self._numerics.clusters == clusters else _EVENTS_OF_A_CLUSTER
         due = self._count >= _EVENTS and self._count >= _EVENTS_OF_A_BALL * len(self._movers)
         if due and not (self._heap_made and self._heap_made.members):
             self.record.checkpoints.append(self.checkpoint())
+
+    @property
+    def _most_at_once(self) -> int:
+        return _EVENTS - self._count
 
     @property
     def _heap_made(self) -> Heap | None:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Collection, Sequence
 from sandbox.engine.contact.manifold import pair_touches
 from sandbox.engine.contact.touch import Obstacle
 from sandbox.engine.event_queue import EventQueue
-from sandbox.engine.motion.event_kind import EventKind
+from sandbox.engine.kernel.event_kind import EventKind
 from sandbox.engine.motion.moving_ball import MovingBall
 from sandbox.engine.paths.arc import Arc
 from sandbox.engine.paths.run import Numerics

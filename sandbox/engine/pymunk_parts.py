@@ -10,12 +10,12 @@ from typing import Any
 import pymunk
 
 from sandbox.engine.contact.manifold import fixed_outline
+from sandbox.engine.kernel.step_control import STIFFEST
 from sandbox.engine.model.ball import Ball
 from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.shapes import Polygon, Vector
 from sandbox.engine.model.surface import Circle, Surface
 from sandbox.engine.motion.forces_on_ball import acceleration_function
-from sandbox.engine.motion.step_control import STIFFEST
 from sandbox.physics.integrators import Acceleration, State
 from sandbox.physics.plane import Plane
 

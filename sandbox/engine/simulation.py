@@ -20,11 +20,11 @@ from sandbox.engine.event_queue import EventQueue, QueuedEvent
 from sandbox.engine.guard import Guard
 from sandbox.engine.heap.heap import Heap
 from sandbox.engine.impact.impacts import Hit, Impacts, Outcome
+from sandbox.engine.kernel.event_kind import EventKind
 from sandbox.engine.model.accuracy import Accuracy
 from sandbox.engine.model.event import Event
 from sandbox.engine.model.setup import Setup, Until
 from sandbox.engine.model.setup_errors import UserFunctionError, failed
-from sandbox.engine.motion.event_kind import EventKind
 from sandbox.engine.motion.moving_ball import MovingBall
 from sandbox.engine.motion.on_plane import slowest_hop
 from sandbox.engine.movers import movers_at_start
@@ -106,7 +106,7 @@ class Simulation:
         """Resolve the contacts at the start, which come first."""
         for index, mover in enumerate(self._movers):
             if mover.version == 0:
-                with self._where(0.0, index):
+                with self._where(index):
                     self._collide(0.0, [index])
 
     def _finish(self, started: float) -> Run:
@@ -140,16 +140,16 @@ class Simulation:
             if event.kind in _GO_ON and event.t >= self._setup.duration:
                 self._t, self._ended = self._setup.duration, "duration"
             else:
-                with self._where(event.t, event.ball):
+                with self._where(event.ball):
                     self._resolve(event)
 
     @contextmanager
-    def _where(self, t: float, index: int) -> Iterator[None]:
-        """Inside, an error of a function of the scene gets the time in s and the ball."""
+    def _where(self, index: int) -> Iterator[None]:
+        """Inside, an error of a function of the scene gets the time in s of the last event, and the ball."""
         try:
             yield
         except UserFunctionError as error:
-            raise failed(t, self._movers[index].ball.name, str(error)) from None
+            raise failed(self._t, self._movers[index].ball.name, str(error)) from None
 
     @property
     def _goes_on(self) -> bool:

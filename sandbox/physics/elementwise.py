@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from functools import reduce
+from collections.abc import Callable
+from functools import cache, reduce
+from types import FunctionType
 from typing import Any
 
 
@@ -85,23 +86,6 @@ def anywhere(condition: Any) -> bool:
     return bool(np.count_nonzero(condition))  # in a third of the time of any()
 
 
-def stacked(values: Sequence[Any], like: Any) -> Sequence[Any]:
-    """Return the values for a float; for an array of shape (n,) one array of shape (values, n)."""
-    if isinstance(like, float):
-        return values
-    import numpy as np
-
-    found = np.empty((len(values), len(like)))
-    for row, value in zip(found, values, strict=True):
-        row[:] = value
-    return (found,)
-
-
-def smallest(x: Any) -> Any:
-    """Return a float as it is; of an array of shape (values, n) the smallest of each column."""
-    return x if isinstance(x, float) else x.min(axis=0)
-
-
 def everywhere(condition: Any) -> bool:
     """Return True if the condition holds everywhere."""
     return condition if isinstance(condition, bool) else bool(condition.all())
@@ -114,3 +98,45 @@ def where(condition: Any, yes: Any, no: Any) -> Any:
     import numpy as np
 
     return np.where(condition, yes, no) if condition.ndim else (yes if condition else no)
+
+
+def _clip_float(x: float, low: float, high: float) -> float:
+    return low if x < low else high if x > high else x
+
+
+def _where_bool(condition: Any, yes: Any, no: Any) -> Any:
+    return yes if condition else no
+
+
+#: What the functions above do with floats.
+_OF_FLOATS: dict[Any, Any] = {
+    exp: math.exp,
+    log: math.log,
+    sin: math.sin,
+    cos: math.cos,
+    hypot: math.hypot,
+    minimum: min,
+    maximum: max,
+    clip: _clip_float,
+    finite: math.isfinite,
+    anywhere: bool,
+    everywhere: bool,
+    where: _where_bool,
+}
+
+
+def of_floats(law: Any) -> Any:
+    """Return a function of sandbox.physics as it is for floats alone, as in a run of one ball: the same code, but where
+    it calls what may take arrays, it calls what takes floats, without a look at what it is given. So this is decided
+    once, and not in each call. Anything else, as a function of a scene's own, is returned as it is."""
+    ours = isinstance(law, FunctionType) and law.__module__.startswith("sandbox.physics.")
+    return _made_of_floats(law) if ours else law
+
+
+@cache
+def _made_of_floats(law: FunctionType) -> Any:
+    named = {name: law.__globals__.get(name) for name in law.__code__.co_names}
+    instead = {name: _OF_FLOATS.get(f) or of_floats(f) for name, f in named.items() if isinstance(f, FunctionType)}
+    if all(instead[name] is named[name] for name in instead):
+        return law
+    return FunctionType(law.__code__, {**law.__globals__, **instead}, law.__name__, law.__defaults__, law.__closure__)

@@ -16,7 +16,7 @@ from typing import Any, ClassVar, Protocol
 from sandbox.physics.air import DENSITY, VISCOSITY, density_share
 from sandbox.physics.checks import check
 from sandbox.physics.coefficients import Coefficient, Constant, spin_ratio_lift
-from sandbox.physics.elementwise import anywhere, clip
+from sandbox.physics.elementwise import anywhere, clip, of_floats
 from sandbox.physics.of_ball import OfBall, on_ball
 
 Wind = Callable[[float, Any], tuple[Any, Any]]
@@ -121,6 +121,15 @@ class _InAir(OfBall):
         object.__setattr__(self, "_half_density_area", 0.5 * self.density * area)
         object.__setattr__(self, "_reynolds_per_speed", self.density * 2.0 * radius / self.viscosity)
 
+    def of_floats(self) -> Any:
+        """The same, for floats alone."""
+        law = of_floats(self._law)
+        if law is self._law:
+            return self
+        made = object.__new__(type(self))
+        made.__dict__.update(self.__dict__, _law=law)
+        return made
+
     def on(self, ball: Any) -> Any:
         if self.radius is not None:
             if not ball.rotates and self.area is None and not anywhere(self.radius == ball.radius):
@@ -158,14 +167,7 @@ class Drag(_InAir):
 
     def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
         ux, uy = velocity if self.wind is None else in_wind(self.wind, t, position, velocity)
-        speed, coefficient = (ux * ux + uy * uy) ** 0.5, self._law
-        if type(coefficient) is Constant:
-            value = coefficient.value
-        else:
-            spin_ratio = self._radius * abs(spin) / (speed + _ALMOST_ZERO)
-            value = coefficient(self._reynolds_per_speed * speed, spin_ratio)
-        k = -self._half_density_area * value * speed
-        return k * ux, k * uy
+        return through_air(self, None, None, ux, uy, spin)[:2]
 
 
 @dataclass(frozen=True)
@@ -191,12 +193,7 @@ class Magnus(_InAir):
     def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
         wind = None if self.along_ground else self.wind
         ux, uy = velocity if wind is None else in_wind(wind, t, position, velocity)
-        speed = (ux * ux + uy * uy) ** 0.5
-        size = self._radius * abs(spin)
-        spin_ratio = size / (speed + _ALMOST_ZERO)
-        k = self._half_density_area * self._law(self._reynolds_per_speed * speed, spin_ratio) * speed
-        k = k * (self._radius * spin / (size + _ALMOST_ZERO))  # sign of the spin, 0 without spin
-        return -k * uy, k * ux
+        return through_air(None, self, None, ux, uy, spin)[:2]
 
 
 @dataclass(frozen=True)
@@ -289,4 +286,36 @@ class SpinDecay(OfBall):
 
     def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> Any:
         ux, uy = velocity if self.wind is None else in_wind(self.wind, t, position, velocity)
-        return -self._k * (ux * ux + uy * uy) ** 0.5 * spin
+        return through_air(None, None, self, ux, uy, spin)[2]
+
+
+def through_air(
+    drag: Drag | None,
+    lift: Magnus | None,
+    decay: SpinDecay | None,
+    ux: Any,
+    uy: Any,
+    spin: Any,
+    fx: Any = 0.0,
+    fy: Any = 0.0,
+) -> tuple[Any, Any, Any]:
+    """Force in N, with what else acts, fx and fy, and torque in N m, of those that are given, on a ball with this
+    velocity relative to the air."""
+    speed, torque = (ux * ux + uy * uy) ** 0.5, 0.0
+    if drag is not None:
+        law = drag._law
+        if type(law) is Constant:
+            value = law.value
+        else:
+            value = law(drag._reynolds_per_speed * speed, drag._radius * abs(spin) / (speed + _ALMOST_ZERO))
+        k = -drag._half_density_area * value * speed
+        fx, fy = fx + k * ux, fy + k * uy
+    if lift is not None:
+        size = lift._radius * abs(spin)
+        value = lift._law(lift._reynolds_per_speed * speed, size / (speed + _ALMOST_ZERO))
+        k = lift._half_density_area * value * speed
+        k = k * (lift._radius * spin / (size + _ALMOST_ZERO))  # sign of the spin, 0 without spin
+        fx, fy = fx - k * uy, fy + k * ux
+    if decay is not None:
+        torque = -decay._k * speed * spin
+    return fx, fy, torque

@@ -17,6 +17,8 @@ from __future__ import annotations
 from math import sqrt
 from typing import Any
 
+from sandbox.physics.elementwise import clip, maximum
+
 #: Velocity (m/s) and spin (rad/s) of a ball: (vx, vy, wz), on cloth (vx, vy, wz, wx, wy). Floats, or arrays.
 Motion = tuple[Any, ...]
 
@@ -50,3 +52,14 @@ def after_impulse(
         return plane
     wx, wy = rolling
     return (*plane, wx + turn * (sine * along * nx - upward * ny), wy + turn * (sine * along * ny + upward * nx))
+
+
+def exchange(approach: Any, slip: Any, factor: Any, restitution: Any, friction: Any) -> tuple[Any, Any]:
+    """Impulses over the mass, in m/s, away from what a ball hits and along it: ``P = (1 + e) v``, of a speed of
+    approach v, and ``Q = -s k / (1 + k)``, which ends a slip s, but no more than ``mu P``; k is the moment of inertia
+    over m r^2.
+
+    Newton's restitution and Coulomb's friction, as Chipmunk has them for a single contact (cpArbiter.c).
+    """
+    push = maximum((1.0 + restitution) * approach, 0.0)
+    return push, clip(-slip * factor / (1.0 + factor), -friction * push, friction * push)

@@ -50,7 +50,6 @@ from sandbox.kit import (
     State,
     Surface,
     Vector,
-    anywhere,
     apex,
     below,
     cached_per_run,
@@ -66,10 +65,10 @@ from sandbox.kit import (
     rectangle,
     roughly,
     sin,
-    smooth,
     switch,
     where,
 )
+from sandbox.physics.net import NetDrag
 
 
 class Release(Group):
@@ -209,44 +208,13 @@ TIRED = 3.0
 BRACKET_SHARE = 0.5
 
 
-@dataclass(frozen=True)
-class NetDrag:
-    """The net around a ball that passes through: ``F = -m k (4 vx, vy)`` inside a box below the ring, k in 1/s.
-
-    It resists sideways motion more than falling. The force begins and ends over a short distance, so that it has no
-    jumps. All of it is assumed: no measurement of a net was found.
-    """
-
-    #: Sideways over downwards.
-    HOLD = 4.0
-
-    #: The distance in m over which the force begins and ends.
-    EDGE = 0.05
-
-    mass: float  # kg
-    damping: float  # 1/s
-    middle: Vector  # m
-    half_width: float  # m
-    length: float  # m
-
-    @property
-    def force_regions(self) -> list[ForceRegion]:
-        """The region where it acts, and, inside, the one where it does so fully."""
-        (x, y), aside, bottom, edge = self.middle, self.half_width, self.middle[1] - self.length, self.EDGE
-        return [
-            ForceRegion(x - aside - edge, bottom, x + aside + edge, y, step=0.02),
-            ForceRegion(x - aside, bottom + edge, x + aside, y - edge, step=0.02),
-        ]
-
-    def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
-        x, y = position
-        depth = self.middle[1] - y
-        below, beside = minimum(depth, self.length - depth), self.half_width - abs(x - self.middle[0])
-        if not anywhere((below > 0.0) & (beside > -self.EDGE)):
-            return 0.0, 0.0
-        hold = smooth(below / self.EDGE) * smooth(1.0 + beside / self.EDGE)
-        k = -self.mass * self.damping * hold
-        return self.HOLD * k * velocity[0], k * velocity[1]
+def net_regions(net: NetDrag) -> list[ForceRegion]:
+    """The region where a net acts, and, inside, the one where it does so fully."""
+    (x, y), aside, bottom, edge = net.middle, net.half_width, net.middle[1] - net.length, net.EDGE
+    return [
+        ForceRegion(x - aside - edge, bottom, x + aside + edge, y, step=0.02),
+        ForceRegion(x - aside, bottom + edge, x + aside, y - edge, step=0.02),
+    ]
 
 
 def build(parameters: Parameters) -> Setup:
@@ -254,7 +222,7 @@ def build(parameters: Parameters) -> Setup:
     hoop, net, mass = parameters.hoop, parameters.net, parameters.ball.mass
     drag = [NetDrag(mass, net.damping, hoop.middle, 0.5 * hoop.inner_diameter, net.length)] if net.slows else []
     shot = parameters.launched((0.0, parameters.held), *drag)
-    regions = [region for it in drag for region in it.force_regions]
+    regions = [region for it in drag for region in net_regions(it)]
     return Setup([shot], court(parameters), LONGEST, is_tired, force_regions=regions)
 
 

@@ -9,12 +9,13 @@ import numpy as np
 import pytest
 
 from sandbox.engine import simulate
+from sandbox.engine.kernel.step_control import StepLimits, allowed
+from sandbox.engine.many import batch_steps
 from sandbox.engine.model.accuracy import resolve
 from sandbox.engine.model.ball import DISC, HOLLOW_SPHERE, SOLID_SPHERE, Ball
 from sandbox.engine.model.setup import ForceRegion, Setup
 from sandbox.engine.model.surface import Bounce, Circle, Segment, Surface
 from sandbox.engine.motion.forces_on_ball import acceleration_function
-from sandbox.engine.motion.step_control import allowed
 from sandbox.physics.air import LogWind, UniformWind
 from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity, Magnus, SpinDecay
@@ -378,10 +379,11 @@ def test_a_step_ends_at_a_border_reached_only_by_falling():
     ball = Ball("ball", 1.0, 0.1, (0.0, 2.0), forces=[Gravity(G)])
     setup = Setup([ball], duration=1.0, force_regions=[net])
     fallen = sqrt(2.0 * 1.0 / G)
-    assert allowed(setup, ball, 0.0, 0.5, (0.0, 2.0, 0.0, 0.0, 0.0), (0.0, -G, 0.0)) == pytest.approx(fallen, rel=1e-12)
+    limits, start = StepLimits.of(setup, ball), (0.0, 2.0, 0.0, 0.0, 0.0)
+    assert allowed(limits, 0.0, 0.5, start, (0.0, -G, 0.0)) == pytest.approx(fallen, rel=1e-12)
     state, acceleration = np.zeros((5, 2)), np.zeros((3, 2))
     state[1], acceleration[1] = (2.0, 9.0), -G
-    steps = allowed(setup, ball, np.zeros(2), np.full(2, 0.5), state, acceleration)
+    steps = batch_steps.allowed(limits, np.zeros(2), np.full(2, 0.5), state, acceleration)
     assert steps.tolist() == pytest.approx([fallen, 0.5], rel=1e-12)
 
 

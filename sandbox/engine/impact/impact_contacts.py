@@ -14,6 +14,7 @@ from sandbox.engine.contact.surfaces import (
     tilted,
 )
 from sandbox.engine.impact.impulses import ImpactContact, after_contact_of_bodies, disc_on_ground
+from sandbox.engine.kernel.flight import after_impact
 from sandbox.engine.model.ball import Ball
 from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.surface import Bounce, Surface
@@ -56,9 +57,14 @@ def after_single_contact(balls: Sequence[Ball], states: Sequence[State], contact
     whole slip."""
     if not all_round(*balls):
         return list(after_contact_of_bodies(balls, dict(enumerate(states)), contact, contact.bounce)[0].values())
+    approach, along, upward = contact.speeds
+    if len(balls) == 1 and upward == 0.0:
+        (ball,), (state,), (nx, ny) = balls, states, (contact.nx, contact.ny)
+        exchange = disc_on_ground().exchange
+        motion = after_impact(state[2:], nx, ny, ball, (approach, along), contact.bounce, exchange, contact.sine)
+        return [(*state[:2], *motion)]
     mobility = sum([1.0 / ball.mass for ball in balls])  # 1/kg
     turning = sum([1.0 / (ball.mass * ball.inertia_factor) for ball in balls])
-    approach, along, upward = contact.speeds
     slip = hypot(along, upward)
     restitution, friction, _, tangential = contact.bounce
     wanted = (1.0 + tangential) * slip  # ending that much slip is reversing a share of what there is

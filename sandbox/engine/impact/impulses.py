@@ -95,7 +95,8 @@ class DiscOnGround:
             self._space.iterations = _enough(inertia, arm, friction)
         x, y = -arm[0], -arm[1] - OVERLAP
         try:
-            body.angle = 0.0
+            if arm is not _DOWN:
+                body.angle = 0.0  # in which the offset is
             body.position, body.velocity, body.angular_velocity = (x, y), (slip, -approach), 0.0
             self._space.step(INSTANT)
             along, away = body.velocity

@@ -14,11 +14,13 @@ from typing import Any
 
 import numpy as np
 
+from sandbox.engine.kernel.step_control import StepControl, StepLimits
 from sandbox.engine.many.arc_rows import END, START, T0, T1, X, Y, arc_of, cut, stepped
 from sandbox.engine.many.batch_contact import BatchContacts
 from sandbox.engine.many.batch_forces import NotVectorizable, accelerations, check_forces
 from sandbox.engine.many.batch_impacts import BatchImpacts
 from sandbox.engine.many.batch_record import QUERIES, REFINED, STEPS, BatchRecord
+from sandbox.engine.many.batch_steps import allowed, attempt, shortest
 from sandbox.engine.many.continuation import ENDED, BatchExit, ExitReason
 from sandbox.engine.many.flown import Flown
 from sandbox.engine.many.in_flight import InFlight
@@ -27,7 +29,6 @@ from sandbox.engine.many.stacking import FEWEST, Stack, selector
 from sandbox.engine.model.accuracy import Accuracy
 from sandbox.engine.model.setup import Setup, Until
 from sandbox.engine.model.tolerances import CLOSING, NEGLIGIBLE_OVERLAP
-from sandbox.engine.motion.step_control import StepControl, allowed, shortest
 from sandbox.engine.paths.arc import hermite_arc
 
 #: Fields of a setup that are combined for flights together; their ``until`` is called for each.
@@ -136,10 +137,11 @@ class Batch:
         arcs as columns, and where on them a slide or a roll ends, as u."""
         flying, counts = self._flying, self._record.counts
         h = np.minimum(flying.next_step, flying.setup.duration - flying.t)
-        longest = allowed(flying.setup, flying.setup.balls[0], flying.t, h, flying.state, known)
+        ball = flying.setup.balls[0]
+        longest = allowed(StepLimits.of(flying.setup, ball), flying.t, h, flying.state, known)
         h = np.where(flying.repeats, flying.next_step, longest)
-        fits, following, after, last = self._control.attempt(
-            self._step, flying.t, flying.state, known, h, flying.next_step, flying.setup.balls[0].radius
+        fits, following, after, last = attempt(
+            self._control, self._step, flying.t, flying.state, known, h, flying.next_step, ball.radius
         )
         flying.repeats = ~fits
         counts[STEPS, flying.shot] += 1

@@ -101,7 +101,7 @@ class BatchContacts:
             here = rows[:, place[lanes]]
             x, y, vx, vy, spin = (here[part] for part in CURVES)
             end: Any = here[END]
-            applied = accelerations(acceleration_function(ball), here[T1], end)
+            applied = accelerations(acceleration_function(ball, floats=False), here[T1], end)
             _, normal, grip_margin = contact.forces(ball, applied, end)
             progress = contact.progress(ball, (x, y, vx, vy, elevated(spin, len(vx) - 1)))
             u, unclear = first_downward_crossing(progress)

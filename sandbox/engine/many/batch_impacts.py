@@ -1,4 +1,4 @@
-"""Impacts of many shots, each on one surface: pymunk exchanges their impulses together."""
+"""Impacts of many shots, each on one surface."""
 
 from __future__ import annotations
 
@@ -11,12 +11,11 @@ from sandbox.engine.contact.touch import SIDE
 from sandbox.engine.many.batch_forces import raise_if_ctrl_c
 from sandbox.engine.many.batch_record import IMPACTS, BatchRecord
 from sandbox.engine.many.continuation import ExitReason
-from sandbox.engine.many.impulse_lanes import lanes_for
 from sandbox.engine.many.in_flight import InFlight
 from sandbox.engine.many.outlines import BatchSurfaces
 from sandbox.engine.model.event import Event
 from sandbox.engine.model.tolerances import CLOSING
-from sandbox.physics.impulse import after_impulse, surface_speeds
+from sandbox.physics.impulse import after_impulse, exchange, surface_speeds
 from sandbox.physics.integrators import Acceleration
 
 
@@ -35,7 +34,7 @@ class BatchImpacts:
         )  # of all shots: m, of m R^2, kg
 
     def collide(self, lanes: np.ndarray) -> None:
-        """Let pymunk change the velocities of shots that touch a surface."""
+        """Change the velocities of shots that touch a surface."""
         flying = self._flying
         shots = flying.shot[lanes]
         x, y, vx, vy, _ = flying.state[:, lanes]
@@ -85,6 +84,6 @@ class BatchImpacts:
         motion, shots = tuple(self._flying.state[2:, lanes]), self._flying.shot[lanes]
         r, factor = self._radius[shots], self._factor[shots]
         approach, slip, _ = surface_speeds(motion, nx, ny, r)
-        pairs = np.column_stack((bounces[:, :2], factor))
-        push, rub = lanes_for(len(lanes)).exchange(approach, (1.0 + bounces[:, 3]) * slip, pairs)
+        restitution, friction, _, tangential = bounces.T
+        push, rub = exchange(approach, (1.0 + tangential) * slip, factor, restitution, friction)
         return after_impulse(motion, nx, ny, r, factor, (push + kick / self._mass[shots], rub, 0.0))

@@ -10,7 +10,7 @@ from sandbox.engine.model.event import Event
 from sandbox.engine.motion.sustained_contact import SustainedContact
 from sandbox.engine.paths.arc import Arc, resting_arc
 from sandbox.engine.paths.run import Run
-from sandbox.engine.simulation import Simulation
+from sandbox.engine.single_flight import FlightSimulation
 from sandbox.physics.integrators import State
 
 
@@ -60,7 +60,7 @@ class BatchExit(NamedTuple):
     arcs: list[Arc]  # the last one, if there is any and it is to be continued
 
 
-class Continuation(Simulation):
+class Continuation(FlightSimulation):
     """A run of one ball that a batch has begun."""
 
     def resume(self, left: BatchExit, events: list[Event]) -> Run:

@@ -29,7 +29,7 @@ class InFlight:
         self.setup, count = setups.whole, len(setups)  # of those that are still in the batch, with arrays for numbers
         self._select = selector(self.setup)
         ball = self.setup.balls[0]
-        self.acceleration_at = acceleration_function(ball)
+        self.acceleration_at = acceleration_function(ball, floats=False)
         self.shot = np.arange(count)  # index of its setup
         self.t = np.zeros(count)  # s
         self.state: Any = np.array([np.broadcast_to(part, count) for part in self.setup.start_of(ball)], float)
@@ -54,7 +54,7 @@ class InFlight:
         for name in _ARRAYS:
             setattr(self, name, getattr(self, name)[..., staying])
         self.setup = self._select(self.shot)
-        self.acceleration_at = acceleration_function(self.setup.balls[0])
+        self.acceleration_at = acceleration_function(self.setup.balls[0], floats=False)
 
     def ball_of(self, shots: np.ndarray) -> Ball:
         """The ball of these shots, with arrays for numbers."""

@@ -12,7 +12,6 @@ from sandbox.engine.model.ball import Ball
 from sandbox.engine.model.setup_errors import call_user_function
 from sandbox.engine.model.surface import ELASTIC, BounceLaw, Circle, Segment, Surface, Trap
 from sandbox.physics.checks import check, short, with_fields_named
-from sandbox.physics.elementwise import maximum, minimum
 from sandbox.physics.hertz import PHENOLIC
 
 if TYPE_CHECKING:
@@ -35,15 +34,6 @@ class ForceRegion(NamedTuple):
     right: float  # m
     top: float  # m
     step: float  # s
-
-    def crossed(self, x: tuple[Any, ...], y: tuple[Any, ...]) -> Any:
-        """Return True if a path inside the hull of these points could cross the region; coordinates in m."""
-        beside = (minimum(*x) > self.right) | (maximum(*x) < self.left)
-        return (beside | (minimum(*y) > self.top) | (maximum(*y) < self.bottom)) ^ True
-
-    def holds(self, x: Any, y: Any) -> Any:
-        """Return True if a place in m is inside."""
-        return (self.left < x) & (x < self.right) & (self.bottom < y) & (y < self.top)
 
 
 class Bounds(NamedTuple):

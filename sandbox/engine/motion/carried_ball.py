@@ -14,9 +14,9 @@ from sandbox.engine.contact.driven import Frame, MovingObstacle, PosedObstacle
 from sandbox.engine.contact.manifold import relative
 from sandbox.engine.contact.surfaces import press, takeoff_speed
 from sandbox.engine.contact.touch import Near, Obstacle
+from sandbox.engine.kernel.event_kind import EventKind
 from sandbox.engine.model.setup_errors import failed
 from sandbox.engine.model.tolerances import PUSH
-from sandbox.engine.motion.event_kind import EventKind
 from sandbox.engine.motion.moving_ball import MovingBall
 from sandbox.engine.motion.rest import AHEAD, first_change
 from sandbox.engine.motion.sustained_contact import SustainedContact, rest_margin

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import is_dataclass
 from math import isfinite
+from types import FunctionType, MethodType
 from typing import Any
 
 from sandbox.engine.model.ball import Ball
 from sandbox.engine.model.setup_errors import failed, is_from_inside
 from sandbox.errors import RunError
-from sandbox.physics.forces import Gravity
+from sandbox.physics.elementwise import of_floats
+from sandbox.physics.forces import Drag, Gravity, Magnus, SpinDecay, Wind, in_wind, through_air
 from sandbox.physics.integrators import Acceleration, AccelerationFunction, State
 
 #: Everyday names of causes.
@@ -32,28 +34,43 @@ def _position(state: State) -> tuple[Any, Any]:
     return position
 
 
-def acceleration_function(ball: Ball) -> AccelerationFunction:
-    """Return the acceleration of a ball in flight from its forces and torques, in m/s^2 and rad/s^2, by time and state.
+def acceleration_function(ball: Ball, floats: bool = True) -> AccelerationFunction:
+    """Return the acceleration of a ball in flight from its forces and torques, in m/s^2 and rad/s^2, by time and state:
+    of ``floats``, or of arrays for many shots.
 
     It raises RunError if one of them returns anything but real numbers, or arrays for many shots.
     """
     mass, inertia = ball.mass, ball.inertia
     rotates, loses_mass = ball.rotates, ball.loss is not None
-    constant = [force(0.0, (0.0, 0.0), (0.0, 0.0), 0.0) for force in ball.forces if _is_constant(force)]
-    constant_x, constant_y = (sum(parts) for parts in zip((0.0, 0.0), *constant, strict=True))
-    forces = [_called(force) for force in ball.forces if not _is_constant(force)]
-    torques = [_called(torque) for torque in ball.torques]
+    drag, lift, decay, wind = _in_one_wind(ball)
+    constant_x = constant_y = 0.0
+    forces, torques = [], [_called(torque, floats) for torque in ball.torques if torque is not decay]
+    for force in ball.forces:
+        if _is_constant(force):
+            gx, gy = force(0.0, (0.0, 0.0), (0.0, 0.0), 0.0)
+            constant_x, constant_y = constant_x + gx, constant_y + gy
+        elif force is not drag and force is not lift:
+            forces.append(_called(force, floats))
+    in_air = drag is not None or lift is not None or decay is not None
+    if floats:
+        drag = None if drag is None else drag.of_floats()
+        lift = None if lift is None else lift.of_floats()
+        wind = None if wind is None else _called(wind, floats)
 
     def acceleration(t: Any, state: State) -> Acceleration:
         try:
             x, y, vx, vy, spin = state[:5] if rotates else state
-            position, velocity = _position(state) if rotates else (x, y), (vx, vy)
             fx, fy, torque = constant_x, constant_y, 0.0
-            for force in forces:
-                gx, gy = force(t, position, velocity, spin)
-                fx, fy = fx + gx, fy + gy
-            for turning in torques:
-                torque = torque + turning(t, position, velocity, spin)
+            if in_air:
+                ux, uy = (vx, vy) if wind is None else in_wind(wind, t, (x, y), (vx, vy))
+                fx, fy, torque = through_air(drag, lift, decay, ux, uy, spin, fx, fy)
+            if forces or torques:
+                position, velocity = _position(state) if rotates else (x, y), (vx, vy)
+                for force in forces:
+                    gx, gy = force(t, position, velocity, spin)
+                    fx, fy = fx + gx, fy + gy
+                for turning in torques:
+                    torque = torque + turning(t, position, velocity, spin)
             if not isinstance(fx + fy + torque, float) and isinstance(spin, float):
                 raise force_error(ball, t, state)
             if loses_mass:
@@ -68,9 +85,36 @@ def acceleration_function(ball: Ball) -> AccelerationFunction:
     return acceleration
 
 
-def _called(term: Any) -> Any:
-    """Return a force or torque as Python calls it fastest: the bound ``__call__`` of one that is data."""
-    return term.__call__ if callable(term) and is_dataclass(type(term)) else term
+def _in_one_wind(ball: Ball) -> tuple[Drag | None, Magnus | None, SpinDecay | None, Wind | None]:
+    """The drag, lift and spin decay of a ball that are in one wind, and so are computed together; and the wind. They
+    come first of all that is not constant, in this order: the sum of all is the same, to its last digit."""
+    drag: Drag | None = None
+    lift: Magnus | None = None
+    decay: SpinDecay | None = None
+    winds: list[Wind | None] = []
+    forces: list[Any] = [] if ball.rotates else [force for force in ball.forces if not _is_constant(force)]
+    torques: list[Any] = [] if ball.rotates else [*ball.torques]
+    if forces and type(forces[0]) is Drag:
+        winds.append(forces[0].wind)
+        drag = forces.pop(0)
+    if forces and type(forces[0]) is Magnus:
+        wind = None if forces[0].along_ground else forces[0].wind
+        if not winds or winds[0] is wind:
+            lift = forces[0]
+            winds.append(wind)
+    if torques and type(torques[0]) is SpinDecay and (not winds or winds[0] is torques[0].wind):
+        winds.append(torques[0].wind)
+        decay = torques[0]
+    return drag, lift, decay, winds[0] if winds else None
+
+
+def _called(term: Any, floats: bool) -> Any:
+    """Return a force, torque or wind as Python calls it fastest: the ``__call__`` of one that is data, bound to it, for
+    ``floats`` or also for arrays."""
+    if not callable(term) or not is_dataclass(type(term)):
+        return term
+    called = type(term).__call__
+    return MethodType(of_floats(called), term) if floats and isinstance(called, FunctionType) else term.__call__
 
 
 def _is_constant(force: Any) -> bool:

@@ -6,21 +6,22 @@ the surface adds a force, so a roll is as accurate as a flight.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from math import hypot
 from typing import Any, Self
 
 from sandbox.engine.contact.driven import MovingObstacle
 from sandbox.engine.contact.surfaces import press, takeoff_speed
 from sandbox.engine.contact.touch import Near, Obstacle, flush, touched
+from sandbox.engine.kernel.event_kind import EventKind
+from sandbox.engine.kernel.flight import QUINTIC, Exchange, FirstTouch, Flight, NoteImpact
+from sandbox.engine.kernel.step_control import StepControl, StepLimits, allowed
 from sandbox.engine.model.accuracy import Accuracy
 from sandbox.engine.model.ball import Ball
 from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.tolerances import AT_DISCONTINUITY, CLOSING, PUSH, STARTING, STILL, TOUCHING_GAP
-from sandbox.engine.motion.event_kind import EventKind
 from sandbox.engine.motion.forces_on_ball import acceleration_function, force_error
 from sandbox.engine.motion.rest import rest_end
-from sandbox.engine.motion.step_control import StepControl, allowed, shortest
 from sandbox.engine.motion.sustained_contact import BECOMES, SustainedContact, motion_on, wedged
 from sandbox.engine.paths.arc import Arc, crossing, hermite_arc, resting_arc
 from sandbox.engine.paths.phase import Phase
@@ -62,7 +63,7 @@ class MovingBall:
         self._numerics = numerics
         self._control = StepControl(accuracy)
         self._prepare()
-        self._known: tuple[State, Acceleration] = ((), (0.0, 0.0, 0.0))  # the end of the last step: the next start
+        self.known: tuple[State, Acceleration] = ((), (0.0, 0.0, 0.0))  # the end of the last step: the next start
         self._slips = False  # it has just lost its grip
         self.next_step = self._control.first  # s, to try
 
@@ -83,7 +84,7 @@ class MovingBall:
     def change(self, ball: Ball, setup: Setup) -> None:
         """Be this ball from now on, in this setup."""
         self.ball, self._setup = ball, setup
-        self._known = (), (0.0, 0.0, 0.0)
+        self.known = (), (0.0, 0.0, 0.0)
         self._prepare()
 
     def place(self, t: float, state: State) -> None:
@@ -114,6 +115,19 @@ class MovingBall:
             return obstacle.first_touch_of(self.ball, arc)
         u = obstacle.first_touch(arc)
         return None if u is None else arc.t0 + u * (arc.t1 - arc.t0)
+
+    @property
+    def flies(self) -> bool:
+        """True if it is on an arc in flight."""
+        return self.contact is None and self.arc.contact is None and len(self.arc.x) == QUINTIC
+
+    def flight(
+        self, exchange: Exchange, first_touch: FirstTouch, check: Callable[[float], None], note_impact: NoteImpact
+    ) -> Flight:
+        """What it takes to follow its flight."""
+        setup, limits, settle = self._setup, StepLimits.of(self._setup, self.ball), self._accuracy.settle
+        own = setup, self._control, limits, settle, self._acceleration_at, self._step, self._numerics
+        return Flight(*own, exchange, first_touch, check, note_impact)
 
     @property
     def predicted_path(self) -> Arc:
@@ -213,11 +227,11 @@ class MovingBall:
         """Return True if it would come to rest where it is, under this acceleration at t."""
         if self.contact is None:
             return not any(applied)
-        before = self.state, self.contact, self._known
+        before = self.state, self.contact, self.known
         self.contact = None
         self._stay(self.near(t, *self.state[:2]), applied, False, self._accuracy.settle, leaves=PUSH)
         phase = Phase.FREE if self.contact is None else self.contact.phase
-        self.state, self.contact, self._known = before
+        self.state, self.contact, self.known = before
         return phase is Phase.RESTING
 
     def _under(self, acceleration_at: AccelerationFunction, t: float, until: float) -> Arc:
@@ -228,29 +242,25 @@ class MovingBall:
 
     def _integrate(self, t: float, until: float, acceleration_at: AccelerationFunction, step: Method) -> Arc:
         state, contact = self.state, self.contact
-        known, acceleration = self._known
+        known, acceleration = self.known
         if known is not state:
             acceleration = acceleration_at(t, state)
             self._numerics.force_evaluations += 1
         wanted = self.next_step
-        h = allowed(self._setup, self.ball, t, min(wanted, until - t), state, acceleration)
+        h = allowed(StepLimits.of(self._setup, self.ball), t, min(wanted, until - t), state, acceleration)
         if contact is not None:
             h = min(h, contact.longest(state))
-        ball, control = self.ball, self._control
-        while True:
-            fits, following, end, last = control.attempt(step, t, state, acceleration, h, wanted, ball.radius)
-            self._numerics.steps += 1
-            self._numerics.force_evaluations += control.evaluations
-            if fits:
-                break
-            if following < shortest(t):
-                self._check(t + h, end)
-                raise force_error(ball, t + h, end, _TOO_FAST.format(h))
-            self._numerics.refined_steps += 1
-            h = wanted = following
+        ball, control, numerics = self.ball, self._control, self._numerics
+        fits, tries, h, following, end, last = control.advance(step, t, state, acceleration, h, wanted, ball.radius)
+        numerics.steps += tries
+        numerics.refined_steps += tries - 1
+        numerics.force_evaluations += tries * control.evaluations
+        if not fits:
+            self._check(t + h, end)
+            raise force_error(ball, t + h, end, _TOO_FAST.format(h))
         self.next_step = following
         self._check(t + h, end)
-        self._known = (end, last)
+        self.known = (end, last)
         return hermite_arc(t, h, state, acceleration, end, last, contact)
 
     def _check(self, t: float, after: State) -> None:
@@ -317,7 +327,7 @@ class MovingBall:
                 kept.append((obstacle, touch))
                 hardest = max(hardest, by)
         if not kept:
-            self._known = self.state, applied
+            self.known = self.state, applied
             return
         first = min(kept, key=lambda near: vx * near[1].nx + vy * near[1].ny)[1]
         together = [(obstacle, touch) for obstacle, touch in kept if flush(touch, first)]

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from math import inf, isfinite
 
 from sandbox.engine.contact.touch import Obstacle
+from sandbox.engine.kernel.event_kind import EventKind
 from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.setup_errors import failed
-from sandbox.engine.motion.event_kind import EventKind
 from sandbox.engine.motion.leaning import Leaning
 from sandbox.engine.motion.moving_ball import MovingBall
 from sandbox.engine.paths.arc import Arc, crossing
@@ -64,7 +64,7 @@ class OnPlane(MovingBall):
         plane = self._setup.plane_of(self.ball.name)
         law, low, high = strip(plane, state)
         if law is not self._on:
-            self._on, self._known = law, ((), (0.0, 0.0, 0.0))
+            self._on, self.known = law, ((), (0.0, 0.0, 0.0))
         phase = self._phase_from(law, t)
         if phase.mode is PlaneMode.RESTING:
             self._numerics.steps += 1

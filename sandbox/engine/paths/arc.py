@@ -152,20 +152,18 @@ def hermite_arc(
     one."""
     x0, y0, vx0, vy0, w0 = start[:5]
     x1, y1, vx1, vy1, w1 = end[:5]
-    ax0, ay0, al0, *rolling = acceleration
-    ax1, ay1, al1, *end_rolling = end_acceleration
-    p = 0.2 * h
-    q = 0.05 * h * h
-    quarter = 0.25 * h
-    third = h / 3.0
+    ax0, ay0, al0 = acceleration[:3]
+    ax1, ay1, al1 = end_acceleration[:3]
+    p, q, quarter, third = 0.2 * h, 0.05 * h * h, 0.25 * h, h / 3.0
     mx = 5.0 * (x1 - x0) / h - 2.0 * (vx0 + vx1) + quarter * (ax1 - ax0)
     my = 5.0 * (y1 - y0) / h - 2.0 * (vy0 + vy1) + quarter * (ay1 - ay0)
     if not isinstance(h, float) or h <= _SHORT:
         mx = where(h > _SHORT, mx, 0.5 * (vx0 + vx1 + third * (ax0 - ax1)))
         my = where(h > _SHORT, my, 0.5 * (vy0 + vy1 + third * (ay0 - ay1)))
+    xp0, yp0, xp1, yp1 = p * vx0, p * vy0, p * vx1, p * vy1
     curves: tuple[Sequence[Any], ...] = (
-        (x0, x0 + p * vx0, x0 + 2.0 * p * vx0 + q * ax0, x1 - 2.0 * p * vx1 + q * ax1, x1 - p * vx1, x1),
-        (y0, y0 + p * vy0, y0 + 2.0 * p * vy0 + q * ay0, y1 - 2.0 * p * vy1 + q * ay1, y1 - p * vy1, y1),
+        (x0, x0 + xp0, x0 + 2.0 * xp0 + q * ax0, x1 - 2.0 * xp1 + q * ax1, x1 - xp1, x1),
+        (y0, y0 + yp0, y0 + 2.0 * yp0 + q * ay0, y1 - 2.0 * yp1 + q * ay1, y1 - yp1, y1),
         (vx0, vx0 + quarter * ax0, mx, vx1 - quarter * ax1, vx1),
         (vy0, vy0 + quarter * ay0, my, vy1 - quarter * ay1, vy1),
         (w0, w0 + third * al0, w1 - third * al1, w1),
@@ -176,8 +174,8 @@ def hermite_arc(
         curves = (*curves[:4], spin, angle)
     elif len(start) == 7:  # rolling spins, which change evenly unless their rates are given
         ends_of_spins = zip(start[5:], end[5:], strict=True)
-        if rolling:
-            rates = zip(rolling, end_rolling, strict=True)
+        if len(acceleration) > 3:
+            rates = zip(acceleration[3:], end_acceleration[3:], strict=True)
             spins = [(w, w + third * a, v - third * b, v) for (w, v), (a, b) in zip(ends_of_spins, rates, strict=True)]
             curves = (*curves, *spins)
         else:

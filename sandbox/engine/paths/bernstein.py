@@ -161,23 +161,17 @@ def _sign_changes(b: Sequence[float]) -> tuple[int, float]:
     return changes, last
 
 
-def _value_and_slope(b: Sequence[float], slopes: Sequence[float], u: float) -> tuple[float, float]:
-    """Return f and df/du, both over (1 - u)^(n - 1) or u^(n - 1)."""
-    w = 1.0 - u
-    if u <= w:
-        r = u / w
-        return _horner(b[::-1], r) * w, _horner(slopes[::-1], r)
-    r = w / u
-    return _horner(b, r) * u, _horner(slopes, r)
-
-
 def _single_root(b: Sequence[float]) -> float:
     """Return the root of a polynomial with exactly one in [0, 1], where it falls: Newton, kept inside a bracket."""
-    slopes = derivative(b)
-    low, high = 0.0, 1.0
+    slopes, low, high = derivative(b), 0.0, 1.0
+    back, slopes_back = b[::-1], slopes[::-1]
     u = b[0] / (b[0] - b[-1]) if b[0] > 0.0 > b[-1] else 0.5
     for _ in range(100):
-        value, fall = _value_and_slope(b, slopes, u)
+        w = 1.0 - u  # f and df/du, both over w^(n - 1) or u^(n - 1)
+        if u <= w:
+            value, fall = _horner(back, u / w) * w, _horner(slopes_back, u / w)
+        else:
+            value, fall = _horner(b, w / u) * u, _horner(slopes, w / u)
         if value == 0.0 and fall < 0.0:
             return u
         if value < 0.0:

@@ -23,7 +23,6 @@ from sandbox.engine.impact.impulses import DiscOnGround, ImpactContact, after_co
 from sandbox.engine.many import batch
 from sandbox.engine.many.arc_rows import ArcRows, Paths
 from sandbox.engine.many.continuation import BatchExit, Continuation, ExitReason
-from sandbox.engine.many.impulse_lanes import MANY, Lanes
 from sandbox.engine.many.outlines import BatchSurfaces
 from sandbox.engine.many.stacking import NotStackable, Stack, selector, stacked
 from sandbox.engine.model.accuracy import resolve
@@ -39,7 +38,7 @@ from sandbox.engine.paths.run import Run
 from sandbox.errors import ExitCalled, RunError
 from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity
-from sandbox.physics.impulse import after_impulse
+from sandbox.physics.impulse import after_impulse, exchange
 from sandbox.scene import listings, load
 
 #: Positions and times before the first impact, in m and s.
@@ -532,7 +531,7 @@ def test_an_impact_is_the_same_in_any_lane_and_place(motions: list[tuple[float, 
     rng = np.random.default_rng(len(motions))
     answers = rng.uniform((0.0, 0.0, 0.3), (1.0, 1.5, 1.0), (len(motions), 3))
     slips, disc = along + radius * spin, DiscOnGround()
-    together = Lanes(MANY).exchange(-away, slips, answers)
+    together = np.array(exchange(-away, slips, answers[:, 2], answers[:, 0], answers[:, 1]))
     for i, (restitution, friction, factor) in enumerate(answers.tolist()):
         size = abs(along[i]) + abs(away[i]) + radius * abs(spin[i])
         push, rub = disc.exchange(-away[i], slips[i], factor, restitution, friction)

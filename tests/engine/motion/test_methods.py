@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 from sandbox.engine import simulate, simulate_many
+from sandbox.engine.kernel.step_control import StepControl
 from sandbox.engine.model.accuracy import LEVELS, Accuracy, resolve
 from sandbox.engine.model.ball import Ball
 from sandbox.engine.model.setup import ForceRegion, Setup
 from sandbox.engine.model.surface import Segment, Surface
 from sandbox.engine.motion.forces_on_ball import acceleration_function
-from sandbox.engine.motion.step_control import StepControl
 from sandbox.engine.paths.run import Run
 from sandbox.lab import timing
 from sandbox.lab import trade as lab

@@ -1,0 +1,1 @@
+"""One ball among fixed surfaces, in floats: length of steps, flight from event to event, plain impacts."""
