@@ -35,14 +35,14 @@ def simulate(setup: Setup, accuracy: Accuracy, progress: Callable[[float, float]
 
 
 def simulate_many(setups: Sequence[Setup], accuracy: Accuracy) -> Iterator[Run | Exception]:
-    """Yield a run of each setup, in order, or the exception it ended with.
+    """Return an iterator over the run of each setup, in order, or the exception it ended with.
 
     Setups of one ball in flight that differ only in numbers are computed together, with the results of ``simulate`` to
     rounding; their forces are then called with arrays of shape (n,) for time, position, velocity and spin. If there are
     others among them, or forces that cannot take arrays, all run one at a time.
     """
     together = simulate_together(setups, accuracy)
-    yield from (_run_or_error(setup, accuracy) for setup in setups) if together is None else together
+    return (_run_or_error(setup, accuracy) for setup in setups) if together is None else iter(together)
 
 
 def simulate_together(setups: Sequence[Setup], accuracy: Accuracy) -> Flown | None:
