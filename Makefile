@@ -6,9 +6,7 @@ BIN := .venv/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --no-compile --constraint constraints.txt
 unexport PYTHONDONTWRITEBYTECODE
 
-SCENES := $(patsubst scenes/%/scene.py,%,$(wildcard scenes/*/scene.py))
-
-.PHONY: run play test lint format schemas lists pictures gallery bench wheel clean
+.PHONY: run play test lint format lists pictures gallery bench wheel clean
 
 run: .venv/ready
 	@mkdir -p out
@@ -30,12 +28,8 @@ format: .venv/ready-dev
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
 
-# With these, editors complete and check scene files.
-schemas: .venv/ready
-	@set -e; for scene in $(SCENES); do $(BIN)/sandbox schema $$scene > scenes/$$scene/$$scene.schema.json; done
-
-# What follows from the code: the schemas, and the lists in pages.
-lists: schemas
+# What follows from the code: the schemas by which editors complete and check scene files, and lists in pages.
+lists: .venv/ready
 	$(BIN)/python -m docs.lists
 
 pictures: .venv/ready-dev

@@ -1,12 +1,14 @@
-"""Writes the lists in pages that follow from the code: ``python -m docs.lists``; a test holds the pages against them.
+"""Writes what follows from the code: the JSON schemas of the scenes, and lists in pages: ``make lists``. Tests hold the
+files against it.
 
-Each stands between two comments, ``<!-- coefficients -->`` and ``<!-- end -->`` such as.
+A list stands between two comments, such as ``<!-- coefficients -->`` and ``<!-- end -->``.
 """
 
 from __future__ import annotations
 
 import ast
 import inspect
+import json
 import re
 import textwrap
 import tomllib
@@ -18,6 +20,7 @@ from sandbox.parameters import Group, groups_of
 from sandbox.physics.coefficients import ANY, Coefficient, Laws, Origin, Range
 from sandbox.scene import parameters_of
 from sandbox.scene.finding import docstring, installed_folders
+from sandbox.schema import json_schema
 from sandbox.text import counted
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -142,5 +145,8 @@ def page_with_lists(page: Path) -> str:
 
 
 if __name__ == "__main__":
+    for name, folder in scenes():
+        schema = json_schema(parameters_of(folder)[1], name)
+        (folder / f"{name}.schema.json").write_text(json.dumps(schema, indent=2) + "\n", "utf-8")
     for page in LISTS:
         page.write_text(page_with_lists(page), "utf-8")
