@@ -21,7 +21,7 @@ from sandbox.physics.coefficients import ANY, Coefficient, Laws, Origin, Range
 from sandbox.scene import parameters_of
 from sandbox.scene.finding import docstring, installed_folders
 from sandbox.schema import json_schema
-from sandbox.text import counted
+from sandbox.text import with_noun
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -40,7 +40,7 @@ def sports() -> Iterator[str]:
     for name, folder in scenes():
         kinds = {"preset": "presets/*.toml", "task": "tasks/*.toml", "game": "games/[a-z]*.py"}
         numbers = {kind: len(list(folder.glob(pattern))) for kind, pattern in kinds.items()}
-        has = ", ".join(counted(number, kind) for kind, number in numbers.items() if number)
+        has = ", ".join(with_noun(number, kind) for kind, number in numbers.items() if number)
         yield f"| [{name}](scenes/{name}/scene.py) | {docstring(folder / 'scene.py')} | {has} |"
 
 
