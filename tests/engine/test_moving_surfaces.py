@@ -415,6 +415,14 @@ def test_a_body_bounces_off_what_moves_and_is_not_carried():
         simulate(Setup([crate], [plate], duration=5.0), resolve(level="balanced"))
 
 
+def test_a_crate_that_slides_onto_a_belt_is_refused_at_the_seam():
+    floor = Surface("floor", Segment((-5.0, 0.0), (0.0, 0.0)), 0.2, 0.3)
+    belt = Moving(Surface("belt", Segment((0.0, 0.0), (9.0, 0.0)), 0.2, 0.5), Sliding((-1.0, 0.0)))
+    crate = Body("crate", (-1.0, 0.15), (3.0, 0.0), shape=box(0.4, 0.3), mass=2.0, forces=[Gravity(2.0, G)])
+    with pytest.raises(RunError, match=r"t = 0.22\d*.*it stays on 'belt'"):  # when its front is over it
+        simulate(Setup([crate], [floor, belt], duration=1.5), resolve())
+
+
 def test_a_setup_with_motions_is_data():
     surface = Moving(
         Surface("gate", PLATE, 0.5, 0.3), InTurn([(0.0, Sliding()), (1.0, Swinging((0.0, 0.0), 0.0, 2.0, -pi))])

@@ -93,14 +93,14 @@ class Heap:
     def __init__(self, setup: Setup, movers: Sequence[MovingBall], accuracy: Accuracy, numerics: Numerics) -> None:
         self._setup = setup
         self._movers = movers
-        self._longest = accuracy.step
-        self._settle = accuracy.settle
+        self._longest, self._settle = accuracy.step, accuracy.settle
         self._numerics = numerics
         self._members: dict[int, Member] = {}
         self._pressed: dict[frozenset[int], float] = {}  # s, when two balls pressed on each other last
         self._resting: dict[int, set[int]] = {}  # balls at rest, each with its heap
         self._forced = 0.0  # m/s^2, the largest acceleration by forces, or of a point of a body that turns
         self._fastest = 0.0  # m/s, approach in the heap that is no impact of its own
+        self._some_move = any(surface.motion is not None for surface in setup.surfaces)
         self._thin = min(map(thickness, setup.balls))  # m
         self._coarser = 1.0 if all_round(*setup.balls) else (accuracy.tolerance / _TOLERANCE) ** 0.25
         self._share = _STEP if all_round(*setup.balls) else _STEP_OF_BODIES * self._coarser
@@ -108,8 +108,7 @@ class Heap:
         self._t = 0.0  # s, the start of this step
         self._cut_short = 0  # steps in a row that an impact cut short at once
         self.margin = _MARGIN * min(ball.radius for ball in setup.balls)  # m, gap up to which shapes touch
-        # Chipmunk's correction of overlaps is per unit of its time
-        self._stepper = Stepper(setup, self.margin, self._lasting(1.0, _COMMON))
+        self._stepper = Stepper(setup, self.margin, self._lasting(1.0, _COMMON))  # corrects overlaps per unit
 
     def state(self) -> HeapState:
         """Return all that its next steps depend on, apart from the balls themselves and its Space."""
@@ -214,8 +213,9 @@ class Heap:
         within = self.margin if index in self._members else TOUCHING_GAP
         found = resting_points(mover.ball, mover.obstacles_at(t), state, within, applied, self._settle)
         alone = len(found) == 1 and body_point_contact(mover.ball, state, *found[0], applied) is not None
-        if found and any(obstacle.surface.motion is not None for obstacle, *_ in found):
-            what = f"it stays on {found[0][0].surface.name!r}, which moves"
+        carrying = next((obstacle.surface for obstacle, *_ in found if obstacle.surface.motion is not None), None)
+        if carrying is not None:
+            what = f"it stays on {carrying.name!r}, which moves"
             raise failed(t, mover.ball.name, f"{what}: a body bounces off what moves, but is not carried by it")
         return bool(found) and not alone
 
@@ -246,6 +246,8 @@ class Heap:
         rests = self._lasting(_REST, self._forced)
         for index, arc in arcs.items():
             self._refuse_leap(index, arc)
+            if self._some_move:  # what it may have come to lie on is refused
+                self._lies(index, arc.t1, arc.state(arc.t1))
             member = self._members[index]
             slow = member.fastest**2 <= 2.0 * self._forced * self._settle and index not in overlapped
             still = member.fastest <= _STANDSTILL * self._forced * self._span
