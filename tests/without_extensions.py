@@ -45,10 +45,10 @@ def outcome(place: Path, thorough: bool) -> dict[str, Any]:
     sys.path.insert(0, str(place))
     entries = importlib.import_module("sandbox.entries")
     program = importlib.import_module("sandbox.cli.program")
-    importlib.import_module("sandbox.golden")
     commands = program.app.list_commands(None)
     core = {"run": ("run", "golf", "--json")}
     if thorough:
+        importlib.import_module("sandbox.golden")
         core |= {
             "pictures": ("run", "golf", "--poster", "golf.png", "--graph", "graph.png"),
             "schema": ("schema", "golf"),
@@ -60,9 +60,8 @@ def outcome(place: Path, thorough: bool) -> dict[str, Any]:
     return {
         "at": sys.modules["sandbox"].__file__,
         "commands": commands,
-        "helped": [name for name in commands if called(name, "--help")[0] == 0],
-        "help": called("--help")[1],
-        "parts": [part for part in entries.added("PARTS") if entries.find(part) is not None],
+        "dead": [name for name in commands if program.app.get_command(None, name) is None],
+        "parts": [part for part in entries.added("PARTS") if thorough and entries.find(part) is not None],
         "core": {name: called(*args)[0] for name, args in core.items()},
         "refused": {option: called(*args) for option, args in refused.items()} if thorough else {},
     }
