@@ -38,15 +38,13 @@ if TYPE_CHECKING:
         def graph(self, run: Any, path: File, size: Size) -> Any: ...
 
     class Notebook(Protocol):
-        """Pages, charts and HTML."""
+        """Pages and HTML."""
 
         def page(self, run: Any, path: File) -> Any: ...
 
         def run_html(self, run: Any) -> str: ...
 
         def scene_html(self, scene: Any) -> str: ...
-
-        def report_plot(self, report: Any, path: File) -> Any: ...
 
         def report_page(self, report: Any, path: File) -> Any: ...
 
@@ -118,7 +116,7 @@ class Reported:
 
     def plot(self, path: File = None) -> Any:
         """Draw the charts of its report: write them to ``path`` (a PNG), or return a Pillow image."""
-        return notebook().report_plot(self.report(), path)
+        return _part("charts").image(self.report(), path)
 
     def page(self, path: File = None) -> Any:
         """Make a page for any browser with charts and tables: write it to ``path`` (HTML), or return its text."""

@@ -103,17 +103,13 @@ def modules() -> dict[str, Path]:
     }
 
 
-#: Modules that are about to change.
-AWAITED = ("cli/lab.py", "cli/compare.py")
-
-
 def test_modules_look_only_downwards():
     broken = []
     for name, path in modules().items():
         own = layer_of(name)
         assert own != "__init__" or name == "sandbox.__init__", f"{path}: CONTRIBUTING.md has no place for it"
         broken += broken_rules(path.read_text("utf-8"), str(path.relative_to(ROOT)), own)
-    assert [line for line in broken if not line.partition(":")[0].endswith(AWAITED)] == []
+    assert broken == []
     assert {layer_of(name) for name in modules()} == PLACES.keys()
 
 
@@ -167,7 +163,7 @@ def test_late_imports_are_for_the_time_to_start():
     assert [
         f"{path.relative_to(ROOT)}, line {line}: imports {module} late"
         for name, path, line, module in late
-        if not is_for_the_start(name, path, module) and not str(path).endswith(AWAITED)
+        if not is_for_the_start(name, path, module)
     ] == []
 
 

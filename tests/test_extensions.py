@@ -16,7 +16,7 @@ EXTENSIONS = [
     row.split("`")[1] for row in TABLES[TABLES.index("| extension |") :].split("| `__main__`")[0].splitlines()[2:]
 ]
 ALL = ",".join(EXTENSIONS)
-CORE = ["aim", "coefficients", "fit", "list", "new", "run", "schema", "spread", "stress", "sweep", "trade", "validate"]
+CORE = ["aim", "coefficients", "list", "new", "run", "schema", "stress", "sweep", "trade", "validate"]
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="processes are forked")
 
@@ -43,7 +43,7 @@ def test_the_core_does_without(taken: str, outcomes: dict[str, dict[str, Any]]):
 
 
 def test_what_was_taken_has_no_commands(outcomes: dict[str, dict[str, Any]]):
-    gone = {"lab/fit": [], "lab/spread": [], "tasks": ["play", "serve", "tasks"], "page": ["serve"],
+    gone = {"lab/fit": ["fit"], "lab/spread": ["spread"], "tasks": ["play", "serve", "tasks"], "page": ["serve"],
             "window": ["play", "serve"], "serve": ["serve"], "gym": []}  # fmt: skip
     everything = {*CORE, *(name for names in gone.values() for name in names)}
     left = {taken: sorted(everything - set(names)) for taken, names in gone.items()}
@@ -56,4 +56,5 @@ def test_options_without_their_part_say_so_in_a_line(outcomes: dict[str, dict[st
         "--attempt": [2, "error: --attempt 2: this copy of sandbox is without tasks\n"],
         "--tasks": [2, "error: --tasks: this copy of sandbox is without schemas of tasks\n"],
     }
-    assert outcomes[ALL]["parts"] == ["pictures", "images"]
+    assert outcomes[ALL]["chart"]
+    assert outcomes[ALL]["parts"] == ["charts", "pictures", "images"]

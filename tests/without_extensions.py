@@ -39,6 +39,13 @@ def called(*args: str) -> tuple[int, str]:
     return code, out.getvalue()
 
 
+def plotted(path: Path) -> bool:
+    """True if the charts of a result are written."""
+    aim = importlib.import_module("sandbox").aim
+    aim("golf", {"launch.angle": (8, 12)}, {"carry": 230}).plot(path)
+    return path.stat().st_size > 1000
+
+
 def outcome(place: Path, thorough: bool) -> dict[str, Any]:
     """What the copy in a folder does: its commands and parts, a run of golf and, if ``thorough``, more of the core."""
     os.chdir(place)
@@ -53,7 +60,6 @@ def outcome(place: Path, thorough: bool) -> dict[str, Any]:
             "pictures": ("run", "golf", "--poster", "golf.png", "--graph", "graph.png"),
             "schema": ("schema", "golf"),
             "sweep": ("sweep", "golf", "--over", "launch.angle=8:12:3", "--out", "sweep.csv", "--jobs", "1"),
-            "aim": ("aim", "golf", "--vary", "launch.angle=8:12", "--target", "carry=230"),
         }
     refused = {"--html": ("run", "golf", "--html", "golf.html"), "--attempt": ("run", "golf", "--attempt", "2"),
                "--tasks": ("schema", "golf", "--tasks")}  # fmt: skip
@@ -63,6 +69,7 @@ def outcome(place: Path, thorough: bool) -> dict[str, Any]:
         "dead": [name for name in commands if program.app.get_command(None, name) is None],
         "parts": [part for part in entries.added("PARTS") if thorough and entries.find(part) is not None],
         "core": {name: called(*args)[0] for name, args in core.items()},
+        "chart": thorough and plotted(place / "chart.png"),
         "refused": {option: called(*args) for option, args in refused.items()} if thorough else {},
     }
 

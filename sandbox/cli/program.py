@@ -20,8 +20,8 @@ from sandbox.text import one_line, printable
 COMMANDS = {
     "scenes": ("list", "schema", "new"),
     "run": ("run",),
-    "lab": ("aim", "coefficients", "spread", "sweep", "trade", "stress"),
-    "compare": ("fit", "validate"),
+    "lab": ("aim", "coefficients", "sweep", "trade", "stress"),
+    "validate": ("validate",),
 }
 
 

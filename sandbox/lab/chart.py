@@ -5,12 +5,17 @@ from __future__ import annotations
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from io import BytesIO
 from pathlib import Path
-from typing import Any
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
 
 from sandbox import resources
 from sandbox.files import atomic_write, check_file, check_installed
 from sandbox.lab.report import Chart, Report
+
+if TYPE_CHECKING:
+    from PIL import Image
 
 #: Width in inches, dots per inch, and the free edge as a share of the picture.
 _WIDTH, _DOTS, _EDGE = 9.6, 130, 0.02
@@ -23,6 +28,24 @@ def check_chart(option: str, path: Path) -> None:
     """Raise RequestError, before any work is done, if a chart cannot be written there, or matplotlib is missing."""
     check_file(option, path, ".png")
     check_installed(option, "matplotlib")
+
+
+def image(report: Report, path: Path | str | None) -> Image.Image | None:
+    """The charts of a report: written to ``path``, a PNG, or handed back where there is none."""
+    from PIL import Image
+
+    from sandbox.picture.images import check_path
+
+    if path is not None:
+        check_path(path)
+        check_chart("path", Path(path))
+        draw(report, Path(path))
+        return None
+    with TemporaryDirectory() as folder:
+        file = Path(folder, "chart.png")
+        check_chart("plot", file)
+        draw(report, file)
+        return Image.open(BytesIO(file.read_bytes()))
 
 
 def draw(report: Report, path: Path) -> None:

@@ -19,6 +19,7 @@ import numpy as np
 from sandbox import display
 from sandbox.errors import RequestError, RunError, Stopped
 from sandbox.lab.axes import Values, as_axis
+from sandbox.lab.chart import image
 from sandbox.lab.many import as_array
 from sandbox.lab.maps import chart_of, check_plot, read
 from sandbox.lab.plan import Plan, Record, records
@@ -83,7 +84,7 @@ class Sweep(display.Reported):
     def plot(self, path: Path | str | None = None, of: str | None = None) -> Any:
         """The map or the curves of one result (``of``, by default the verdict or the first): written to ``path`` (a
         PNG), or without one handed back as a Pillow image."""
-        return display.notebook().report_plot(self.report(of), path)
+        return image(self.report(of), path)
 
     def _repr_html_(self) -> str:
         try:

@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-import io
-import tempfile
 from collections.abc import Callable
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PIL import Image
-
-from sandbox.lab.chart import check_chart, draw
 from sandbox.page import report as reports
 from sandbox.page.parts import html, picture, save, table
 from sandbox.page.replay import page_of, text_of
@@ -76,17 +71,3 @@ def report_html(report: Report) -> str:
 def report_page(report: Report, path: Path | str | None) -> str | None:
     """Its page: written to ``path``, or its text."""
     return _paged(lambda: reports.page_of(report), path)
-
-
-def report_plot(report: Report, path: Path | str | None) -> Image.Image | None:
-    """Its charts: written to ``path``, or handed back."""
-    if path is not None:
-        check_path(path)
-        check_chart("path", Path(path))
-        draw(report, Path(path))
-        return None
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder, "chart.png")
-        check_chart("plot", file)
-        draw(report, file)
-        return Image.open(io.BytesIO(file.read_bytes()))

@@ -6,122 +6,33 @@ parameters through bounces too, and differences of neighbouring runs are good de
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from pathlib import Path
-from typing import Any
+from importlib import import_module
 
-from sandbox.errors import RequestError
-from sandbox.lab.axes import Span, as_axis, checked
-from sandbox.lab.fit.data import Reading, data_of, read_data, table_of
-from sandbox.lab.fit.frame import parse_free
-from sandbox.lab.fit.launches import Launches
-from sandbox.lab.fit.measured import Measured
-from sandbox.lab.fit.models import chosen_models, compare
-from sandbox.lab.fit.problem import Declared
-from sandbox.lab.fit.reading import Film, parse_scale
-from sandbox.lab.fit.squares import Fit, solve
-from sandbox.lab.fit.track import Track
-from sandbox.lab.formats import parse_entry
-from sandbox.parameters import value_at, walk
-from sandbox.scene import Scene, as_scene
-from sandbox.text import check_mapping
-from sandbox.toml import toml_value
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any
+
+    from sandbox.lab.fit.fitting import fit, fit_track, parse_varied, read_data
+    from sandbox.lab.fit.squares import Fit
+    from sandbox.lab.fit.track import Track
+
+#: The names of each module, which is imported on first use: to list commands takes none of them.
+_MODULES = {
+    "fitting": (
+        "fit",
+        "fit_track",
+        "parse_varied",
+        "read_data",
+    ),
+    "squares": ("Fit",),
+    "track": ("Track",),
+}
 
 __all__ = ["Fit", "Track", "fit", "fit_track", "parse_varied", "read_data"]
 
 
-def fit(
-    scene: Scene | str | Path,
-    track: Mapping[str, Sequence[Any]] | str | Path | Sequence[str | Path],
-    vary: Mapping[str, tuple[Any, Any] | None],
-    *,
-    free: Sequence[str] = (),
-    scale: str | None = None,
-    origin: tuple[float, float] = (0.0, 0.0),
-    fps: float | None = None,
-    balls: Mapping[str, str] | None = None,
-    columns: Mapping[str, str] | None = None,
-    where: Mapping[str, str] | None = None,
-    models: str | Mapping[str, Sequence[Any]] | None = None,
-    robust: bool = False,
-    strict: bool = False,
-) -> Fit:
-    """The values of parameters that explain a measured track, with 95 % intervals.
-
-    ``track`` is a table, a list of them, or columns: t in s since the launch, x and y in m as in the scene, and
-    optionally ball; a name may have its unit, as ``"x (cm)"``. Without t, places are compared with the nearest point of
-    the path. ``vary`` gives each parameter its range, or None for its declared bounds.
-
-    Of a film, ``free`` names what is fitted too: "time", "origin", "tilt"; ``scale`` is ``"120 px = 1 m"``, for y
-    downwards; ``origin`` is the scene's, in the numbers of the table; ``fps`` goes with a column frame; ``balls`` are
-    the scene's by the names in the table.
-
-    A table of launches has ``columns``: ``{"Ball Speed": "launch.speed mph", "Carry": "carry yd"}``, or those of a
-    known device; only rows with the text that ``where`` names are used. A row with a fault is left out, and listed with
-    its reason in ``measured.left_out``; with ``strict`` it raises RequestError.
-
-    Raises RequestError for an invalid request, and RunError if no run near the best values could be completed.
-
-    >>> import sandbox
-    >>> track = {"t": [0.0, 0.2, 0.4], "x": [0.0, 1.0, 2.0], "y": [2.1, 2.9, 3.3]}
-    >>> list(sandbox.fit("basketball", track, {"launch.speed": (6, 9)}).values)
-    ['launch.speed']
-    """
-    chosen = as_scene(scene)
-    check_mapping("vary", vary, '{"launch.speed": (5, 15)}')
-    film = Film(None if scale is None else parse_scale(scale), (float(origin[0]), float(origin[1])), fps, balls or {})
-    entries = tuple(parse_entry(f"{column}={target}") for column, target in (columns or {}).items())
-    how = Reading(film, parse_free("free", [free] if isinstance(free, str) else free), entries, where or {}, strict)
-    if isinstance(track, Mapping):
-        measured = data_of(chosen, [("", table_of(track))], how)
-    else:
-        paths = [track] if isinstance(track, str | Path) else track
-        measured = read_data(chosen, [Path(path) for path in paths], how)
-    spans = [_span(chosen, "vary", key, given) for key, given in vary.items()]
-    if models is None:
-        return fit_track(chosen, measured, spans, robust)
-    if isinstance(models, Mapping) and len(models) != 1:
-        raise RequestError('models: must name one parameter, such as {"ball.drag.model": ["constant", "none"]}')
-    key, words = (models, ()) if isinstance(models, str) else next(iter(models.items()))
-    return compare(chosen, measured, spans, key, chosen_models(chosen, "models", key, words), robust)
-
-
-def fit_track(scene: Scene, measured: Measured, spans: Sequence[Span], robust: bool = False) -> Fit:
-    """Like ``fit``, for data and ranges already read."""
-    keys = [span.key for span in spans]
-    twice = next((key for key in keys if keys.count(key) > 1), None)
-    if twice is not None:
-        raise RequestError(f"--vary {twice}: given twice")
-    given = next((key for key in keys if isinstance(measured, Launches) and key in measured.given), None)
-    if given is not None:
-        raise RequestError(
-            f"--vary {given}: is a column of the table; to fit it, leave that out by naming the others (--map)"
-        )
-    return solve(scene, measured, spans, robust)
-
-
-def parse_varied(scene: Scene, text: str) -> Span:
-    """``KEY=LO:HI``, or ``KEY`` for the declared bounds. Raises RequestError."""
-    key, equals, body = (part.strip() for part in text.partition("="))
-    parts = body.split(":")
-    if equals and len(parts) != 2:
-        raise RequestError(f"--vary {text}: write it as KEY or KEY=LO:HI, for example --vary launch.speed=5:15")
-    return _span(scene, "--vary", key, tuple(toml_value(part.strip()) for part in parts) if equals else None)
-
-
-def _span(scene: Scene, option: str, key: str, given: Any) -> Span:
-    """The range of a parameter, its declared bounds if none is given. Raises RequestError."""
-    if given is None:
-        known = next((one for one in walk(scene.parameters, entries=True) if one.key == key), None)
-        if known is None:
-            checked(scene, option, key, 0.0)  # says what is wrong with the key
-        if isinstance(value_at(scene.parameters, key), str):
-            raise RequestError(f"{option} {key}: only numbers can be fitted; --models compares words")
-        if known is None or known.low is None or known.high is None:
-            raise RequestError(f"{option} {key}: has no bounds to search in; give a range, {key}=LO:HI")
-        return Declared(key, known.low, known.high)
-    low, high = given
-    axis = as_axis(scene, key, (low, high), option)
-    if not isinstance(axis, Span):
-        raise RequestError(f"{option} {key}: only numbers can be fitted")
-    return axis
+def __getattr__(name: str) -> Any:
+    for module, names in _MODULES.items():
+        if name in names:
+            return getattr(import_module(f"sandbox.lab.fit.{module}"), name)
+    raise AttributeError(f"module 'sandbox.lab.fit' has no attribute {name!r}")

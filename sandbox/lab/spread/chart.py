@@ -14,7 +14,7 @@ from sandbox.lab.spread.texts import mean_and_deviation, name_of, percent
 from sandbox.lab.statistics import Ellipse
 
 if TYPE_CHECKING:
-    from sandbox.lab.spread import Spread
+    from sandbox.lab.spread.spreading import Spread
 
 #: Most histograms, and most rows of causes.
 _MOST, _ROWS = 6, 7

@@ -17,7 +17,7 @@ from sandbox.text import argument, one_line
 from sandbox.units import convert
 
 if TYPE_CHECKING:
-    from sandbox.lab.spread import Indices, Spread
+    from sandbox.lab.spread.spreading import Indices, Spread
 
 #: The quantiles of the text, of those that JSON has.
 _SHOWN = (0.05, 0.5, 0.95)

@@ -8,7 +8,7 @@ from sandbox.sport.amounts import amount, in_chosen_unit, ladder, significant, w
 from sandbox.units import convert
 
 if TYPE_CHECKING:
-    from sandbox.lab.spread import Spread
+    from sandbox.lab.spread.spreading import Spread
 
 
 def name_of(spread: Spread, fact: str) -> str:

@@ -1,4 +1,4 @@
-"""The commands that compare with what was measured: ``fit``, ``validate``."""
+"""``sandbox fit``: the parameters that explain what was measured."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ from sandbox.cli.arguments import (
     changes_options,
     load,
     map_option,
-    optional_scene,
     pairs,
     say,
     scene_argument,
@@ -19,9 +18,7 @@ from sandbox.cli.arguments import (
     where_option,
 )
 from sandbox.cli.reports import Outputs, report_options
-from sandbox.errors import RequestError
 from sandbox.files import writing
-from sandbox.text import printable
 
 
 def _print_formats(context: click.Context, option: click.Parameter, value: bool) -> None:
@@ -109,8 +106,8 @@ def fit(
       sandbox fit golf shots.csv --where Club=Driver --vary air.density=1:1.3
       sandbox fit golf shots.csv --map "Speed=launch.speed mph" --map "Carry=carry yd" --vary launch.angle=5:20
     """
-    from sandbox.lab.fit import fit_track, parse_varied, read_data
     from sandbox.lab.fit.data import Reading
+    from sandbox.lab.fit.fitting import fit_track, parse_varied, read_data
     from sandbox.lab.fit.frame import parse_free
     from sandbox.lab.fit.launches import Launches
     from sandbox.lab.fit.models import compare, parse_models
@@ -144,72 +141,3 @@ def fit(
         with writing("--save", save):
             files = saved(found, save)
     outputs.write(report_of(found), others=files)
-
-
-@click.command()
-@optional_scene
-@click.option("--against", metavar="F.csv", type=Path, help="A table of your own in place of the published ones.")
-@map_option
-@where_option
-@click.option(
-    "--within",
-    metavar="NAME=WIDTH",
-    multiple=True,
-    help='With --map: how far off a result may be, as carry="5 yd" or carry=2%; repeatable.',
-)
-@changes_options
-@strict_option
-@click.option("--teeth", is_flag=True, help="Switch off, or change by 20 %, what each row tests: does it fall?")
-@report_options
-def validate(
-    scene: str | None,
-    against: Path | None,
-    mapping: tuple[str, ...],
-    where: tuple[str, ...],
-    within: tuple[str, ...],
-    changes: dict[str, Any],
-    strict: bool,
-    teeth: bool,
-    outputs: Outputs,
-) -> None:
-    """Compare results with published numbers and their sources.
-
-    Each row is exact, fitted, of another program, of a model, measured, or held out of a fit. Only measured and
-    held-out rows are counted. The exit code is 0 however many hold: a number that the models miss is a finding.
-
-    A table of your own has the columns result, value and tolerance, and as you like scene, case, set, unit, source,
-    kind and the others of the published tables; or one launch in each row, with its columns named by --map.
-
-    \b
-    Examples:
-      sandbox validate
-      sandbox validate golf --teeth
-      sandbox validate golf --set ball.drag.model=usga --set ball.lift.model=usga
-      sandbox validate golf --against shots.csv --within carry=3% --within apex="3 yd"
-    """
-    from sandbox.lab import teeth as of_rows
-    from sandbox.lab import validate as lab
-    from sandbox.progress import bar
-
-    own = None
-    notes: tuple[str, ...] = ()
-    if against is not None:
-        from sandbox.lab.against import cases_against
-        from sandbox.lab.formats import parse_entry
-
-        if teeth:
-            raise RequestError("--teeth: says what the published numbers test; it cannot be combined with --against")
-        entries = [parse_entry(text) for text in mapping]
-        given = cases_against(against, scene, entries, pairs("--where", where), pairs("--within", within), strict)
-        own, notes = given.cases, tuple(filter(None, (given.left_out, *given.notes)))
-        if outputs.as_json and given.left_out:  # JSON is a list of the rows that are used
-            click.echo(printable(given.left_out), err=True)
-    elif mapping or where or within or strict:
-        raise RequestError("--map, --where, --within and --strict require --against F.csv")
-    with bar("validate") as progress:
-        rows = lab.validate(scene, changes, progress, own)
-    if teeth:
-        with bar("teeth") as progress:
-            outputs.write(of_rows.report_of(rows, of_rows.teeth(rows, changes, progress)))
-        return
-    outputs.write(lab.report_of(rows, "published" if own is None else "given", notes))

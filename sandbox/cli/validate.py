@@ -1,0 +1,89 @@
+"""``sandbox validate``: results compared with what was measured."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from sandbox.cli.arguments import (
+    changes_options,
+    map_option,
+    optional_scene,
+    pairs,
+    strict_option,
+    where_option,
+)
+from sandbox.cli.reports import Outputs, report_options
+from sandbox.errors import RequestError
+from sandbox.text import printable
+
+
+@click.command()
+@optional_scene
+@click.option("--against", metavar="F.csv", type=Path, help="A table of your own in place of the published ones.")
+@map_option
+@where_option
+@click.option(
+    "--within",
+    metavar="NAME=WIDTH",
+    multiple=True,
+    help='With --map: how far off a result may be, as carry="5 yd" or carry=2%; repeatable.',
+)
+@changes_options
+@strict_option
+@click.option("--teeth", is_flag=True, help="Switch off, or change by 20 %, what each row tests: does it fall?")
+@report_options
+def validate(
+    scene: str | None,
+    against: Path | None,
+    mapping: tuple[str, ...],
+    where: tuple[str, ...],
+    within: tuple[str, ...],
+    changes: dict[str, Any],
+    strict: bool,
+    teeth: bool,
+    outputs: Outputs,
+) -> None:
+    """Compare results with published numbers and their sources.
+
+    Each row is exact, fitted, of another program, of a model, measured, or held out of a fit. Only measured and
+    held-out rows are counted. The exit code is 0 however many hold: a number that the models miss is a finding.
+
+    A table of your own has the columns result, value and tolerance, and as you like scene, case, set, unit, source,
+    kind and the others of the published tables; or one launch in each row, with its columns named by --map.
+
+    \b
+    Examples:
+      sandbox validate
+      sandbox validate golf --teeth
+      sandbox validate golf --set ball.drag.model=usga --set ball.lift.model=usga
+      sandbox validate golf --against shots.csv --within carry=3% --within apex="3 yd"
+    """
+    from sandbox.lab import teeth as of_rows
+    from sandbox.lab import validate as lab
+    from sandbox.progress import bar
+
+    own = None
+    notes: tuple[str, ...] = ()
+    if against is not None:
+        from sandbox.lab.against import cases_against
+        from sandbox.lab.formats import parse_entry
+
+        if teeth:
+            raise RequestError("--teeth: says what the published numbers test; it cannot be combined with --against")
+        entries = [parse_entry(text) for text in mapping]
+        given = cases_against(against, scene, entries, pairs("--where", where), pairs("--within", within), strict)
+        own, notes = given.cases, tuple(filter(None, (given.left_out, *given.notes)))
+        if outputs.as_json and given.left_out:  # JSON is a list of the rows that are used
+            click.echo(printable(given.left_out), err=True)
+    elif mapping or where or within or strict:
+        raise RequestError("--map, --where, --within and --strict require --against F.csv")
+    with bar("validate") as progress:
+        rows = lab.validate(scene, changes, progress, own)
+    if teeth:
+        with bar("teeth") as progress:
+            outputs.write(of_rows.report_of(rows, of_rows.teeth(rows, changes, progress)))
+        return
+    outputs.write(lab.report_of(rows, "published" if own is None else "given", notes))

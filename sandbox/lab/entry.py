@@ -1,0 +1,3 @@
+"""What measuring adds."""
+
+PARTS = {"charts": "sandbox.lab.chart"}

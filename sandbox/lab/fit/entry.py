@@ -1,0 +1,3 @@
+"""What fits add."""
+
+COMMANDS = {"fit": "sandbox.lab.fit.command"}

@@ -1,0 +1,3 @@
+"""What scatter adds."""
+
+COMMANDS = {"spread": "sandbox.lab.spread.command"}
