@@ -21,7 +21,7 @@ import pytest
 from PIL import Image
 
 import sandbox
-from sandbox import report
+from sandbox.cli import card
 from sandbox.cli.interrupts import Interrupts
 from sandbox.engine.model.accuracy import LEVELS
 from sandbox.files import folder_of_parts
@@ -150,9 +150,9 @@ def test_the_card_of_a_long_run_says_what_took_long():
     """A run of 20,000 impacts; that of a few says nothing."""
     scene = sandbox.load("pinball", {"launch.speed": 2.0})
     run = sandbox.simulate(scene)
-    assert "what took long" not in "".join(report.card(scene, run))
+    assert "what took long" not in "".join(card.card(scene, run))
     run.numerics.impacts = 20_000
-    said = next(line for line in report.card(scene, run) if "what took long" in line)
+    said = next(line for line in card.card(scene, run) if "what took long" in line)
     assert said.startswith("  what took long: 20,000 impacts in ")
 
 
