@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Any
 from sandbox.engine.ledger import warnings
 from sandbox.errors import RunError
 from sandbox.files import json_ready, json_text
-from sandbox.lab.tables import paragraph, table
+from sandbox.lab.report import Column, Notes, Report, Table, as_text, words
 from sandbox.progress import PATIENCE
 from sandbox.scene.running import NUDGE
 from sandbox.sport.amounts import margin
 from sandbox.sport.readings import words_of
-from sandbox.text import shortened
+from sandbox.text import shortened, with_noun
 
 if TYPE_CHECKING:
     from sandbox.scene import Check, Scene
@@ -113,25 +113,23 @@ def card(
     ``others`` are runs to compare with, by their names: the values of each are shown in a column of its own.
     """
     rows = scene.rows(run, None if check is None else check.errors, also=True)
+    numbers = Table([words(), words()], rows)
     if others:
         compared = _compared(rows, scene.verdict(run), list(others.values()))
-        numbers = table(("", scene.title, *others), compared, "ll" + "l" * len(others))
-    else:
-        numbers = table(("", ""), rows, "ll")
-    return [
-        *(line for warning in _beyond_target(check, scene) for line in [*paragraph(f"warning: {warning}", ""), ""]),
-        *paragraph(f"{scene.title}: {scene.about}" if scene.about else scene.title, ""),
-        "",
-        *([] if others else [*paragraph(scene.verdict(run)), ""]),
-        *numbers,
-        "",
-        *_events(run),
-        "",
-        f"  {_numerics(run)}",
-        *(f"  {line}" for line in _what_took_long(run)),
-        *(f"  warning: {warning}" for warning in _warnings(run)),
+        numbers = Table([words(name) for name in ("", scene.title, *others)], compared)
+    first, *heads = [
+        *(f"warning: {warning}" for warning in _beyond_target(check, scene)),
+        f"{scene.title}: {scene.about}" if scene.about else scene.title,
+    ]
+    notes = [
+        _numerics(run),
+        *_what_took_long(run),
+        *(f"warning: {warning}" for warning in _warnings(run)),
         *([] if check is None else _check_lines(check, scene)),
     ]
+    verdict = [] if others else [scene.verdict(run)]
+    sections = [*(Notes((), head) for head in heads), Notes(verdict), numbers, _events(run), Notes(notes)]
+    return as_text(Report(lambda: run.result, first, sections))
 
 
 def _compared(rows: list[tuple[str, str]], verdict: str, others: Sequence[SceneRun]) -> list[tuple[str, ...]]:
@@ -140,7 +138,7 @@ def _compared(rows: list[tuple[str, str]], verdict: str, others: Sequence[SceneR
     return [(label, text, *(each.get(label, "") for each in values)) for label, text in [("verdict", verdict), *rows]]
 
 
-def _events(run: SceneRun) -> list[str]:
+def _events(run: SceneRun) -> Table:
     several = len(run.setup.balls) > 1
     shown = list(run.events if len(run.events) <= _EVENTS_SHOWN else run.events[: _EVENTS_SHOWN - 1])
     rows = [words_of(run, event, several) for event in shown]
@@ -148,14 +146,14 @@ def _events(run: SceneRun) -> list[str]:
         more = f"... {len(run.events) - len(shown) - 1} more"
         rows += [("", *([""] if several else []), more, "", ""), words_of(run, run.events[-1], several)]
     columns = 5 if several else 4
-    return table(("",) * columns, [(f"{t:>10}", *words) for t, *words in rows], "rllll"[:columns])
+    return Table([Column(), *[words()] * (columns - 1)], [(f"{t:>10}", *texts) for t, *texts in rows])
 
 
 def _numerics(run: SceneRun) -> str:
     cost, accuracy = run.numerics, run.accuracy
     return (
-        f"{accuracy.level}, {accuracy.method} method, {accuracy.steps}: {_count(cost.steps, 'step')}, "
-        f"{_count(cost.impacts, 'impact')}, {cost.wall_s * 1e3:.1f} ms"
+        f"{accuracy.level}, {accuracy.method} method, {accuracy.steps}: {with_noun(cost.steps, 'step')}, "
+        f"{with_noun(cost.impacts, 'impact')}, {cost.wall_s * 1e3:.1f} ms"
     )
 
 
@@ -174,10 +172,6 @@ def _what_took_long(run: SceneRun) -> list[str]:
     if sum(parts.values()) <= PATIENCE:
         return []
     return [f"what took long: {max(parts, key=lambda text: parts[text])}"]
-
-
-def _count(number: int, noun: str) -> str:
-    return f"{number} {noun}{'' if number == 1 else 's'}"
 
 
 def _beyond_target(check: Check | None, scene: Scene) -> list[str]:
@@ -209,8 +203,7 @@ def _check_lines(check: Check, scene: Scene) -> list[str]:
         if error >= _LEAST_REPORTED and not scene.facts[name].label and name not in check.chaotic
     ]
     said += [f"not on the card: {', '.join(unseen)}"] if unseen else []
-    said = said or [f"checked against a finer run and {away}: only the numbers change, by no more than their ±"]
-    return [line for text in said for line in paragraph(text)]
+    return said or [f"checked against a finer run and {away}: only the numbers change, by no more than their ±"]
 
 
 def _error(check: Check, scene: Scene, name: str) -> str:

@@ -1,4 +1,7 @@
 // The paths of a run, as polynomials, and how its balls are turned and drawn; lengths are in m, times in s, spins in rad/s.
+//
+// A second implementation of what Python has (engine/paths/path.py, picture/ball.py), for a clock: any instant is asked
+// for, 60 times a second. tests/page/test_replay.py compares both.
 
 const STEP = 1 / 60; // s
 
@@ -102,7 +105,7 @@ class Path {
     return this.turned[i] + (t1 - t0) * integral(spin, u);
   }
 
-  /** Spins about x, y and out of the picture of a ball on cloth. */
+  /** Spins about x, y and out of the picture of a ball on a plane. */
   spins(t) {
     const [i, u] = this.find(t), [, , , , spin, , across] = this.arcs[i];
     return [...(across || [[0], [0]]), spin].map((curve) => evaluate(curve, u));
@@ -125,7 +128,7 @@ function turnedBy(vector) {
   ];
 }
 
-/** How a ball on cloth is turned: followed in short steps where its axis turns. */
+/** How a ball on a plane is turned: followed in short steps where its axis turns. */
 class Turning {
   constructor(path, start) {
     this.path = path;

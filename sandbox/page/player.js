@@ -1,5 +1,9 @@
 // Plays a run on a place. Its paths are the polynomials that the run was computed with, so any instant is exact; lengths
 // are in m, times in s, spins in rad/s, and on the picture in px of the layer that is shown.
+//
+// The place, the look of all that moves, arrows, colours and sizes come from Python. A second implementation, for a clock
+// and a pointer, is what depends on the instant: where things are drawn, shadows, arrows, the nearest path, and the
+// numbers of the ball (picture/moving.py, picture/painter.py, sport/amounts.py). tests/page/test_replay.py compares them.
 
 const SLOWEST = -4, FASTEST = 3; // powers of two
 const NEAR = 28; // px around the pointer in which a path is found
