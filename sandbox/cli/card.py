@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from sandbox.engine.ledger import warnings
 from sandbox.errors import RunError
 from sandbox.files import json_ready, json_text
-from sandbox.lab.report import Column, Notes, Report, Table, as_text, words
+from sandbox.lab.report import Column, Notes, Report, Section, Table, as_text, words
 from sandbox.progress import PATIENCE
 from sandbox.scene.running import NUDGE
 from sandbox.sport.amounts import margin
@@ -128,7 +128,8 @@ def card(
         *([] if check is None else _check_lines(check, scene)),
     ]
     verdict = [] if others else [scene.verdict(run)]
-    sections = [*(Notes((), head) for head in heads), Notes(verdict), numbers, _events(run), Notes(notes)]
+    sections: list[Section] = [Notes((), head) for head in heads]
+    sections += [Notes(verdict), numbers, _events(run), Notes(notes)]
     return as_text(Report(lambda: run.result, first, sections))
 
 
