@@ -84,7 +84,7 @@ class _Books:
         """Book what a ball gains along an arc."""
         gain = kinetic(ball, arc.state(arc.t1), arc.t1) - kinetic(ball, arc.start, arc.t0)
         if isinstance(arc.contact, InCluster):
-            self.impacts[self._met.partner(ball.name, *arc.contact) or ""] += gain
+            self.impacts[self._met.partner(ball.name, *arc.contact.span) or ""] += gain
         elif setup.plane is not None:
             self.residue += gain - _book_on_plane(setup.plane_of(ball.name), ball, arc, self.work, self.contacts)
         elif isinstance(arc.contact, InHeap):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping
-from dataclasses import asdict
+from dataclasses import asdict, astuple
 from pathlib import Path
 from typing import Any
 
@@ -176,7 +176,7 @@ def _arc_data(arc: Arc, places: dict[int, int]) -> tuple[Any, ...]:
         phase, obstacle, touching, direction, spin_rate = contact
         contact = phase.value, places[id(obstacle.surface)], tuple(touching), direction, spin_rate
     elif contact is not None:
-        contact = _NAMES[type(contact)], *contact
+        contact = _NAMES[type(contact)], *astuple(contact)
     return arc.t0, arc.t1, arc.start, arc.curves, contact, arc.end
 
 

@@ -239,7 +239,7 @@ class Heap:
         for touch in (touch for _, touches in groups for touch in touches):
             self._note(touch, touch.push / h)
         arcs = {index: self._members[index].arc(t) for index in sorted(states)}
-        moved = {i: hypot(*arc.contact) for i, arc in arcs.items() if isinstance(arc.contact, InHeap)}
+        moved = {i: hypot(*arc.contact.drift) for i, arc in arcs.items() if isinstance(arc.contact, InHeap)}
         overlapped = {index for index, speed in moved.items() if speed * self._span > _APART * self.margin}
         held = self._held() | overlapped
         arcs = {index: arc for index, arc in arcs.items() if index in held}

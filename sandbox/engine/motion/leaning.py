@@ -7,14 +7,14 @@ The sides hold back what pushes the ball into them, and are smooth meanwhile: th
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from math import inf
-from typing import NamedTuple
 
 from sandbox.engine.contact.touch import SIDE, Near, Obstacle
 from sandbox.engine.model.shapes import Vector
 from sandbox.engine.model.surface import Surface
 from sandbox.engine.paths.arc import Arc
-from sandbox.engine.paths.phase import Phase
+from sandbox.engine.paths.phase import ArcContact, Phase
 from sandbox.physics.integrators import Acceleration, State
 from sandbox.physics.plane import Applied
 
@@ -22,7 +22,8 @@ from sandbox.physics.plane import Applied
 _INTO, _AT_MOST = 1e-9, 1.0 + 1e-9
 
 
-class Leaning(NamedTuple):
+@dataclass(frozen=True)
+class Leaning(ArcContact):
     """Value of ``Arc.contact`` for a ball that leans on the straight sides of these obstacles, with their normals."""
 
     obstacles: Sequence[Obstacle]
@@ -54,14 +55,6 @@ class Leaning(NamedTuple):
     @property
     def surface(self) -> Surface:
         return self.obstacles[0].surface
-
-    @property
-    def span(self) -> None:
-        return None
-
-    @property
-    def drift(self) -> Vector:
-        return 0.0, 0.0
 
     def held_back(self, ax: float, ay: float) -> Vector:
         """Return what is left of a velocity or an acceleration into the sides: nothing in a corner."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
-from typing import NamedTuple, Protocol
+from typing import Protocol
 
 from sandbox.engine.model.shapes import Vector
 from sandbox.engine.model.surface import Surface
@@ -36,47 +36,37 @@ class Phase(Enum):
 
 
 class ArcContact(Protocol):
-    """The contact of a ball along an arc: a SustainedContact or one on a point, InCluster, InHeap, or SetByHand."""
+    """The contact of a ball along an arc: a SustainedContact or one on a point, Leaning, or one of those below, which
+    differ from an arc without a contact in what they define."""
 
     @property
     def phase(self) -> Phase:
         """The phase of the motion."""
+        return Phase.FREE
 
     @property
     def surface(self) -> Surface | None:
         """The surface that it slides, rolls or rests on."""
+        return None
 
     @property
     def span(self) -> tuple[float, float] | None:
         """Begin and end in s of a simulated contact with others."""
+        return None
 
     @property
     def drift(self) -> Vector:
         """The velocity in m/s by position correction in a heap, which is no part of the ball's own."""
-
-
-@dataclass(frozen=True, slots=True)
-class SetByHand:
-    """Value of ``Arc.contact`` at an instant in which a ball's state is changed from outside."""
-
-    @property
-    def phase(self) -> Phase:
-        return Phase.FREE
-
-    @property
-    def surface(self) -> None:
-        return None
-
-    @property
-    def span(self) -> None:
-        return None
-
-    @property
-    def drift(self) -> Vector:
         return 0.0, 0.0
 
 
-class InCluster(NamedTuple):
+@dataclass(frozen=True)
+class SetByHand(ArcContact):
+    """Value of ``Arc.contact`` at an instant in which a ball's state is changed from outside."""
+
+
+@dataclass(frozen=True)
+class InCluster(ArcContact):
     """Value of ``Arc.contact`` for a ball in a simulated contact with others: when that begins and ends, in s."""
 
     start: float
@@ -87,19 +77,12 @@ class InCluster(NamedTuple):
         return Phase.CLUSTER
 
     @property
-    def surface(self) -> None:
-        return None
-
-    @property
     def span(self) -> tuple[float, float]:
         return self.start, self.end
 
-    @property
-    def drift(self) -> Vector:
-        return 0.0, 0.0
 
-
-class InHeap(NamedTuple):
+@dataclass(frozen=True)
+class InHeap(ArcContact):
     """Value of ``Arc.contact`` for a ball in a heap: how fast position correction moves it along the arc, in m/s; that
     is no part of its velocity."""
 
@@ -109,14 +92,6 @@ class InHeap(NamedTuple):
     @property
     def phase(self) -> Phase:
         return Phase.HEAP
-
-    @property
-    def surface(self) -> None:
-        return None
-
-    @property
-    def span(self) -> None:
-        return None
 
     @property
     def drift(self) -> Vector:
