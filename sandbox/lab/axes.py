@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
 from math import ceil, inf, log10, ulp
@@ -25,7 +24,7 @@ from sandbox.text import shortened
 from sandbox.toml import toml_value
 
 #: Most values along one axis, and most points of a sweep: more is taken as a mistake in the request.
-_MOST_VALUES, MOST_POINTS = 1_000_000, 100_000_000
+MOST_VALUES, MOST_POINTS = 1_000_000, 100_000_000
 
 #: Most bytes of a file of points.
 _LARGEST = 1_000_000_000
@@ -123,8 +122,8 @@ def parse_axis(scene: Scene, option: str, text: str) -> Axis:
     if len(parts) == 2:
         return span(option, key, low, high)
     count = int(parts[2]) if parts[2].isdecimal() and len(parts[2]) < 9 else 0
-    if not 1 <= count <= _MOST_VALUES:
-        raise RequestError(f"{option} {text}: {parts[2]!r} is not a number of points from 1 to {_MOST_VALUES:,}")
+    if not 1 <= count <= MOST_VALUES:
+        raise RequestError(f"{option} {text}: {parts[2]!r} is not a number of points from 1 to {MOST_VALUES:,}")
     return Values(key, spaced(low, high, count))
 
 
@@ -361,7 +360,16 @@ def _changed(node: Any, places: Any, values: Sequence[Any]) -> Any:
     if isinstance(places, int):
         return values[places]
     if isinstance(node, Group):
-        made, own = copy(node), node.__dict__
-        made.__dict__.update((key, _changed(own[key], inner, values)) for key, inner in places.items())
-        return made
+        own = node.__dict__
+        changed = {key: _changed(own[key], inner, values) for key, inner in places.items()}
+        return _with(node, {**own, **changed})
     return type(node)(_changed(item, places[at], values) if at in places else item for at, item in enumerate(node))
+
+
+def _with(group: Group, values: dict[str, Any]) -> Group:
+    """A group with these values, as pydantic's own copy makes one, in a quarter of the time: a sweep needs millions."""
+    made = object.__new__(type(group))
+    object.__setattr__(made, "__dict__", values)
+    for name in ("__pydantic_fields_set__", "__pydantic_extra__", "__pydantic_private__"):
+        object.__setattr__(made, name, getattr(group, name))
+    return made

@@ -164,42 +164,44 @@ def facts_at_once(
     """The values, for all runs, of those facts that can be computed from arrays.
 
     What a function decides by comparing numbers it cannot decide for an array, which is an error; what it decides by
-    None, for what did not happen, is the same for all runs that lack the same. So a fact is compared with that of one
-    run of each such kind, and of the first, middle and last one.
+    None, for what did not happen, is the same for all runs that lack the same, and so is a value that is no array. So a
+    fact is compared with that of one run of each such kind, and of the first, middle and last one.
     """
-    found: dict[str, list[Any]] = {}
     together: Any = AllRuns(flown)  # in place of a Run
-    count = len(each)
+    computed, count = dict[str, Any](), len(each)
     for key in facts:
         try:
             with np.errstate(all="ignore"), sys_exit_as_error():
-                values = _column(scene.facts[key].compute(together, many), count)
+                computed[key] = scene.facts[key].compute(together, many)
+        except Exception:
+            continue  # it needs one run after another
+    if not computed:
+        return {}
+    lacking = np.array([np.zeros(count, bool), *together.missing])
+    _, firsts, kinds = np.unique(lacking, axis=1, return_index=True, return_inverse=True)
+    some = {*firsts.tolist(), 0, count // 2, count - 1}
+    found = {}
+    for key, values in computed.items():
+        try:
+            read = scene.reader([key])
+            alone = {place: read(flown[place], each[place])[key] for place in some}
+            column = _column(values, [alone[first] for first in firsts.tolist()], kinds.ravel(), count)
         except Exception:
             continue
-        found[key] = values
-    kinds = np.unique(np.array([np.zeros(count, bool), *together.missing]), axis=1, return_index=True)[1]
-    for place in {0, count // 2, count - 1, *kinds.tolist()} if found else ():
-        for key in [] if isinstance(flown[place], Exception) else list(found):
-            try:
-                (alone,) = scene.reader([key])(flown[place], each[place]).values()
-                agrees = _alike(found[key][place], alone)
-            except Exception:
-                agrees = False
-            if not agrees:
-                del found[key]
+        if all(_alike(column[place], value) for place, value in alone.items()):
+            found[key] = column
     return found
 
 
-def _column(values: Any, count: int) -> list[Any]:
-    """The values of all runs: numbers, true and false, or what is the same for all. Raises TypeError for others."""
+def _column(values: Any, of_kinds: Sequence[Any], kinds: np.ndarray, count: int) -> list[Any]:
+    """The values of all runs: of an array of numbers, or those ``of_kinds`` of run. Raises TypeError for others."""
     if isinstance(values, np.ndarray):
         if values.shape != (count,) or values.dtype.kind not in "fib":
             raise TypeError
-        found: list[Any] = values.tolist()
-        return found if values.dtype.kind != "f" or np.isfinite(values).all() else list(map(_known, found))
+        return list(map(_known, values.tolist()))
     if values is not None and not isinstance(values, float | int | str):
         raise TypeError
-    return [_known(values)] * count
+    return [of_kinds[kind] for kind in kinds.tolist()]
 
 
 def _known(value: Any) -> Any:

@@ -54,7 +54,7 @@ class VerdictChanges:
     failures: dict[str, dict[str, int]] = field(default_factory=dict)  # of each method, how many by their name
 
     def table(self) -> Table:
-        """Counts of shots with the same verdict, another one, or a failure and its kind, by method."""
+        """How many shots have the same verdict, another one, or failed, and how, by method."""
         about = f"{self.shots} shots, {self.over[0]} within {100 * _SPEED:.0f} %, {self.over[1]} within {_ANGLE:g} deg"
         count = [Column(heading, write=lambda shots: str(shots or "-")) for heading in ("same", "other", "failed")]
         rows = [[name, of.same, of.other, of.failed, self.named(name)] for name, of in self.methods.items()]
@@ -62,7 +62,7 @@ class VerdictChanges:
         return Table([words("by"), *count, words()], rows, title, detail=True)
 
     def named(self, method: str) -> str:
-        """The kinds of failure of its shots, with counts."""
+        """How its shots failed, with counts."""
         return ", ".join(f"{name} {count}" for name, count in self.failures.get(method, {}).items())
 
 
@@ -116,19 +116,19 @@ def shot_map(scene: Scene) -> VerdictChanges | None:
             found = verdicts(points, how)
             methods[name] = compared(truth, found)
             pairs = zip(truth, found, strict=True)
-            failures[name] = dict(Counter(failure(b) for a, b in pairs if _has_failed(a, b)))
+            failures[name] = dict(Counter(failure(b) for a, b in pairs if has_failed(a, b)))
     return VerdictChanges(keys, len(points), methods, {name: each for name, each in failures.items() if each})
 
 
 def compared(truth: Sequence[Any], found: Sequence[Any]) -> Verdicts:
     """The verdicts found, or exceptions, compared with the true ones."""
     pairs = list(zip(truth, found, strict=True))
-    failed = sum(_has_failed(a, b) for a, b in pairs)
+    failed = sum(has_failed(a, b) for a, b in pairs)
     other = sum(a != b and not isinstance(b, Exception) for a, b in pairs)
     return Verdicts(len(pairs) - failed - other, other, failed)
 
 
-def _has_failed(truth: Any, found: Any) -> bool:
+def has_failed(truth: Any, found: Any) -> bool:
     """True if the run failed and the true one did not."""
     return isinstance(found, Exception) and not isinstance(truth, Exception)
 

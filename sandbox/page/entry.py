@@ -1,4 +1,4 @@
-"""Commands and parts that pages for a browser add."""
+"""What pages for a browser add."""
 
 PARTS = {
     "notebooks": "sandbox.page.notebook",

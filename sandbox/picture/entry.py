@@ -1,3 +1,3 @@
-"""Parts that pictures add."""
+"""What pictures add."""
 
 PARTS = {"pictures": "sandbox.picture.plain", "images": "sandbox.picture.images"}

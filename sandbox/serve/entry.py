@@ -1,4 +1,4 @@
-"""Commands that scenes in browsers add."""
+"""What scenes in browsers add."""
 
 NEEDS = ("page", "tasks", "window")
 COMMANDS = {"serve": "sandbox.serve.command"}

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import pi
+from math import inf, pi
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from sandbox.engine.model.setup import Touches
 from sandbox.engine.model.shapes import Vector
 from sandbox.engine.motion.forces_on_ball import cause
-from sandbox.physics.elementwise import atan2, degrees, hypot, maximum, minimum, rounded
+from sandbox.physics.elementwise import atan2, degrees, hypot, maximum, minimum, rounded, where
 from sandbox.sport.amounts import amount
 from sandbox.sport.facts import Fact, cached_per_run
 from sandbox.sport.flight import RPM
@@ -101,15 +101,19 @@ def before(run: Run, t: float, ball: str = "ball") -> Moment:
     return Moment(t, *run.before(ball, t))
 
 
-def down_to(run: Run, place: Vector) -> Moment | None:
+def down_to(run: Run, place: Vector, until: float = inf) -> Moment | None:
     """The ball as it first falls to the height of a place (m), or just before it touches something, if that is
-    earlier; None if neither happens."""
-    touched = first_touch(run)
-    falls = run.crossings("ball", place, (0.0, 1.0))
-    down = next((Moment(t, *state) for t, state in falls), None)
-    if touched is None or (down is not None and down.t <= touched.t):
-        return down
-    return before(run, touched.t)
+    earlier; None if neither happens ``until`` a time in s."""
+    falls = _moment(run.first_crossing("ball", place, (0.0, 1.0), until))
+    return earlier(falls, _moment(run.before_meeting(before=until)))
+
+
+def earlier(one: Moment | None, other: Moment | None) -> Moment | None:
+    """The earlier of two moments, the first of equal ones; None if there is none."""
+    if one is None or other is None:
+        return other if one is None else one
+    first = (one.t <= other.t) | (other.t != other.t)  # not a number: of many shots, one without that moment
+    return Moment(*(where(first, a, b) for a, b in zip(one, other, strict=True)))
 
 
 def _moment(found: tuple[float, State] | None) -> Moment | None:
@@ -177,7 +181,7 @@ def apex(run: Run, parameters: Any) -> float:
     return run.highest("ball")[1][1]
 
 
-def _launch_value(what: str) -> Callable[[Run, Any], Any]:
+def launch_value(what: str) -> Callable[[Run, Any], Any]:
     """Return a function that reads a value of the launch, as it was given: -28.8 deg, though its sine and cosine have
     lost the last digit of that."""
     return fact_from(start, lambda ball, parameters: rounded(getattr(ball, what), _DIGITS))
@@ -191,8 +195,8 @@ def whole_rpm(ball: Moment, parameters: Any) -> float:
 #: Digits after the point that are left of a value that was converted to a velocity or rad/s and back.
 _DIGITS = 10
 
-BALL_SPEED = Fact("ball_speed", "ball speed", "m/s", _launch_value("speed"), "start")
-LAUNCH_ANGLE = Fact("launch_angle", "launch", "deg", _launch_value("direction"), "start")
+BALL_SPEED = Fact("ball_speed", "ball speed", "m/s", launch_value("speed"), "start")
+LAUNCH_ANGLE = Fact("launch_angle", "launch", "deg", launch_value("direction"), "start")
 LAUNCH_SPIN = Fact(
     "launch_spin", "spin", "rpm", fact_from(start, lambda ball, it: round(whole_rpm(ball, it), _DIGITS)), "start",
     sides=("topspin", "backspin"),

@@ -1,4 +1,4 @@
-"""Commands and parts that the window adds."""
+"""What the window adds."""
 
 NEEDS = ("tasks",)
 COMMANDS = {"play": "sandbox.window.command"}

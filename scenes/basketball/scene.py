@@ -50,6 +50,7 @@ from sandbox.kit import (
     State,
     Surface,
     Vector,
+    anywhere,
     apex,
     below,
     cached_per_run,
@@ -167,6 +168,8 @@ class Parameters(Flight):
     @property
     def width(self) -> Any:
         """The inner diameter of that section, in m."""
+        if not anywhere(self.beside != 0.0):
+            return self.hoop.inner_diameter
         narrows = (self.room > 0.0) & (self.free > 0.0) & (self.beside != 0.0)
         return self.hoop.inner_diameter - where(narrows, 2.0 * (self.room - self.free), 0.0)
 
@@ -254,7 +257,7 @@ def court(parameters: Parameters) -> list[Surface]:
 
 def on_floor(run: Run) -> float:
     """The time in s at which the ball reaches the floor, or the run ends."""
-    return next((event.t for event in run.events if event.partner == "floor"), run.duration)
+    return run.until_meeting("floor")
 
 
 def falls_to(run: Run, parameters: Parameters, below: float = 0.0) -> Iterator[tuple[float, State]]:
@@ -322,8 +325,7 @@ def aside_at(t: float, run: Run, parameters: Parameters) -> float:
 @cached_per_run
 def entry(run: Run, parameters: Parameters) -> Moment | None:
     """The ball as it first falls to the ring's height, or first touches something there if that is earlier."""
-    ball = down_to(run, parameters.hoop.middle)
-    return ball if ball is not None and ball.t < on_floor(run) else None
+    return down_to(run, parameters.hoop.middle, on_floor(run))
 
 
 def beyond_middle(ball: Moment, it: Parameters) -> float:

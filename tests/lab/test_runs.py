@@ -83,7 +83,16 @@ def test_facts_from_arrays_are_those_of_single_runs(monkeypatch):
         for key, value in run.scene.result(run.data).items():
             assert run.result[key] == (pytest.approx(value, rel=1e-12) if isinstance(value, float) else value), key
     assert {run.result["passes"] for run in found} == {0.0, 1.0}
-    assert at_once == [["height", "angle", "squared", "above", "landing", "word"]]
+    assert at_once == [["height", "angle", "squared", "passes", "above", "landing", "word"]]
+
+
+def test_a_shot_that_begins_on_the_ground_has_its_launch():
+    """Among others, too: a slow one stays there, and its landing is its launch."""
+    speeds = np.linspace(1.0, 3.0, FEWEST).tolist()
+    slow = next(runs(load("golf"), ["launch.speed"], [(speed,) for speed in speeds], asked=["landing_angle"]))
+    alone = sandbox.simulate(load("golf", {"launch.speed": 1.0}))
+    assert isinstance(slow, SceneRun)
+    assert slow.result["landing_angle"] == alone.result["landing_angle"] == pytest.approx(-10.4)
 
 
 def test_the_accuracy_may_differ_from_shot_to_shot():

@@ -40,7 +40,7 @@ QUINTIC = 6
 
 
 class Next(Enum):
-    """The next step for a ball that flies on, unless it waits for an event on its arc."""
+    """What is to be done for a ball that flies on, if it is not to wait for an event on its arc."""
 
     ARC = auto()
     """Plan its next arc."""
@@ -49,7 +49,7 @@ class Next(Enum):
     """After an impact, find out whether it stays on what it has hit, and plan its next arc."""
 
 
-class _Flying(Protocol):
+class Flying(Protocol):
     """The ball that flies, as a ``MovingBall``."""
 
     ball: Ball
@@ -66,7 +66,7 @@ class _Flying(Protocol):
 
 
 class Flight(NamedTuple):
-    """Constants of a flight, and the receivers of its events."""
+    """What stays the same on the way, and whom to tell of what happens."""
 
     setup: Setup
     control: StepControl
@@ -103,7 +103,7 @@ def after_impact(
 
 
 def fly(
-    flight: Flight, mover: _Flying, t: float, touches: bool, until: float, most: int
+    flight: Flight, mover: Flying, t: float, touches: bool, until: float, most: int
 ) -> tuple[int, EventKind | Next, float]:
     """Follow a ball from an event at t (s) on its arc, a touch or the arc's end, through events up to ``until`` (s).
 
@@ -163,7 +163,7 @@ def fly(
         check(t)
 
 
-def _after_touch(flight: Flight, mover: _Flying, t: float, state: State) -> Next | None:
+def _after_touch(flight: Flight, mover: Flying, t: float, state: State) -> Next | None:
     """Move a ball that touches something in this state at t (s) past its impact: what is next, or None if it has none
     that is plain."""
     found = touched(mover.obstacles, state[0], state[1])

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from sandbox.engine.kernel.step_control import StepControl, StepLimits
-from sandbox.engine.many.arc_rows import END, START, T0, T1, X, Y, arc_of, cut, stepped
+from sandbox.engine.many.arc_rows import END, START, T0, T1, X, Y, arc_of, cut, resting_columns, stepped
 from sandbox.engine.many.batch_contact import BatchContacts
 from sandbox.engine.many.batch_forces import NotVectorizable, accelerations, check_forces
 from sandbox.engine.many.batch_impacts import BatchImpacts
@@ -32,7 +32,7 @@ from sandbox.engine.model.tolerances import CLOSING, NEGLIGIBLE_OVERLAP
 from sandbox.engine.paths.arc import hermite_arc
 
 #: Fields of a setup that are combined for flights together; their ``until`` is called for each.
-_FLIGHT = ("balls", "surfaces", "force_regions", "bounds", "duration", "discontinuities")
+FLIGHT = ("balls", "surfaces", "force_regions", "bounds", "duration", "discontinuities")
 
 #: Pieces of path in a batch, 300 bytes each, beyond which its shots continue one at a time, where the number of steps
 #: is limited.
@@ -62,7 +62,7 @@ def _stack(setups: Sequence[Setup]) -> Stack | None:
     if len(setups) < FEWEST or not all(setup.is_single_ball for setup in setups):
         return None
     try:
-        return Stack.of(setups, (*_FLIGHT, "until") if isinstance(setups[0].until, Until) else _FLIGHT)
+        return Stack.of(setups, (*FLIGHT, "until") if isinstance(setups[0].until, Until) else FLIGHT)
     except Exception:  # NotStackable, or what a class of the scene raises when it is compared
         return None
 
@@ -105,6 +105,7 @@ class Batch:
     def _begin(self) -> None:
         """Start the shots that are in the air, or lie on one surface; the others are to be computed alone."""
         flying = self._flying
+        self._record.add_arcs(flying.shot, resting_columns(flying.t, flying.state))  # as each was launched
         x, y, vx, vy, _ = flying.state
         count, surface, near = self._outlines.near(flying.shot, x, y)
         away = vx * near.nx + vy * near.ny

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import cached_property
-from math import nan
+from math import inf, nan
 from typing import Any
 
 import numpy as np
@@ -18,7 +18,7 @@ from sandbox.engine.model.event import Event
 from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.shapes import Vector
 from sandbox.engine.paths.path import Above, Path
-from sandbox.engine.paths.run import Numerics, Run, State
+from sandbox.engine.paths.run import Numerics, Run, State, meeting_time
 
 
 class Flown(Sequence[Any]):
@@ -36,14 +36,14 @@ class Flown(Sequence[Any]):
         alone: Mapping[int, Run | Exception],
         seconds: float,
     ) -> None:
-        """For each shot: its path, its events, its duration in s, how it ended and what it cost. ``counts`` has the
+        """Of each shot: its path, its events, its duration in s, how it ended and what it cost. ``counts`` has the
         shape (shots, 6): the first six fields of ``Numerics``; each shot took so many ``seconds``. Those that ran
         ``alone`` have only a path."""
         self.setups = setups
         self.accuracy = accuracy
         self.paths = paths
         self.events = events
-        self.durations = durations
+        self.durations = [*durations]
         self.ended = ended
         self.counts = counts
         self.seconds = seconds
@@ -52,15 +52,16 @@ class Flown(Sequence[Any]):
         for shot, run in alone.items():
             if isinstance(run, Run):
                 run.arcs = {self.ball: paths[shot]}
+                self.durations[shot] = run.duration
 
     def __len__(self) -> int:
         return len(self.setups)
 
     def __getitem__(self, shot: Any) -> Any:
-        return self._alone.get(shot) or _FlownRun(self, shot)
+        return self._alone.get(shot) or FlownRun(self, shot)
 
 
-class _FlownRun(Run):
+class FlownRun(Run):
     """The run of one of many shots: what is asked of it is read from their rows then."""
 
     def __init__(self, flown: Flown, shot: int) -> None:
@@ -111,32 +112,40 @@ class AllRuns:
         """As ``Run.highest``."""
         return self._found(ball, *self._paths.summits)
 
-    def first_crossing(self, ball: str, point: Vector, normal: Vector) -> tuple[np.ndarray, State]:
-        """As ``Run.first_crossing``; the line may be another one for each run."""
+    def first_crossing(self, ball: str, point: Vector, normal: Vector, before: Any = inf) -> tuple[np.ndarray, State]:
+        """As ``Run.first_crossing``; line and time may be others for each run."""
         count, lengths = len(self._flown), self._paths.lengths
         line: list[Any] = [np.repeat(np.broadcast_to(part, count), lengths) for part in (*point, *normal)]
         numbers, t, states = self._paths.passing(0, len(self._paths.rows), Above(*line))
         numbers, first = np.unique(numbers, return_index=True)
-        return self._found(ball, *self._paths.spread(numbers, t[first], states[first]))
+        return self._found(ball, *self._paths.spread(numbers, t[first], states[first]), before)
 
-    def before_meeting(self, partner: str, ball: str = "ball") -> tuple[np.ndarray, State]:
+    def before_meeting(
+        self, partner: str | None = None, ball: str = "ball", before: Any = inf
+    ) -> tuple[np.ndarray, State]:
         """As ``Run.before_meeting``."""
-        flown = self._flown
-        times = [next((event.t for event in events if event.partner == partner), nan) for events in flown.events]
-        t, paths = np.array(times), self._paths
+        flown, paths = self._flown, self._paths
+        times = [meeting_time(events, partner, ball) for events in flown.events]
+        t = np.array(times)
         ends = np.flatnonzero(paths.rows[:, T1] == np.repeat(t, paths.lengths))
         numbers, first = np.unique(np.repeat(np.arange(len(t)), paths.lengths)[ends], return_index=True)
         _, states = paths.spread(numbers, t[numbers], paths.rows[ends[first], END])
         for shot in np.flatnonzero(np.isfinite(t) & np.isnan(states[:, 0])).tolist():  # at its start
             states[shot] = flown[shot].before(flown.ball, times[shot])
-        return self._found(ball, t, states)
+        return self._found(ball, t, states, before)
+
+    def until_meeting(self, partner: str) -> np.ndarray:
+        """As ``Run.until_meeting``."""
+        times = [meeting_time(events, partner) for events in self._flown.events]
+        return np.minimum(times, self._flown.durations)
 
     @property
     def _paths(self) -> Paths:
         return self._flown.paths
 
-    def _found(self, ball: str, t: np.ndarray, states: np.ndarray) -> tuple[np.ndarray, State]:
+    def _found(self, ball: str, t: np.ndarray, states: np.ndarray, before: Any = inf) -> tuple[np.ndarray, State]:
         if ball != self._flown.ball:
             raise KeyError(ball)
-        self.missing.append(np.isnan(t))
-        return t, State(*states.T)
+        missing = ~(t < before)
+        self.missing.append(missing)
+        return np.where(missing, nan, t), State(*np.where(missing, nan, states.T))

@@ -1,4 +1,4 @@
-"""Rest under forces that depend on time: until when it lasts.
+"""What lies still under forces that depend on time: how long it stays so.
 
 It is asked again at each of the forces' times: at their discontinuities, and in between as often as their time scale
 says. Where it does not stay, the time at which it begins to move is found to rounding.
@@ -22,7 +22,7 @@ from sandbox.physics.timing import Timing
 AHEAD = 1.0
 
 
-class _Forced(Protocol):
+class Forced(Protocol):
     """A ball or body on which forces act."""
 
     ball: Ball
@@ -60,7 +60,7 @@ def rest_end(
     return (until, False) if wakes is None else (wakes, True)
 
 
-def steady_end(movers: Sequence[_Forced], states: Mapping[int, State], since: float, t: float, until: float) -> float:
+def steady_end(movers: Sequence[Forced], states: Mapping[int, State], since: float, t: float, until: float) -> float:
     """Return the time in s up to which the forces on balls that rest in these states are known to stay as they were at
     ``since``; t if they do not now."""
     for index, state in states.items():

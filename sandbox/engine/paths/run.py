@@ -42,7 +42,7 @@ class Numerics:
 
 
 #: What is done about a time before the start or after the end of a run: an error, or NaN in place of numbers.
-_Outside = Literal["error", "nan"]
+Outside = Literal["error", "nan"]
 
 #: A time may be so much of the duration outside a run, which is rounding: 3 * 0.1 is more than 0.3.
 ROUNDING_OF_TIME = 1e-12
@@ -66,7 +66,16 @@ class State(NamedTuple):
     spin: float  # rad/s, counter-clockwise
 
 
-class _Resumable(Protocol):
+def meeting_time(events: Sequence[Event], partner: str | None, ball: str = "") -> float:
+    """Time in s of the first event with this partner, or with None in which the ball meets anything; inf without."""
+    if partner is None:
+        meets = (event.t for event in events if event.kind != "leave" and ball in (event.ball, event.partner))
+    else:
+        meets = (event.t for event in events if event.partner == partner)
+    return next(meets, inf)
+
+
+class Resumable(Protocol):
     """The record of how a run came about, from which it can be computed again from any time on."""
 
     def fork(self, t: float, changes: Mapping[str, Any]) -> Run:
@@ -100,12 +109,12 @@ class Run(Drawable):
     #: The setups of a run that was changed on its way, each with the time in s from which it was valid; ``setup`` is
     #: the last.
     eras: Sequence[tuple[float, Setup]] = field(default=(), kw_only=True)
-    record: _Resumable | None = field(default=None, kw_only=True, compare=False, repr=False)
+    record: Resumable | None = field(default=None, kw_only=True, compare=False, repr=False)
 
     def __repr__(self) -> str:
         return f"<Run: {self.duration:.2f} s, {len(self.events)} events, ended by {self.ended}>"
 
-    def state(self, ball: str, t: float, outside: _Outside = "error") -> State:
+    def state(self, ball: str, t: float, outside: Outside = "error") -> State:
         """Return x, y (m), vx, vy (m/s) and spin (rad/s) of a ball or body at time t in s.
 
         At an impact it is the state just after. A time before the start or after the end of the run raises
@@ -116,7 +125,7 @@ class Run(Drawable):
             return State(nan, nan, nan, nan, nan)
         return State(*path.at(t).state(t)[:5])
 
-    def states(self, ball: str, times: Sequence[float] | np.ndarray, outside: _Outside = "error") -> np.ndarray:
+    def states(self, ball: str, times: Sequence[float] | np.ndarray, outside: Outside = "error") -> np.ndarray:
         """Return the states of a ball at these n times in s, in any order, as an array of shape (n, 5): x, y in m, vx,
         vy in m/s, spin in rad/s. That of a body has shape (n, 6): its angle in rad comes last.
 
@@ -134,7 +143,7 @@ class Run(Drawable):
         rows = [path.at(t).state(t)[:columns] if self._within(path, ball, t, outside) else missing for t in asked]
         return np.array(rows, dtype=float).reshape(-1, columns)
 
-    def _within(self, path: Path, ball: str, t: float, outside: _Outside) -> bool:
+    def _within(self, path: Path, ball: str, t: float, outside: Outside) -> bool:
         """Return True if the run has the time t, apart from rounding. Raises RequestError if not, unless NaN may do."""
         start, rounding = path[0].t0, ROUNDING_OF_TIME * self.duration
         if not isinstance(t, int | float) and getattr(t, "ndim", None) != 0:
@@ -258,14 +267,23 @@ class Run(Drawable):
         """
         return ((t, State(*state)) for t, state in self._path(ball).passages(Above(*point, *normal)))
 
-    def first_crossing(self, ball: str, point: Vector, normal: Vector) -> tuple[float, State] | None:
-        """The first time (s) and State at which it does so; None if it never does."""
-        return next(self.crossings(ball, point, normal), None)
+    def first_crossing(
+        self, ball: str, point: Vector, normal: Vector, before: float = inf
+    ) -> tuple[float, State] | None:
+        """The first time (s) and State at which it does so; None if it does not ``before`` a time in s."""
+        return next((found for found in self.crossings(ball, point, normal) if found[0] < before), None)
 
-    def before_meeting(self, partner: str, ball: str = "ball") -> tuple[float, State] | None:
-        """Time (s) of the first event with this partner, and State of a ball just before; None without one."""
-        t = next((event.t for event in self.events if event.partner == partner), None)
-        return None if t is None else (t, self.before(ball, t))
+    def before_meeting(
+        self, partner: str | None = None, ball: str = "ball", before: float = inf
+    ) -> tuple[float, State] | None:
+        """Time (s) of the first event with this partner, or in which the ball meets anything, and State of the ball
+        just before; None without one ``before`` a time in s."""
+        t = meeting_time(self.events, partner, ball)
+        return (t, self.before(ball, t)) if t < before else None
+
+    def until_meeting(self, partner: str) -> float:
+        """Time (s) of the first event with this partner, or of the end of the run."""
+        return min(meeting_time(self.events, partner), self.duration)
 
     def highest(self, ball: str, until: float = inf) -> tuple[float, State]:
         """Time (s) and State at which a ball's centre is highest, up to a time at which it is not."""

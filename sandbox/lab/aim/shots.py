@@ -22,7 +22,7 @@ SCAN = 129
 
 #: Points of the scan for a target that is not a number, where runs are computed together, and where one by one. The
 #: result may change between any two points without a sign of it, so their spacing is the width that is guaranteed.
-_DENSE, DENSE_ALONE = 2049, 513
+DENSE, DENSE_ALONE = 2049, 513
 
 #: Refinements of an interval with a jump, the parts of each, and the most runs that these may add: for a number; and
 #: for a target that is none, where runs are computed together and where one by one. Baskets off the rim alternate with
@@ -232,15 +232,19 @@ def dense_scan(shots: Shots) -> list[tuple[float, dict[str, Any] | None]]:
     span = shots.spans[0]
     middle = 0.5 * (span.low + span.high)
     together = fly_together(shots.scene, [span.key], [middle])
-    points, most = (_DENSE, _MOST_TOGETHER) if together else (DENSE_ALONE, _MOST_ALONE)
+    points, most = (DENSE, _MOST_TOGETHER) if together else (DENSE_ALONE, _MOST_ALONE)
     shots.planned = points
     shots.resolved(1.0 / (points - 1))
     places = np.linspace(span.low, span.high, points).tolist()
     spacing = (span.high - span.low) / (points - 1)
+    kinds: dict[str, int] = {}
+    kind_at: dict[float, int] = {}  # of the result at each place
     for halvings in range(_HALVINGS + 1):
         results = shots.results([(place,) for place in places], others=True)
-        signatures, widths = [_signature(result) for result in results], np.diff(places)
-        differ = np.array([one != other for one, other in pairwise(signatures)])
+        for place, result in zip(places, results, strict=True):
+            if place not in kind_at:
+                kind_at[place] = kinds.setdefault(str(_signature(result)), len(kinds))
+        differ, widths = np.diff([kind_at[place] for place in places]) != 0, np.diff(places)
         narrow = np.where(differ, widths, np.inf)
         beside = np.minimum(np.append(narrow[1:], np.inf), np.append(np.inf, narrow[:-1]))
         split = (differ & (widths > 0.75 * spacing / 2**halvings)) | (widths > 2.5 * beside)

@@ -21,7 +21,7 @@ from sandbox.cli.reports import Outputs, report_options
 from sandbox.files import writing
 
 
-def _print_formats(context: click.Context, option: click.Parameter, value: bool) -> None:
+def print_formats(context: click.Context, option: click.Parameter, value: bool) -> None:
     """Print the known columns of tables and end, in place of a command."""
     if value:
         from sandbox.lab.formats import as_text
@@ -61,7 +61,7 @@ def _print_formats(context: click.Context, option: click.Parameter, value: bool)
     is_flag=True,
     is_eager=True,
     expose_value=False,
-    callback=_print_formats,
+    callback=print_formats,
     help="List known columns of tables, and exit.",
 )
 @click.option(
