@@ -31,8 +31,8 @@ class FlightSimulation(Simulation):
 
     def _set_up(self, setup: Setup) -> None:
         super()._set_up(setup)
-        plain = all(each.nose_height is None and each.kick == 0.0 for each in setup.surfaces)
-        self._is_alone = plain and [type(mover) for mover in self._movers] == [MovingBall]
+        still = all(each.motion is None and each.nose_height is None and each.kick == 0.0 for each in setup.surfaces)
+        self._is_alone = still and [type(mover) for mover in self._movers] == [MovingBall]
 
     def _loop(self, until: float = inf) -> None:
         self._until = until
