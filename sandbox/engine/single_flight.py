@@ -17,6 +17,9 @@ from sandbox.engine.motion.moving_ball import MovingBall
 from sandbox.engine.simulation import Simulation
 from sandbox.physics.integrators import State
 
+#: Events that a flight may go through.
+_OF_FLIGHT = EventKind.ARC_END, EventKind.TOUCH
+
 
 class FlightSimulation(Simulation):
     """A run; where it has one ball, and nothing that moves or kicks, plain events of its flight take a short way."""
@@ -40,7 +43,7 @@ class FlightSimulation(Simulation):
 
     def _resolve(self, event: QueuedEvent) -> None:
         self._at_once = 1
-        if not (self._is_alone and self._movers[0].flies and self._fly(event)):
+        if not (self._is_alone and event.kind in _OF_FLIGHT and self._movers[0].flies and self._fly(event)):
             super()._resolve(event)
 
     def _fly(self, event: QueuedEvent) -> bool:

@@ -11,10 +11,14 @@ import pytest
 from sandbox.engine.impact.impulses import DiscOnGround
 from sandbox.engine.live import LiveSimulation
 from sandbox.engine.model.accuracy import resolve
+from sandbox.engine.model.ball import Ball
+from sandbox.engine.model.setup import Setup
+from sandbox.engine.model.surface import Trap
 from sandbox.engine.paths.run import Run
 from sandbox.engine.simulation import Simulation
 from sandbox.physics.coefficients import GOLF_DRAG, GOLF_LIFT, SOCCER_DRAG, TENNIS_LIFT, Constant, tour_fit_drag
 from sandbox.physics.elementwise import of_floats
+from sandbox.physics.forces import Drag, Gravity
 from sandbox.physics.impulse import exchange
 from sandbox.scene import load
 from tests.reference.grazing import cases, mistake
@@ -33,6 +37,15 @@ def test_a_flight_is_the_same_with_and_without_the_queue(scene: str):
     setup = load(scene).build()
     alone, queued = LiveSimulation(setup, resolve()), Simulation(setup, resolve())
     assert exactly(alone.run()) == exactly(queued.run())
+
+
+def test_a_trap_in_the_air_catches_a_ball():
+    """On its way down through (1, 1): as through the queue."""
+    ball = Ball("ball", 1.0, 0.1, (0.0, 1.0), (4.0, 1.22625), forces=[Gravity(9.81), Drag(coefficient=0.01)])
+    setup = Setup([ball], traps=[Trap("bag", (1.0, 1.0), 0.2), Trap("far", (9.0, 9.0), 0.1)], duration=5.0)
+    run = LiveSimulation(setup, resolve()).run()
+    assert [event.kind for event in run.events] == ["caught"]
+    assert exactly(run) == exactly(Simulation(setup, resolve()).run())
 
 
 def test_the_closed_form_of_an_impact_is_that_of_pymunk():
