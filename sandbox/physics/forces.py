@@ -11,12 +11,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from math import pi
-from typing import Any, ClassVar, Protocol
+from typing import Any, ClassVar, NamedTuple, Protocol
 
 from sandbox.physics.air import DENSITY, VISCOSITY, density_share
 from sandbox.physics.checks import check
 from sandbox.physics.coefficients import Coefficient, Constant, spin_ratio_lift
-from sandbox.physics.elementwise import anywhere, clip, of_floats
+from sandbox.physics.elementwise import anywhere, clip
 from sandbox.physics.of_ball import OfBall, on_ball
 
 Wind = Callable[[float, Any], tuple[Any, Any]]
@@ -90,6 +90,15 @@ class Gravity(OfBall):
         return 0.0, (self._loss.lost(t) - self._mass) * self.gravity
 
 
+class AirRow(NamedTuple):
+    """The numbers of a drag or lift, and its coefficient."""
+
+    half_density_area: Any  # kg/m
+    law: Coefficient
+    reynolds_per_speed: Any  # s/m
+    radius: Any  # m
+
+
 @dataclass(frozen=True)
 class _InAir(OfBall):
     """The part that drag and lift share: the ball, the air, and the velocity relative to it."""
@@ -101,34 +110,25 @@ class _InAir(OfBall):
     area: float | None = None  # m^2; default: the sphere's cross-section
     viscosity: float = VISCOSITY  # Pa s
     PARTS: ClassVar[Parts] = IN_WIND
-    _radius: float = _computed()  # m
-    _law: Coefficient = _computed()
-    _half_density_area: float = _computed()
-    _reynolds_per_speed: float = _computed()
+    _row: AirRow = _computed()
 
     def __post_init__(self) -> None:
         check(type(self).__name__, self, not_negative=["density"], positive=["viscosity"])
         if not callable(self.coefficient):
             check(type(self).__name__, self, finite=["coefficient"])
-        law = self.coefficient if callable(self.coefficient) else Constant(self.coefficient)
-        object.__setattr__(self, "_law", law)
         if self.radius is not None:
             self._measure(self.radius)
 
     def _measure(self, radius: float) -> None:
         area = pi * radius * radius if self.area is None else self.area
-        object.__setattr__(self, "_radius", radius)
-        object.__setattr__(self, "_half_density_area", 0.5 * self.density * area)
-        object.__setattr__(self, "_reynolds_per_speed", self.density * 2.0 * radius / self.viscosity)
+        law = self.coefficient if callable(self.coefficient) else Constant(self.coefficient)
+        row = AirRow(0.5 * self.density * area, law, self.density * 2.0 * radius / self.viscosity, radius)
+        object.__setattr__(self, "_row", row)
 
-    def of_floats(self) -> Any:
-        """The same, for floats alone."""
-        law = of_floats(self._law)
-        if law is self._law:
-            return self
-        made = object.__new__(type(self))
-        made.__dict__.update(self.__dict__, _law=law)
-        return made
+    @property
+    def row(self) -> AirRow:
+        """What ``through_air`` takes."""
+        return self._row
 
     def on(self, ball: Any) -> Any:
         if self.radius is not None:
@@ -167,7 +167,7 @@ class Drag(_InAir):
 
     def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
         ux, uy = velocity if self.wind is None else in_wind(self.wind, t, position, velocity)
-        return through_air(self, None, None, ux, uy, spin)[:2]
+        return through_air(self._row, None, None, ux, uy, spin)[:2]
 
 
 @dataclass(frozen=True)
@@ -193,7 +193,7 @@ class Magnus(_InAir):
     def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
         wind = None if self.along_ground else self.wind
         ux, uy = velocity if wind is None else in_wind(wind, t, position, velocity)
-        return through_air(None, self, None, ux, uy, spin)[:2]
+        return through_air(None, self._row, None, ux, uy, spin)[:2]
 
 
 @dataclass(frozen=True)
@@ -268,6 +268,11 @@ class SpinDecay(OfBall):
     PARTS: ClassVar[Parts] = IN_WIND
     _k: float = _computed()
 
+    @property
+    def row(self) -> float:
+        """What ``through_air`` takes, in kg m."""
+        return self._k
+
     def __post_init__(self) -> None:
         if self.inertia is not None and self.radius is not None:
             self._scale(self.inertia, self.radius)
@@ -286,36 +291,36 @@ class SpinDecay(OfBall):
 
     def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> Any:
         ux, uy = velocity if self.wind is None else in_wind(self.wind, t, position, velocity)
-        return through_air(None, None, self, ux, uy, spin)[2]
+        return through_air(None, None, self._k, ux, uy, spin)[2]
 
 
 def through_air(
-    drag: Drag | None,
-    lift: Magnus | None,
-    decay: SpinDecay | None,
+    drag: AirRow | None,
+    lift: AirRow | None,
+    decay: Any,
     ux: Any,
     uy: Any,
     spin: Any,
     fx: Any = 0.0,
     fy: Any = 0.0,
 ) -> tuple[Any, Any, Any]:
-    """Force in N, with what else acts, fx and fy, and torque in N m, of those that are given, on a ball with this
-    velocity relative to the air."""
+    """Force in N, with what else acts, fx and fy, and torque in N m, on a ball with this velocity relative to the air:
+    by drag, lift and spin decay (its k, in kg m), as far as they are given."""
     speed, torque = (ux * ux + uy * uy) ** 0.5, 0.0
     if drag is not None:
-        law = drag._law
+        half_density_area, law, reynolds_per_speed, radius = drag
         if type(law) is Constant:
             value = law.value
         else:
-            value = law(drag._reynolds_per_speed * speed, drag._radius * abs(spin) / (speed + _ALMOST_ZERO))
-        k = -drag._half_density_area * value * speed
+            value = law(reynolds_per_speed * speed, radius * abs(spin) / (speed + _ALMOST_ZERO))
+        k = -half_density_area * value * speed
         fx, fy = fx + k * ux, fy + k * uy
     if lift is not None:
-        size = lift._radius * abs(spin)
-        value = lift._law(lift._reynolds_per_speed * speed, size / (speed + _ALMOST_ZERO))
-        k = lift._half_density_area * value * speed
-        k = k * (lift._radius * spin / (size + _ALMOST_ZERO))  # sign of the spin, 0 without spin
+        half_density_area, law, reynolds_per_speed, radius = lift
+        size = radius * abs(spin)
+        k = half_density_area * law(reynolds_per_speed * speed, size / (speed + _ALMOST_ZERO)) * speed
+        k = k * (radius * spin / (size + _ALMOST_ZERO))  # sign of the spin, 0 without spin
         fx, fy = fx - k * uy, fy + k * ux
     if decay is not None:
-        torque = -decay._k * speed * spin
+        torque = -decay * speed * spin
     return fx, fy, torque

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import is_dataclass
 from math import isfinite
 from types import FunctionType, MethodType
-from typing import Any
+from typing import Any, NamedTuple
 
 from sandbox.engine.model.ball import Ball
 from sandbox.engine.model.setup_errors import failed, is_from_inside
@@ -42,28 +42,32 @@ def acceleration_function(ball: Ball, floats: bool = True) -> AccelerationFuncti
     """
     mass, inertia = ball.mass, ball.inertia
     rotates, loses_mass = ball.rotates, ball.loss is not None
-    drag, lift, decay, wind = _in_one_wind(ball)
+    together, wind = _in_one_wind(ball)
+    drag, lift = (None if term is None else term.row for term in together[:2])
+    decay = None if together.decay is None else together.decay.row
     constant_x = constant_y = 0.0
-    forces, torques = [], [_called(torque, floats) for torque in ball.torques if torque is not decay]
+    forces, torques = [], [_called(torque, floats) for torque in ball.torques if torque is not together.decay]
     for force in ball.forces:
         if _is_constant(force):
             gx, gy = force(0.0, (0.0, 0.0), (0.0, 0.0), 0.0)
             constant_x, constant_y = constant_x + gx, constant_y + gy
-        elif force is not drag and force is not lift:
+        elif force is not together.drag and force is not together.lift:
             forces.append(_called(force, floats))
     in_air = drag is not None or lift is not None or decay is not None
     if floats:
-        drag = None if drag is None else drag.of_floats()
-        lift = None if lift is None else lift.of_floats()
+        drag, lift = (None if row is None else row._replace(law=of_floats(row.law)) for row in (drag, lift))
         wind = None if wind is None else _called(wind, floats)
 
     def acceleration(t: Any, state: State) -> Acceleration:
         try:
             x, y, vx, vy, spin = state[:5] if rotates else state
-            fx, fy, torque = constant_x, constant_y, 0.0
-            if in_air:
-                ux, uy = (vx, vy) if wind is None else in_wind(wind, t, (x, y), (vx, vy))
-                fx, fy, torque = through_air(drag, lift, decay, ux, uy, spin, fx, fy)
+            if not in_air:
+                fx, fy, torque = constant_x, constant_y, 0.0
+            elif wind is None:
+                fx, fy, torque = through_air(drag, lift, decay, vx, vy, spin, constant_x, constant_y)
+            else:
+                ux, uy = in_wind(wind, t, (x, y), (vx, vy))
+                fx, fy, torque = through_air(drag, lift, decay, ux, uy, spin, constant_x, constant_y)
             if forces or torques:
                 position, velocity = _position(state) if rotates else (x, y), (vx, vy)
                 for force in forces:
@@ -85,12 +89,18 @@ def acceleration_function(ball: Ball, floats: bool = True) -> AccelerationFuncti
     return acceleration
 
 
-def _in_one_wind(ball: Ball) -> tuple[Drag | None, Magnus | None, SpinDecay | None, Wind | None]:
+class _Together(NamedTuple):
+    """Drag, lift and spin decay in one wind."""
+
+    drag: Drag | None
+    lift: Magnus | None
+    decay: SpinDecay | None
+
+
+def _in_one_wind(ball: Ball) -> tuple[_Together, Wind | None]:
     """The drag, lift and spin decay of a ball that are in one wind, and so are computed together; and the wind. They
     come first of all that is not constant, in this order: the sum of all is the same, to its last digit."""
-    drag: Drag | None = None
-    lift: Magnus | None = None
-    decay: SpinDecay | None = None
+    drag = lift = decay = None
     winds: list[Wind | None] = []
     forces: list[Any] = [] if ball.rotates else [force for force in ball.forces if not _is_constant(force)]
     torques: list[Any] = [] if ball.rotates else [*ball.torques]
@@ -105,7 +115,7 @@ def _in_one_wind(ball: Ball) -> tuple[Drag | None, Magnus | None, SpinDecay | No
     if torques and type(torques[0]) is SpinDecay and (not winds or winds[0] is torques[0].wind):
         winds.append(torques[0].wind)
         decay = torques[0]
-    return drag, lift, decay, winds[0] if winds else None
+    return _Together(drag, lift, decay), winds[0] if winds else None
 
 
 def _called(term: Any, floats: bool) -> Any:

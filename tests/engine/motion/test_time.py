@@ -75,7 +75,7 @@ def test_a_gust_takes_what_lies_along():
     """With u = 20 - v: u' = -(k/m) u^2, so x = 20 s - (m/k) ln(1 + 20 k s / m) after s seconds."""
     drag = Drag(coefficient=0.5, wind=lambda t, position: (20.0 * (t > 1.0), 0.0))
     ball = Ball("ball", 0.02, 0.1, (0.0, 0.1), forces=[G, drag])
-    by_mass = ball.forces[1]._half_density_area * 0.5 / 0.02
+    by_mass = ball.forces[1].row.half_density_area * 0.5 / 0.02
     run = sandbox.simulate(Setup([ball], [SMOOTH], duration=3.0))
     assert run.state("ball", 3.0).x == pytest.approx(40.0 - log(1.0 + 40.0 * by_mass) / by_mass, abs=1e-3)
 
