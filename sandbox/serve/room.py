@@ -1,4 +1,4 @@
-"""The room: who is there, what is played, who shot what. It passes messages on and asks the lanes for computing."""
+"""The room: who is there, what is played, who shot what. It passes messages on and asks the processes for computing."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from typing import Any, NamedTuple
 from sandbox.errors import RequestError
 from sandbox.serve import calls, messages
 from sandbox.serve.connection import LATER, Connection
-from sandbox.serve.lanes import Lanes
 from sandbox.serve.limits import AWAY, HELLO, PLAYERS, REMEMBERED, ROWS
+from sandbox.serve.processes import JobProcesses
 
 
 class Listed(NamedTuple):
@@ -73,8 +73,8 @@ class _Lead:
 class Room:
     """Everybody who plays on one server. ``scenes`` may be played, by the names that are shown."""
 
-    def __init__(self, scenes: Mapping[str, Listed], lanes: Lanes, units: str) -> None:
-        self.scenes, self.lanes, self.units = scenes, lanes, units
+    def __init__(self, scenes: Mapping[str, Listed], processes: JobProcesses, units: str) -> None:
+        self.scenes, self.processes, self.units = scenes, processes, units
         self.first = next(iter(scenes))
         self.players: dict[str, Player] = {}  # by session
         self.teachers: dict[Connection, str] = {}  # the scene that each looks at; "" for that of all
@@ -102,7 +102,9 @@ class Room:
             raise
 
     async def _describe(self, name: str, listed: Listed) -> Mapping[str, Any]:
-        reply = await self.lanes.compute("described", name, "described", calls.described, listed.source, listed.is_task)
+        reply = await self.processes.compute(
+            "described", name, "described", calls.described, listed.source, listed.is_task
+        )
         if reply is None or "error" in reply:
             raise RequestError(reply["error"] if reply else "this scene could not be loaded")
         kept = reply["kept"]
@@ -187,7 +189,7 @@ class Room:
 
     def _leave(self, player: Player) -> None:
         player.connection, player.seen = None, monotonic()
-        self.lanes.forget(player.session)
+        self.processes.forget(player.session)
         asyncio.get_running_loop().call_later(AWAY, self._tell_teachers)
         self._tell_teachers()
 
@@ -266,7 +268,7 @@ class Room:
             changes = setting
         ask = self._ask(source, changes, message, calls.Game(self.seed, player.number, tuple(tries)))
         alike = kind, source, frozenset(setting.items())
-        reply = await self.lanes.compute(player.session, kind, alike, calls.computed, kind, ask)
+        reply = await self.processes.compute(player.session, kind, alike, calls.computed, kind, ask)
         connection = player.connection
         if kind == "shot":
             player.shooting = False
@@ -316,7 +318,7 @@ class Room:
                     connection.tell(str(error))
         finally:
             del self.teachers[connection]
-            self.lanes.forget(connection)
+            self.processes.forget(connection)
 
     async def _taught(self, connection: Connection, message: Any) -> None:
         """Do what a teacher asks for. Raises RequestError."""
@@ -330,7 +332,7 @@ class Room:
                 await self._checked(source, message.changes)
                 ask = self._ask(source, message.changes, message, calls.Game(self.seed, 0))
                 alike = message.do, source, frozenset((await self._unaimed(source, message.changes)).items())
-                reply = await self.lanes.compute(connection, message.do, alike, calls.computed, message.do, ask)
+                reply = await self.processes.compute(connection, message.do, alike, calls.computed, message.do, ask)
                 if reply is not None and "error" in reply:
                     connection.tell(reply["error"])
                 elif reply is not None:

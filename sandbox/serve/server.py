@@ -16,8 +16,8 @@ from sandbox.files import reason
 from sandbox.scene.finding import first_comment, folder_of, listings, listings_of
 from sandbox.serve import calls
 from sandbox.serve.app import app_of
-from sandbox.serve.lanes import Lanes
 from sandbox.serve.limits import CONNECTIONS, MESSAGE, PLAYERS
+from sandbox.serve.processes import JobProcesses
 from sandbox.serve.protocols import Asking, Talking
 from sandbox.serve.room import Listed, Room
 from sandbox.serve.tokens import tokens
@@ -94,10 +94,10 @@ async def _serve(
     host = _own_address() if share else _LOOPBACK
     hosts = {f"{name}:{port}" for name in (_LOOPBACK, "localhost", host, *([socket.gethostname()] if share else []))}
     sources = dict.fromkeys(each.source for each in list(scenes.values())[:_WARMED] if not each.is_task)
-    lanes = Lanes(options.jobs, calls.warmed, list(sources))
+    processes = JobProcesses(options.jobs, calls.warmed, list(sources))
     try:
-        await _checked(lanes, scenes)
-        room = Room(scenes, lanes, options.units)
+        await _checked(processes, scenes)
+        room = Room(scenes, processes, options.units)
         config = uvicorn.Config(
             app_of(room, own, hosts), log_config=None, log_level="error", access_log=False, lifespan="off",
             http=Asking, ws=Talking,
@@ -111,13 +111,13 @@ async def _serve(
         await server.serve(sockets=[listener])
         raise KeyboardInterrupt  # only a signal ends it, whether or not this process was started to ignore that
     finally:
-        lanes.close()
+        processes.close()
 
 
-async def _checked(lanes: Lanes, scenes: dict[str, Listed]) -> None:
+async def _checked(processes: JobProcesses, scenes: dict[str, Listed]) -> None:
     """Raise RequestError if the first scene cannot be loaded, before players come."""
     first = next(iter(scenes.values()))
-    reply = await lanes.compute("first", "", "described", calls.described, first.source, first.is_task)
+    reply = await processes.compute("first", "", "described", calls.described, first.source, first.is_task)
     if reply is not None and "error" in reply:
         raise RequestError(reply["error"])
 

@@ -15,7 +15,7 @@ if _TYPE_CHECKING:
     from typing import Any
 
     from sandbox.tasks.finding import find_task, is_task, tasks
-    from sandbox.tasks.reading import TaskListing, listed, load
+    from sandbox.tasks.parsing import TaskListing, listed, load
     from sandbox.tasks.scoring import Score
     from sandbox.tasks.session import Attempt, Session, Shot
     from sandbox.tasks.task import Control, Start, Task
@@ -23,7 +23,7 @@ if _TYPE_CHECKING:
 #: The names of each module, which is imported on first use.
 _MODULES = {
     "finding": ("find_task", "is_task", "tasks"),
-    "reading": ("TaskListing", "listed", "load"),
+    "parsing": ("TaskListing", "listed", "load"),
     "scoring": ("Score",),
     "session": ("Attempt", "Session", "Shot"),
     "task": ("Control", "Start", "Task"),

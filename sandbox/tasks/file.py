@@ -1,4 +1,4 @@
-"""The content of a task file, as it is written; ``reading.py`` reads it against its scene."""
+"""The content of a task file, as it is written; ``parsing.py`` reads it against its scene."""
 
 from __future__ import annotations
 

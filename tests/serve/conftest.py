@@ -18,7 +18,9 @@ import pytest
 from tests.own_scene import COMMAND, HANG
 
 #: The program, with runs that may take long: on a busy machine they do.
-PATIENT = COMMAND[-1].replace("import sys;", f"import sys; from sandbox.serve import lanes; lanes.RUN = {HANG};")
+PATIENT = COMMAND[-1].replace(
+    "import sys;", f"import sys; from sandbox.serve import processes; processes.RUN = {HANG};"
+)
 
 pytest.importorskip("starlette", reason="serving is tested with the extra serve")
 

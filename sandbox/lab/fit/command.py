@@ -111,7 +111,7 @@ def fit(
     from sandbox.lab.fit.frame import parse_free
     from sandbox.lab.fit.launches import Launches
     from sandbox.lab.fit.models import compare, parse_models
-    from sandbox.lab.fit.reading import Film, parse_ball, parse_pair, parse_scale
+    from sandbox.lab.fit.parsing import Film, parse_ball, parse_pair, parse_scale
     from sandbox.lab.fit.report import report_of
     from sandbox.lab.fit.saving import check_saving
     from sandbox.lab.fit.saving import save as saved

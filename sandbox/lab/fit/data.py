@@ -12,7 +12,7 @@ from sandbox.lab.fit.frame import frame_of
 from sandbox.lab.fit.launches import launches
 from sandbox.lab.fit.measured import Measured
 from sandbox.lab.fit.outline import Outline
-from sandbox.lab.fit.reading import NAMES, Film, flattened, has_positions, measurements, unknown_columns
+from sandbox.lab.fit.parsing import NAMES, Film, flattened, has_positions, measurements, unknown_columns
 from sandbox.lab.fit.track import Track
 from sandbox.lab.formats import Entry, device, in_table, recognized, stated
 from sandbox.lab.table_file import Column, Table, read_table, split_unit

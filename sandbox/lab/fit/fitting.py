@@ -17,8 +17,8 @@ from sandbox.lab.fit.frame import parse_free
 from sandbox.lab.fit.launches import Launches
 from sandbox.lab.fit.measured import Measured
 from sandbox.lab.fit.models import chosen_models, compare
+from sandbox.lab.fit.parsing import Film, parse_scale
 from sandbox.lab.fit.problem import Declared
-from sandbox.lab.fit.reading import Film, parse_scale
 from sandbox.lab.fit.squares import Fit, solve
 from sandbox.lab.formats import parse_entry
 from sandbox.parameters import value_at, walk

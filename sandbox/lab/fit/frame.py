@@ -10,7 +10,7 @@ import numpy as np
 
 from sandbox.errors import RequestError
 from sandbox.lab.fit.measured import Free
-from sandbox.lab.fit.reading import Measurements
+from sandbox.lab.fit.parsing import Measurements
 from sandbox.scene import Scene
 
 #: The keys of what may be free.

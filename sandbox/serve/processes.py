@@ -46,7 +46,7 @@ class _Job:
         return self.player, self.want in _ASIDE
 
 
-class Lanes:
+class JobProcesses:
     """``width`` processes. In the loop that runs where it is made. Each calls ``warm(*args)`` before its first job, and
     again after it was ended: how long a process takes to start does not count as a job's time."""
 

@@ -15,7 +15,7 @@ from sandbox.errors import RequestError
 from sandbox.lab.fit.data import Reading, data_of, read_data, table_of
 from sandbox.lab.fit.launches import Launches
 from sandbox.lab.fit.outline import distances
-from sandbox.lab.fit.reading import Film, measurements, parse_scale
+from sandbox.lab.fit.parsing import Film, measurements, parse_scale
 from sandbox.lab.formats import forms, parse_entry, recognized
 from sandbox.lab.report import as_text
 from sandbox.lab.selection import LeftOut

@@ -11,8 +11,8 @@ from typing import Any
 
 import pytest
 
-from sandbox.serve import lanes
-from sandbox.serve.lanes import Lanes
+from sandbox.serve import processes
+from sandbox.serve.processes import JobProcesses
 from tests.own_scene import HANG
 
 
@@ -26,9 +26,9 @@ def held_until(file: str) -> None:
         time.sleep(0.01)
 
 
-def run(play: Callable[[Lanes], Awaitable[Any]], width: int) -> Any:
+def run(play: Callable[[JobProcesses], Awaitable[Any]], width: int) -> Any:
     async def played() -> Any:
-        made = Lanes(width)
+        made = JobProcesses(width)
         try:
             while len(made._idle) < width:  # until all processes are there
                 await asyncio.sleep(0.01)
@@ -40,7 +40,7 @@ def run(play: Callable[[Lanes], Awaitable[Any]], width: int) -> Any:
 
 
 def test_the_newest_wins_and_one_runs_at_a_time(tmp_path: Path):
-    async def play(made: Lanes) -> Any:
+    async def play(made: JobProcesses) -> Any:
         first = asyncio.create_task(made.compute("ann", "path", "slow", held_until, str(tmp_path / "go")))
         await asyncio.sleep(0)
         later = [asyncio.create_task(made.compute("ann", "path", "x", dict, [("kept", n)])) for n in range(5)]
@@ -59,12 +59,12 @@ def test_the_newest_wins_and_one_runs_at_a_time(tmp_path: Path):
 def test_long_jobs_never_keep_others_waiting(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
     """With three processes on two cores, one of three breaks runs at a time once it is known how long they take: putts
     are computed while none of them ends."""
-    monkeypatch.setattr(lanes, "cores", lambda: 2)
-    monkeypatch.setattr(lanes, "RUN", 2 * HANG)
+    monkeypatch.setattr(processes, "cores", lambda: 2)
+    monkeypatch.setattr(processes, "RUN", 2 * HANG)
     go = str(tmp_path / "go")
 
-    async def play(made: Lanes) -> None:
-        await made.compute("first", "path", "break", time.sleep, 1.1 * lanes.LONG)
+    async def play(made: JobProcesses) -> None:
+        await made.compute("first", "path", "break", time.sleep, 1.1 * processes.LONG)
         breaks = [asyncio.create_task(made.compute(f"break {n}", "path", "break", held_until, go)) for n in range(3)]
         for n in range(20):
             putt = made.compute(f"putt {n}", "path", "putt", dict, [("kept", n)])
@@ -79,13 +79,13 @@ def test_long_jobs_never_keep_others_waiting(monkeypatch: pytest.MonkeyPatch, tm
 
 def test_slow_players_keep_no_quiet_one_waiting(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
     """Six whose paths of the same scene never end, and one whose paths are known to be short: he waits for none."""
-    monkeypatch.setattr(lanes, "cores", lambda: 2)
-    monkeypatch.setattr(lanes, "RUN", 2 * HANG)
+    monkeypatch.setattr(processes, "cores", lambda: 2)
+    monkeypatch.setattr(processes, "RUN", 2 * HANG)
     go = str(tmp_path / "go")
 
-    async def play(made: Lanes) -> None:
+    async def play(made: JobProcesses) -> None:
         await made.compute("quiet", "path", "golf", dict, [("kept", 0)])
-        await made.compute("slow 0", "path", "golf", time.sleep, 1.1 * lanes.LONG)
+        await made.compute("slow 0", "path", "golf", time.sleep, 1.1 * processes.LONG)
         alike = ["golf", "golf", "golf", "storm 1", "storm 2", "storm 3"]
         slow = [asyncio.create_task(made.compute(f"slow {n}", "path", alike[n], held_until, go)) for n in range(6)]
         for n in range(20):
@@ -100,7 +100,7 @@ def test_slow_players_keep_no_quiet_one_waiting(monkeypatch: pytest.MonkeyPatch,
 
 
 def test_whoever_has_had_the_least_is_next(tmp_path: Path):
-    async def play(made: Lanes) -> list[str]:
+    async def play(made: JobProcesses) -> list[str]:
         order: list[str] = []
 
         async def ask(player: str, want: str) -> None:
@@ -121,11 +121,11 @@ def test_whoever_has_had_the_least_is_next(tmp_path: Path):
 
 
 def test_what_takes_too_long_or_breaks_is_ended(monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr(lanes, "RUN", 0.2)
+    monkeypatch.setattr(processes, "RUN", 0.2)
 
-    async def play(made: Lanes) -> list[Any]:
+    async def play(made: JobProcesses) -> list[Any]:
         slow = await made.compute("ann", "path", "slow", time.sleep, 60)
-        monkeypatch.setattr(lanes, "RUN", HANG)
+        monkeypatch.setattr(processes, "RUN", HANG)
         lost = await made.compute("ann", "path", "lost", os._exit, 3)
         raised = await made.compute("ann", "path", "raised", int, "x")
         good = await made.compute("ann", "path", "good", dict, [("kept", 1)])
