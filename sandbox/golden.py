@@ -47,21 +47,21 @@ if TYPE_CHECKING:
     Subject = Run | pygame.Surface | Image.Image
 
 #: Most changes of a run that a message lists.
-MOST_CHANGES = 5
+_MOST_CHANGES = 5
 
 Known = TypeVar("Known")
 
 NEW = "new"
 #: Kinds of notes in the report of a test.
-WRITTEN, CHECKED, USED, FAILED = "golden file written", "golden name", "golden file", "golden failure"
+WRITTEN, _CHECKED, _USED, FAILED = "golden file written", "golden name", "golden file", "golden failure"
 #: The part of an extension that writes failures as a page.
 PAGES = "pages of golden failures"
-UNRECORDED = "golden record without it"
-HOW_TO_ACCEPT = "if the change is intended: pytest --golden-update"
+_UNRECORDED = "golden record without it"
+_HOW_TO_ACCEPT = "if the change is intended: pytest --golden-update"
 FOLDER = "golden"
-REPORT = Path("out", "golden")
+_REPORT = Path("out", "golden")
 #: The folder of the sandbox itself, whose tests show its own frames.
-CHECKOUT = resources.PACKAGE.parent
+_CHECKOUT = resources.PACKAGE.parent
 
 
 class Golden:
@@ -95,7 +95,7 @@ class Golden:
         from sandbox.scene.setup_scene import with_scene
 
         _check_request(name, until, size, tolerance)
-        self.note(CHECKED, str(self.folder / name))
+        self.note(_CHECKED, str(self.folder / name))
         if name in self.checked:
             _fail(f"{name} is checked twice in one test: each check needs a golden name of its own")
         self.checked.add(name)
@@ -104,7 +104,7 @@ class Golden:
         image = _as_image(name, subject, until, size)
         png, text = self.folder / f"{name}.png", self.folder / f"{name}.json"
         for path in [png] if run is None else [png, text]:
-            self.note(USED, str(path))
+            self.note(_USED, str(path))
         expected = self._known(name, image, png, _read)
         drawing = _changed_drawing(expected, image)
         known = None if run is None else self._known(name, image, text, record.read)
@@ -122,7 +122,7 @@ class Golden:
             self._write(written)
         elif drawing is None and physics is None:
             for each in new:
-                self.note(UNRECORDED, f"{text}: {each}")
+                self.note(_UNRECORDED, f"{text}: {each}")
         elif expected is None or physics == NEW:
             what, path = ("picture", png) if expected is None else ("run", text)
             said = f"{name} has no golden {what} at {path}"
@@ -134,7 +134,7 @@ class Golden:
                 lines += _cause(known, actual, run)
             changes = [] if known is None else _all_changes(known, actual, tolerance, facts)
             self._report(name, lines, image, expected, changes)
-            _fail(*lines, *self._save_difference(name, expected, image, drawing), HOW_TO_ACCEPT)
+            _fail(*lines, *self._save_difference(name, expected, image, drawing), _HOW_TO_ACCEPT)
 
     def _write(self, written: Mapping[Path, tuple[bytes, str]]) -> None:
         """Write new golden files, all or none, and note how each has changed."""
@@ -228,7 +228,7 @@ def _cause(known: Record, actual: Record, run: SceneRun) -> Iterator[str]:
     units = {parameter.key: parameter.unit for parameter in walk(run.scene.parameters, entries=True)}
     changed = record.changed_parameters(known, actual, units)
     if changed:
-        shown, more = changed[:MOST_CHANGES], changed[MOST_CHANGES:]
+        shown, more = changed[:_MOST_CHANGES], changed[_MOST_CHANGES:]
         yield f"other parameters: {'; '.join([*shown, *([f'{len(more)} more'] if more else [])])}"
     elif len(known.get("parameters", ())) > 1:  # a bare setup has none but its accuracy
         yield "the parameters are the same"
@@ -272,7 +272,7 @@ def _changed_physics(known: Record | None, actual: Record, tolerance: float, fac
     if first is None and not results:
         return None
     moved = "same motion, different result" if first is None else f"the physics changed: first at {first[1]}"
-    shown, more = results[: MOST_CHANGES - 2], results[MOST_CHANGES - 2 :]
+    shown, more = results[: _MOST_CHANGES - 2], results[_MOST_CHANGES - 2 :]
     return "; ".join([moved, *shown, *(more if len(more) < 2 else [f"{len(more)} more"])])
 
 
@@ -360,7 +360,7 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
 @pytest.hookimpl(tryfirst=True)
 def pytest_runtest_makereport(item: pytest.Item, call: pytest.CallInfo[None]) -> None:
     """Hide the sandbox's own frames, so that a traceback shows the author's; --full-trace shows all of them."""
-    if call.excinfo is not None and item.config.rootpath != CHECKOUT:
+    if call.excinfo is not None and item.config.rootpath != _CHECKOUT:
         for entry in call.excinfo.traceback:
             if is_hidden(str(entry.path)):
                 entry.frame.f_globals["__tracebackhide__"] = True  # pytest looks for it there
@@ -381,7 +381,7 @@ def golden_of(test: pytest.Item) -> Golden:
 
     config = test.config
     folder = _folder_for(test.path, config.rootpath)
-    return Golden(folder, config.rootpath / REPORT, bool(config.getoption("--golden-update")), note,
+    return Golden(folder, config.rootpath / _REPORT, bool(config.getoption("--golden-update")), note,
                   bool(config.getoption("--golden-report")))  # fmt: skip
 
 
@@ -400,7 +400,7 @@ def _noted(config: pytest.Config, kind: str) -> dict[str, set[str]]:
 def _used_twice(config: pytest.Config) -> list[str]:
     return [
         f"{Path(line).name} is the golden name of {' and '.join(sorted(tests))}: each test needs its own name"
-        for line, tests in _noted(config, CHECKED).items()
+        for line, tests in _noted(config, _CHECKED).items()
         if len(tests) > 1
     ]
 
@@ -412,10 +412,10 @@ def _unused(config: pytest.Config) -> list[str]:
         for top in (Path(arg).absolute() for arg in config.args)
         for folder in top.rglob(FOLDER)
         if not any(part.startswith(".") for part in folder.relative_to(top).parts)
-        and folder.parts[-len(REPORT.parts) :] != REPORT.parts  # pictures of failures
+        and folder.parts[-len(_REPORT.parts) :] != _REPORT.parts  # pictures of failures
     }
     files = {str(file) for folder in folders for file in folder.glob("*") if file.suffix in (".png", ".json")}
-    return sorted(files - set(_noted(config, USED)))
+    return sorted(files - set(_noted(config, _USED)))
 
 
 def pytest_sessionfinish(session: pytest.Session) -> None:
@@ -440,7 +440,7 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: p
         terminalreporter.write_line(_write_page(config, Path(config.getoption("--golden-report"))))
     for title, lines in (
         ("golden files written: look at them", sorted(_noted(config, WRITTEN))),
-        ("new since these golden records: pytest --golden-update adds it", sorted(_noted(config, UNRECORDED))),
+        ("new since these golden records: pytest --golden-update adds it", sorted(_noted(config, _UNRECORDED))),
         ("golden names used twice", _used_twice(config)),
         ("golden files that no test has used", _unused(config) if config.getoption("--golden-unused") else []),
     ):

@@ -51,7 +51,7 @@ class Shot(_Row):
     refused: list[str] = Field(default_factory=list)  # in the error of a request that makes no sense
 
 
-class Trend(_Row):
+class _Trend(_Row):
     """A result that grows from value to value of a parameter, by ``least`` or more; 0 for not at all."""
 
     key: str
@@ -60,21 +60,21 @@ class Trend(_Row):
     least: float
 
 
-class KnownShots(BaseModel):
+class _KnownShots(BaseModel):
     """What a file of shots has."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
     scores: dict[str, list[str]] = Field(default_factory=dict)  # how verdicts begin where the fact of that name is true
     shot: list[Shot] = Field(default_factory=list)
-    trend: list[Trend] = Field(default_factory=list)
+    trend: list[_Trend] = Field(default_factory=list)
 
 
-def known_shots(folder: Path) -> KnownShots:
+def known_shots(folder: Path) -> _KnownShots:
     """The shots in the folder of a scene, none where it has no such file. Raises RequestError."""
     file = folder / FILE
     try:
-        return KnownShots.model_validate(read_toml(file) if file.exists() else {})
+        return _KnownShots.model_validate(read_toml(file) if file.exists() else {})
     except ValidationError as error:
         first = error.errors(include_url=False)[0]
         place = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in first["loc"])
@@ -91,7 +91,7 @@ def _computed(source: str, changes: str) -> SceneRun:
     return simulate(load(source, json.loads(changes)))
 
 
-def check_shot(source: str, shot: Shot, scores: Mapping[str, list[str]], golden: Golden) -> None:
+def _check_shot(source: str, shot: Shot, scores: Mapping[str, list[str]], golden: Golden) -> None:
     """Fail unless the shot is as it is known."""
     if shot.refused:
         with pytest.raises(RequestError) as refused:
@@ -124,7 +124,7 @@ def differences(run: SceneRun, shot: Shot, scores: Mapping[str, list[str]]) -> I
             yield f"the card has {label} = {card.get(label, 'nothing')!r}, not {text!r}"
 
 
-def check_trend(source: str, trend: Trend) -> None:
+def _check_trend(source: str, trend: _Trend) -> None:
     """Fail unless the result grows as it is known."""
     found = [run_of(source, {**trend.set, trend.key: value}).result[trend.result] for value in trend.values]
     steps = [after - before for before, after in pairwise(found)]
@@ -143,18 +143,18 @@ class ShotsFile(pytest.File):
             known = known_shots(folder)
         except RequestError as error:
             raise self.CollectError(str(error)) from None
-        rows: list[Shot | Trend] = [*known.shot, *known.trend]
+        rows: list[Shot | _Trend] = [*known.shot, *known.trend]
         for row in rows:
-            item = KnownItem.from_parent(self, name=row.name(folder.name))
+            item = _KnownItem.from_parent(self, name=row.name(folder.name))
             item.row, item.scores = row, known.scores
             item.source = f"{scene}/{row.preset}" if row.preset else scene
             yield item
 
 
-class KnownItem(pytest.Item):
+class _KnownItem(pytest.Item):
     """One shot, or one trend."""
 
-    row: Shot | Trend
+    row: Shot | _Trend
     source: str
     scores: Mapping[str, list[str]]
 
@@ -162,9 +162,9 @@ class KnownItem(pytest.Item):
         if isinstance(self.row, Shot):
             from sandbox.golden import golden_of
 
-            check_shot(self.source, self.row, self.scores, golden_of(self))
+            _check_shot(self.source, self.row, self.scores, golden_of(self))
         else:
-            check_trend(self.source, self.row)
+            _check_trend(self.source, self.row)
 
     def reportinfo(self) -> tuple[Path, None, str]:
         return self.path, None, self.name

@@ -11,7 +11,7 @@ import threading
 from sandbox.cli.interrupts import Interrupts, is_interrupt
 
 #: Exit code after Ctrl-C, SIGTERM, or if the terminal was closed.
-STOPPED = 130
+_STOPPED = 130
 
 
 def main(args: list[str] | None = None) -> int:
@@ -42,13 +42,13 @@ def main(args: list[str] | None = None) -> int:
         if sys.stderr is not None:
             with suppress(OSError):  # the terminal may be closed
                 sys.stderr.write("stopped\n")
-        code = STOPPED
-    if args is None and code == STOPPED and _threads_go_on():
+        code = _STOPPED
+    if args is None and code == _STOPPED and _threads_go_on():
         _leave(code)
     interrupts.end(signal.SIG_DFL if _threads_go_on() else signal.SIG_IGN)
     if args is None:
         gc.freeze()  # the process ends here: to look for cycles once more would take a fifth of a run
-    if code == STOPPED:
+    if code == _STOPPED:
         # without it Python would end by SIGINT, not with this code, if it was interrupted in an exec
         eval("0")
     return code

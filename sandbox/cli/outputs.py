@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from sandbox.scene.scene_run import SceneRun
 
 #: The size of pictures in px, unless another is asked for.
-USUAL = (1280, 720)
+_USUAL = (1280, 720)
 #: GIFs are made of so many px and frames, unless others are asked for: the largest, of a long flight, has 5 MB then.
 SMALL, MOST_FRAMES = (800, 450), 450
 
@@ -57,7 +57,7 @@ class Drawn:
 
 
 @dataclass(frozen=True)
-class Output:
+class _Output:
     """One kind of file: its option, its suffix ("" for a folder of files), who writes it, and the option's help."""
 
     option: str
@@ -100,7 +100,7 @@ def _strip(drawn: Drawn, path: Path) -> None:
     from sandbox.picture.frames import save_png
     from sandbox.picture.strip import film_strip
 
-    width, height = drawn.size or USUAL
+    width, height = drawn.size or _USUAL
     half = max(SMALLEST[0], width // 2), max(SMALLEST[1], height // 2)
     save_png(film_strip(drawn.run.scene.picture(drawn.run, half, drawn.ghosts), drawn.run), path)
 
@@ -109,14 +109,14 @@ def _energy(drawn: Drawn, path: Path) -> None:
     from sandbox.picture.energy_chart import energy_charts
     from sandbox.picture.frames import save_png
 
-    save_png(energy_charts([drawn.run, *drawn.others.values()], drawn.size or USUAL), path)
+    save_png(energy_charts([drawn.run, *drawn.others.values()], drawn.size or _USUAL), path)
 
 
 def _graph(drawn: Drawn, path: Path) -> None:
     from sandbox.picture.frames import save_png
     from sandbox.picture.graph import graph
 
-    save_png(graph(drawn.run, drawn.size or USUAL, drawn.ghosts), path)
+    save_png(graph(drawn.run, drawn.size or _USUAL, drawn.ghosts), path)
 
 
 def _animation(saver: str, rate: int, size: Size | None = None) -> Callable[[Drawn, Path], None]:
@@ -138,23 +138,25 @@ def _animation(saver: str, rate: int, size: Size | None = None) -> Callable[[Dra
 
 #: In the order in which they are written.
 OUTPUTS = (
-    Output("--trajectory", ".csv", _trajectory, "Write the path of every ball: t,ball,x,y,vx,vy,spin.", False),
-    Output("--momentum", ".csv", _momentum, "Write velocity, momentum and energy before and after each impact.", False),
-    Output("--poster", ".png", _poster, "Write the whole run as one picture."),
-    Output(
+    _Output("--trajectory", ".csv", _trajectory, "Write the path of every ball: t,ball,x,y,vx,vy,spin.", False),
+    _Output(
+        "--momentum", ".csv", _momentum, "Write velocity, momentum and energy before and after each impact.", False
+    ),
+    _Output("--poster", ".png", _poster, "Write the whole run as one picture."),
+    _Output(
         *("--html", ".html", _html, "Write a page for any browser that plays the run; it needs no network.", False),
         part=PAGES,
     ),
-    Output("--strip", ".png", _strip, "Write some frames side by side."),
-    Output("--energy", ".png", _energy, "Write a chart of where the energy goes."),
-    Output("--graph", ".png", _graph, "Write graphs over time: position, speed, spin, acceleration, forces, energy."),
-    Output("--gif", ".gif", _animation("save_gif", 25, SMALL), "Write it as an animation below 5 MB.", moves=True),
-    Output(
+    _Output("--strip", ".png", _strip, "Write some frames side by side."),
+    _Output("--energy", ".png", _energy, "Write a chart of where the energy goes."),
+    _Output("--graph", ".png", _graph, "Write graphs over time: position, speed, spin, acceleration, forces, energy."),
+    _Output("--gif", ".gif", _animation("save_gif", 25, SMALL), "Write it as an animation below 5 MB.", moves=True),
+    _Output(
         *("--video", ".mp4", _animation("save_video", 60), "Write it as a video; needs imageio-ffmpeg."),
         moves=True,
         needs="imageio-ffmpeg",
     ),
-    Output(
+    _Output(
         *("--frames", "", _animation("save_frames", 60)),
         *("Write the run as PNG frames; the folder is made if missing.", True, True),
     ),
@@ -169,7 +171,7 @@ def options(command: Callable[..., None]) -> Callable[..., None]:
     return command
 
 
-def requested(paths: Mapping[str, Path | None], size: Size | None, rate: int | None) -> dict[Output, Path]:
+def requested(paths: Mapping[str, Path | None], size: Size | None, rate: int | None) -> dict[_Output, Path]:
     """The requested outputs with their paths, which are given by their options' names.
 
     Raises RequestError, before any work is done, for one that cannot be written, and for a size or rate that no output
@@ -198,7 +200,7 @@ def requested(paths: Mapping[str, Path | None], size: Size | None, rate: int | N
     return chosen
 
 
-def write(outputs: Mapping[Output, Path], drawn: Drawn) -> None:
+def write(outputs: Mapping[_Output, Path], drawn: Drawn) -> None:
     """Write all of them."""
     for output, path in outputs.items():
         with writing(output.option, path):

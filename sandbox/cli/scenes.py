@@ -14,7 +14,7 @@ from sandbox.errors import RequestError
 @click.command("list")
 @click.argument("scene", metavar="[SCENE]", required=False, help="Only this scene and its presets.")
 @click.option("--keys", is_flag=True, help="All keys of SCENE's file: default, unit, bounds, meaning.")
-def list_scenes(scene: str | None, keys: bool) -> None:
+def _list_scenes(scene: str | None, keys: bool) -> None:
     """List all scenes and presets, and what is in this folder.
 
     \b

@@ -41,11 +41,11 @@ from sandbox.errors import RequestError, RunError
 from sandbox.physics.integrators import Acceleration, State
 
 #: Rounds of the solver: 10 leave 2 cm/s of asymmetry in a rack of balls, 50 leave 1e-7.
-ITERATIONS = 50
+_ITERATIONS = 50
 
 #: Share of an overlap that is left after a second: Chipmunk's own, by which a tenth goes in 1/60 s. Others measured no
 #: better, as contacts are hardly late.
-BIAS = 0.9**60
+_BIAS = 0.9**60
 
 #: A touch noticed with less overlap than this, in m, is not late; and the overlap with which it is noticed.
 _LATE, _SEEN = 1e-7, 1e-9
@@ -97,8 +97,8 @@ class SetupSpace(pymunk.Space):
         self._h = self._longest = 0.0  # s, of the current step, and of the one asked for
         self._touching: set[Any] = set()  # pairs of shapes that touched in the last step
         self._touched: set[Any] = set()  # and those in this
-        self._world = PymunkWorld(setup.surfaces, ITERATIONS, SLOP, space=self, outline=partial(thick_outline, setup))
-        self.collision_bias = BIAS
+        self._world = PymunkWorld(setup.surfaces, _ITERATIONS, SLOP, space=self, outline=partial(thick_outline, setup))
+        self.collision_bias = _BIAS
         self._motions = dict(self._drive(*each) for each in enumerate(setup.surfaces) if each[1].motion is not None)
         self._world.on_contact(self._meet, self._part)
         self.movers: dict[pymunk.Body, Mover] = {}

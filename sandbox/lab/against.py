@@ -19,7 +19,7 @@ from sandbox.scene.finding import is_path
 from sandbox.text import argument, no_such_result, shortened
 
 #: The columns that such a table needs, and what the others are where they are missing.
-NEEDED = ("result", "value", "tolerance")
+_NEEDED = ("result", "value", "tolerance")
 OTHERS = {"scene": "", "preset": "", "case": "", "set": "", "unit": "", "source": "", "reason": "", "kind": "measured",
           "tests": "", "tolerance_from": ""}  # fmt: skip
 
@@ -48,7 +48,7 @@ def cases_against(
     left out; with ``strict`` it is refused.
     """
     table = read_table("--against", path)
-    if not entries and all(name in table.names for name in NEEDED):
+    if not entries and all(name in table.names for name in _NEEDED):
         if within:
             raise RequestError(f"--within: the table has its own tolerances: {path}")
         return Given(_published(table, path, source))
@@ -57,7 +57,7 @@ def cases_against(
     scene = load(source)
     form = stated(entries, table, scene) if entries else recognized(table, scene)
     if form is None:
-        missing = next(name for name in NEEDED if name not in table.names)
+        missing = next(name for name in _NEEDED if name not in table.names)
         raise RequestError(f"{table.where}: has no column {missing}, and no known ones; name them by --map")
     found = mapped(scene, table, form, where, strict)
     unknown = next((name for name in within if name not in found.measured), None)
@@ -83,7 +83,7 @@ def own_cases(scene: str, folder: Path) -> list[Case]:
             found += cases_by_form(scene, path, form)
             continue
         table = read_table("", Path(from_here(path)))
-        missing = next((name for name in NEEDED if name not in table.names), None)
+        missing = next((name for name in _NEEDED if name not in table.names), None)
         if missing is not None:
             raise RequestError(f"{table.where}: has no column {missing}")
         found += _published(table, path, scene)
@@ -120,7 +120,7 @@ def _tolerance(at: str, text: str, value: float, unit: str) -> float:
 
 def _published(table: Table, path: Path, source: str | None) -> list[Case]:
     """The rows of a table as the published ones are written."""
-    known = {*NEEDED, *OTHERS}
+    known = {*_NEEDED, *OTHERS}
     if table.broken:
         place, why = next(iter(table.broken.items()))
         raise RequestError(f"{table.where}: row {place + 1} {why}")

@@ -24,7 +24,7 @@ from sandbox.text import shortened
 from sandbox.toml import toml_value
 
 #: Most values along one axis, and most points of a sweep: more is taken as a mistake in the request.
-MOST_VALUES, MOST_POINTS = 1_000_000, 100_000_000
+_MOST_VALUES, MOST_POINTS = 1_000_000, 100_000_000
 
 #: Most bytes of a file of points.
 _LARGEST = 1_000_000_000
@@ -122,8 +122,8 @@ def parse_axis(scene: Scene, option: str, text: str) -> Axis:
     if len(parts) == 2:
         return span(option, key, low, high)
     count = int(parts[2]) if parts[2].isdecimal() and len(parts[2]) < 9 else 0
-    if not 1 <= count <= MOST_VALUES:
-        raise RequestError(f"{option} {text}: {parts[2]!r} is not a number of points from 1 to {MOST_VALUES:,}")
+    if not 1 <= count <= _MOST_VALUES:
+        raise RequestError(f"{option} {text}: {parts[2]!r} is not a number of points from 1 to {_MOST_VALUES:,}")
     return Values(key, spaced(low, high, count))
 
 

@@ -27,8 +27,8 @@ _NO_VALUE = 1e8
 _MOST_TILT = 90.0
 
 #: Cells of what was not measured, and of rows that sum others up.
-MISSING = {"", "-", "--", "–", "n/a", "null", "none"}
-SUMMARIES = {"avg", "avg.", "average", "averages", "dev", "dev.", "std dev", "std. dev.", "deviation", "mean", "total"}
+_MISSING = {"", "-", "--", "–", "n/a", "null", "none"}
+_SUMMARIES = {"avg", "avg.", "average", "averages", "dev", "dev.", "std dev", "std. dev.", "deviation", "mean", "total"}
 
 
 @dataclass(frozen=True)
@@ -47,7 +47,7 @@ class Quantity:
 
 
 @dataclass(frozen=True)
-class Mapped:
+class _Mapped:
     """The quantities of each row of a table."""
 
     given: Mapping[str, Quantity]  # by parameter
@@ -58,7 +58,7 @@ class Mapped:
     unused: tuple[str, ...]  # the names of columns that are not used
 
 
-def mapped(scene: Scene, table: Table, form: Form, where: Mapping[str, str], strict: bool = False) -> Mapped:
+def mapped(scene: Scene, table: Table, form: Form, where: Mapping[str, str], strict: bool = False) -> _Mapped:
     """The columns of a form in those rows that have them all, within the bounds of the scene's parameters. Raises
     RequestError; with ``strict`` also for a row with a fault."""
     selection = _rows(table, form, where, strict)
@@ -82,7 +82,7 @@ def mapped(scene: Scene, table: Table, form: Form, where: Mapping[str, str], str
     taken |= {rule.column.lower() for rule in form.leave_out} | {name.lower() for name in where}
     unused = table.others(taken)
     rows = tuple(row + 1 for row in selection.rows)
-    return Mapped(given, measured, rows, tuple(notes), selection.left_out, unused)
+    return _Mapped(given, measured, rows, tuple(notes), selection.left_out, unused)
 
 
 def _check_bounds(
@@ -124,10 +124,10 @@ def _rows(table: Table, form: Form, where: Mapping[str, str], strict: bool) -> S
         if not selection.rows:
             raise RequestError(f"{table.where}: no row has {name} = {wanted}")
     columns = [column for entry in form.entries if (column := _column(table, entry.column)) is not None]
-    missing = MISSING | {"0", "0.0"} if form.zeros else MISSING
+    missing = _MISSING | {"0", "0.0"} if form.zeros else _MISSING
     for row in list(selection.rows):
         cells = {one.name: one.cells[row].strip().lower() for one in columns}
-        if any(one.cells[row].strip().lower() in SUMMARIES for one in table.columns):
+        if any(one.cells[row].strip().lower() in _SUMMARIES for one in table.columns):
             selection.leave_out(row, "sums other rows up", fault=False)
         elif lacking := next((name for name, cell in cells.items() if cell in missing), None):
             selection.leave_out(row, f"{lacking} is missing", fault=False)

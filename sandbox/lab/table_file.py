@@ -25,7 +25,7 @@ from sandbox.files import read_given
 from sandbox.text import one_line, shortened
 
 #: Most bytes of a table, and most rows.
-LARGEST, MOST_ROWS = 50_000_000, 100_000
+LARGEST, _MOST_ROWS = 50_000_000, 100_000
 
 #: Lines at the beginning in which the names of the columns are looked for.
 _HEAD = 30
@@ -199,13 +199,13 @@ def _of_rows(where: str, rows: list[list[str]], separator: str) -> Table:
     if 2 * len(broken) > len(data):
         number, why = next(iter(broken.items()))
         raise RequestError(f"{where}: row {number + 1} {why}")
-    if len(cells) > MOST_ROWS:
-        raise RequestError(f"{where}: has {len(cells):,} rows; a table has at most {MOST_ROWS:,}")
+    if len(cells) > _MOST_ROWS:
+        raise RequestError(f"{where}: has {len(cells):,} rows; a table has at most {_MOST_ROWS:,}")
     columns = []
     for place, name in enumerate(names):
         plain, unit = split_unit(name)
         own = given[place].strip("[]() ") if place < len(given) else ""
-        columns.append(Column(plain, known_unit(own) if own else unit, tuple(row[place] for row in cells)))
+        columns.append(Column(plain, _known_unit(own) if own else unit, tuple(row[place] for row in cells)))
     comma = separator != "," or _has_decimal_comma(cells)
     return Table(where, tuple(columns), groups, comma, broken, is_named)
 
@@ -259,12 +259,12 @@ def split_unit(name: str) -> tuple[str, str]:
     if found is None:
         return name, ""
     if found[1]:
-        return found[1].strip(), known_unit(found[2] or found[3] or "")
-    unit = known_unit(found[5])
+        return found[1].strip(), _known_unit(found[2] or found[3] or "")
+    unit = _known_unit(found[5])
     return (found[4].strip(), unit) if unit in units.KIND_OF or unit == PIXEL else (name, "")
 
 
-def known_unit(text: str) -> str:
+def _known_unit(text: str) -> str:
     """A unit as ``sandbox.units`` writes it, if it is another spelling of one; else as it is."""
     plain = text.strip()
     if plain.lower() in ("px", "pixel", "pixels", "pix"):

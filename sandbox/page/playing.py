@@ -32,19 +32,19 @@ from sandbox.units import convert
 #: The picture that shows until the page's script draws, and where none runs, is at most so large, in px.
 POSTER = (640, 640)
 #: A headline has at least so much of the width.
-LEAST_ROOM = 0.3
+_LEAST_ROOM = 0.3
 #: The forces are sampled at so many even times, and at each impact.
 SAMPLES = 240
 #: The poses a second of surfaces that move.
-POSES_A_SECOND = 120
+_POSES_A_SECOND = 120
 #: The ground's height is sampled at so many places.
 GROUND = 400
 #: Units of the numbers that the page itself writes.
 UNITS = ("m", "m/s", "deg", "rpm", "s", "N")
 #: To what, in m and rad/s, the path of a ball in a heap is rounded.
-HEAPED = 1e-12
+_HEAPED = 1e-12
 #: Most impacts and other events that are listed.
-MOST_EVENTS = 400
+_MOST_EVENTS = 400
 
 
 def layout_data(view: View[Any]) -> dict[str, Any]:
@@ -75,7 +75,7 @@ def stage_data(view: View[Any]) -> dict[str, Any]:
     view.measure(sheet, camera)
     right = sheet.wind(*view.wind, sheet.frame.right, sheet.frame.top).left if any(view.wind) else sheet.frame.right
     tops = [camera.pixel(box.left, box.top) for box in view.aims]
-    beside = [x for x, y in tops if y < sheet.top_row and x > LEAST_ROOM * view.size[0]]  # such as a pinball table
+    beside = [x for x, y in tops if y < sheet.top_row and x > _LEAST_ROOM * view.size[0]]  # such as a pinball table
     over = np.array(to_image(sheet.surface))[:tall]
     lens = _lens(view, tall, quick=True)
     if lens is not None:
@@ -151,7 +151,7 @@ def place_data(view: View[Any]) -> dict[str, Any]:
         "shadows": isinstance(view, AboveView),
         "spins": view.SPIN_NAMES,
         "ladders": {unit: _ladder(unit) for unit in UNITS},
-        "heaped": HEAPED,
+        "heaped": _HEAPED,
         "unsaid": NOT_WORTH_NOTING,
         "earlier": palette("trace")["earlier"],
         "rim": css(palette("trace")["rim"]),
@@ -196,7 +196,7 @@ def path_data(view: View[Any], run: SceneRun) -> dict[str, Any]:
         "strings": [[names.index(name), *at] for name, at in view.strings],
         "driven": _driven(view, run),
         "shown": view.driven_moment,
-        "events": [event.t for event in run.events[:MOST_EVENTS]],
+        "events": [event.t for event in run.events[:_MOST_EVENTS]],
         "duration": max([run.duration, *(ghost.run.duration for ghost in view.ghosts)]),
         "told": view.story_end,
     }
@@ -205,7 +205,7 @@ def path_data(view: View[Any], run: SceneRun) -> dict[str, Any]:
 def event_rows(run: SceneRun) -> list[tuple[str, ...]]:
     """Return the events of a run in words: of each its time, then what happened."""
     several = len(run.setup.balls) > 1
-    return [words_of(run, event, several) for event in run.events[:MOST_EVENTS]]
+    return [words_of(run, event, several) for event in run.events[:_MOST_EVENTS]]
 
 
 def force_data(view: View[Any], run: SceneRun) -> dict[str, Any]:
@@ -236,7 +236,7 @@ def _path(arcs: Path) -> dict[str, Any]:
     for arc, end in zip(arcs, [*arcs.starts[1:], arcs[-1].t1], strict=True):
         curves, within = [list(arc.x), list(arc.y), list(arc.curves[4])], _within(arc)
         if within and isinstance(within[0], float):
-            whole = [[round(value / HEAPED) for value in curve] for curve in curves]
+            whole = [[round(value / _HEAPED) for value in curve] for curve in curves]
             curves = [np.diff([start, *curve]).tolist() for start, curve in zip(last, whole, strict=True)]
             last = [curve[-1] for curve in whole]
         else:
@@ -268,7 +268,7 @@ def _turned(view: View[Any], name: str, until: float) -> dict[str, Any] | None:
 def _driven(view: View[Any], run: SceneRun) -> dict[str, Any]:
     """The surfaces that move, at even times often enough for straight lines between them: the ends of each in m, or
     twice its middle."""
-    times = np.linspace(0.0, run.duration, max(2, round(run.duration * POSES_A_SECOND)))
+    times = np.linspace(0.0, run.duration, max(2, round(run.duration * _POSES_A_SECOND)))
 
     def ends(surface: Surface, t: float) -> list[float]:
         a, b = surface.at(t).shape.ends

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import atan2, degrees
 
 #: Angle in deg at which courts are tested, and that beyond which the restitution stays as it is.
-TEST_ANGLE, STEEP = 16.0, 41.0
+_TEST_ANGLE, STEEP = 16.0, 41.0
 
 
 def cross_restitution(normal_speed: float, tangential_speed: float, restitution: float, slope: float) -> float:
@@ -15,19 +15,19 @@ def cross_restitution(normal_speed: float, tangential_speed: float, restitution:
     that is the 0.745 of the ball's drop test, e stays as it is; that is ours. Speeds in m/s, both positive.
     Source: Cross 2020, Sports Eng. 23:9; second-hand.
     """
-    steeper = min(degrees(atan2(normal_speed, tangential_speed)), STEEP) - TEST_ANGLE
+    steeper = min(degrees(atan2(normal_speed, tangential_speed)), STEEP) - _TEST_ANGLE
     return min(1.0, max(0.0, restitution - slope * steeper))
 
 
 #: The ITF's test of a court: speed in m/s, its tolerance, that of TEST_ANGLE in deg, and the most spin in rev/s.
-TEST_SPEED, SPEED_OFF, ANGLE_OFF, MOST_SPIN = 30.0, 2.0, 2.0, 3.0
+_TEST_SPEED, _SPEED_OFF, _ANGLE_OFF, _MOST_SPIN = 30.0, 2.0, 2.0, 3.0
 #: Pace perception constant, mean restitution of all surfaces, and restitution lost per degree below 23 C.
-PERCEPTION, MEAN_RESTITUTION, PER_DEGREE = 150.0, 0.81, 0.003
+_PERCEPTION, _MEAN_RESTITUTION, _PER_DEGREE = 150.0, 0.81, 0.003
 
 
 def is_pace_test(speed: float, angle: float, spin: float) -> bool:
     """True if a ball arrives at the court as in the ITF's test: m/s, deg below the horizontal, rev/s."""
-    return abs(speed - TEST_SPEED) <= SPEED_OFF and abs(angle - TEST_ANGLE) <= ANGLE_OFF and abs(spin) <= MOST_SPIN
+    return abs(speed - _TEST_SPEED) <= _SPEED_OFF and abs(angle - _TEST_ANGLE) <= _ANGLE_OFF and abs(spin) <= _MOST_SPIN
 
 
 def court_pace(before: tuple[float, float], after: tuple[float, float], temperature: float = 23.0) -> float:
@@ -41,8 +41,8 @@ def court_pace(before: tuple[float, float], after: tuple[float, float], temperat
     (vx, vy), (ux, uy) = before, after
     restitution = -uy / vy
     friction = (vx - ux) / (-vy * (1.0 + restitution))
-    adjusted = restitution + PER_DEGREE * (23.0 - temperature)
-    return 100.0 * (1.0 - friction) + PERCEPTION * (MEAN_RESTITUTION - adjusted)
+    adjusted = restitution + _PER_DEGREE * (23.0 - temperature)
+    return 100.0 * (1.0 - friction) + _PERCEPTION * (_MEAN_RESTITUTION - adjusted)
 
 
 def pace_category(rating: float) -> str:

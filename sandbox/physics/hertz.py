@@ -20,10 +20,10 @@ from math import gamma, inf, log, pi, sqrt
 from typing import Any, NamedTuple
 
 #: Lowest restitution: with none a contact would never end, and with less two balls stay together for seconds.
-LEAST_RESTITUTION = 1e-3
+_LEAST_RESTITUTION = 1e-3
 
 
-class Material(NamedTuple):
+class _Material(NamedTuple):
     """Elastic properties of a ball."""
 
     modulus: float  # Pa, Young's
@@ -37,12 +37,12 @@ class Material(NamedTuple):
 
 #: Billiard balls; a maker's figures (dbkcues.ru). They touch for 390 us at 1 m/s; 250 to 300 us are measured (Kim
 #: 2024; Marlow 1995), which would need a resin twice as stiff.
-PHENOLIC = Material(5.84e9, 0.34)
+PHENOLIC = _Material(5.84e9, 0.34)
 
 
 def damping(restitution: float) -> float:
     """a of the damping for a restitution from 0 to 1; LEAST_RESTITUTION in place of less."""
-    fading = log(max(restitution, LEAST_RESTITUTION))
+    fading = log(max(restitution, _LEAST_RESTITUTION))
     return -sqrt(5.0) * fading / sqrt(fading**2 + pi**2)
 
 

@@ -117,7 +117,7 @@ def _changes(dt: float, weights: Sequence[float], rates: Sequence[Sequence[float
 
 _HALF = Stage(1 / 2, (1 / 2,))
 
-DORMAND_PRINCE = Integrator(
+_DORMAND_PRINCE = Integrator(
     (
         Stage(pair.C2, (pair.A21,)),
         Stage(pair.C3, (pair.A31, pair.A32)),
@@ -162,5 +162,5 @@ INTEGRATORS = {
         4,
         "Kutta 1901; Hairer, Norsett & Wanner, Solving ODEs I, II.1",
     ),
-    "dormand-prince": DORMAND_PRINCE,
+    "dormand-prince": _DORMAND_PRINCE,
 }

@@ -23,12 +23,12 @@ from sandbox.scene.setup_scene import with_scene
 Size = tuple[int, int]
 
 #: Size of posters and of what moves, in px.
-POSTER, MOVING = (960, 540), (640, 360)
+POSTER, _MOVING = (960, 540), (640, 360)
 #: The writers of animations, by the end of the file's name.
-WRITERS: Mapping[str, Callable[..., int]] = {".gif": frames.save_gif, ".webp": frames.save_webp}
+_WRITERS: Mapping[str, Callable[..., int]] = {".gif": frames.save_gif, ".webp": frames.save_webp}
 
 
-class Animation:
+class _Animation:
     """A run in motion: shown by a notebook, and ``data`` is an animated WebP."""
 
     def __init__(self, data: bytes):
@@ -77,21 +77,21 @@ def save_frames(run: Run, folder: Path | str, fps: float, size: Size | None) -> 
     """Write the frames of the run into a folder; return how many."""
     _check_rate(fps)
     check_path(folder)
-    return frames.save_frames(picture_of(run, size or MOVING), run, folder, fps)
+    return frames.save_frames(picture_of(run, size or _MOVING), run, folder, fps)
 
 
-def animate(run: Run, path: Path | str | None, size: Size | None, fps: float) -> Animation | None:
+def animate(run: Run, path: Path | str | None, size: Size | None, fps: float) -> _Animation | None:
     """The run in motion: written to ``path``, or handed back."""
     _check_rate(fps)
-    drawn = picture_of(run, size or MOVING)
+    drawn = picture_of(run, size or _MOVING)
     if path is not None:
-        check_path(path, *WRITERS)
-        WRITERS[Path(path).suffix.lower()](drawn, run, path, fps)
+        check_path(path, *_WRITERS)
+        _WRITERS[Path(path).suffix.lower()](drawn, run, path, fps)
         return None
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder, "run.webp")
         frames.save_webp(drawn, run, file, fps)
-        return Animation(file.read_bytes())
+        return _Animation(file.read_bytes())
 
 
 def picture_of(run: Run, size: Size) -> Any:

@@ -30,11 +30,11 @@ _ROUNDING = 1e-11
 
 #: Finer runs of a check, each with half the step of the one before: one alone may agree by chance. The plain method has
 #: one, which takes twice as long as the run.
-FINER, FINER_PLAIN = 3, 1
+FINER, _FINER_PLAIN = 3, 1
 
 #: Longest step in s of one more run, which sees forces that vary between the steps of the others; longer where these
 #: would be more than so many in a run.
-SHORT, MOST_SHORT = 0.002, 5_000
+SHORT, _MOST_SHORT = 0.002, 5_000
 
 #: A distance in m beyond any path.
 _AWAY = 1e12
@@ -183,7 +183,7 @@ def _finer(scene: Scene, run: SceneRun, progress: Progress | None) -> Iterator[S
     """Runs with half, a quarter and an eighth of the step, from starts within rounding, and one with short steps
     everywhere. Only the first must succeed."""
     accuracy, exact = run.accuracy, run.accuracy.method == "exact"
-    for turn in range(FINER if exact else FINER_PLAIN):
+    for turn in range(FINER if exact else _FINER_PLAIN):
         accuracy = accuracy.finer()
         try:
             yield simulate_at(scene, accuracy, nudged(scene.build(), _ROUNDING, turn), progress)
@@ -193,7 +193,7 @@ def _finer(scene: Scene, run: SceneRun, progress: Progress | None) -> Iterator[S
             break
     if exact:
         setup = nudged(scene.build(), _ROUNDING, FINER)
-        everywhere = ForceRegion(-_AWAY, -_AWAY, _AWAY, _AWAY, max(SHORT, run.duration / MOST_SHORT))
+        everywhere = ForceRegion(-_AWAY, -_AWAY, _AWAY, _AWAY, max(SHORT, run.duration / _MOST_SHORT))
         short = replace(setup, force_regions=[*setup.force_regions, everywhere])
         with suppress(RunError):
             yield simulate_at(scene, run.accuracy.finer(), short, progress)

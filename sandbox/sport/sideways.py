@@ -78,7 +78,7 @@ class SidewaysLaunch(Launch):
         return air.model_copy(update={"wind": (along * c + across * s, up), "crosswind": across * c - along * s})
 
 
-def may_leave_plane(parameters: Flight) -> bool:
+def _may_leave_plane(parameters: Flight) -> bool:
     """True if an axis, a direction or a wind across is given, if only as zero."""
     launch, air = parameters.launch, parameters.air
     given = (getattr(launch, "axis", None), getattr(launch, "direction", None), getattr(air, "crosswind", None))
@@ -92,7 +92,7 @@ class GroundPlace(NamedTuple):
     side: float  # to the right
 
 
-class Rates(NamedTuple):
+class _Rates(NamedTuple):
     """Coefficients of the equations at one time."""
 
     drag: float  # 1/s
@@ -109,13 +109,13 @@ Sideways = tuple[float, complex, float, complex]
 def ground_track(run: Run, parameters: Flight, end: Moment | None, forward: bool = False) -> list[GroundPlace]:
     """The track of the ball ``"ball"`` over the ground, from above, until it comes as low as ``end`` has it in the
     plane; or, with ``forward``, as far. [] where nothing takes it out of the plane, or without an end."""
-    if end is None or not may_leave_plane(parameters):
+    if end is None or not _may_leave_plane(parameters):
         return []
     launch: Any = parameters.launch
     rates, square_to = _rates(run, parameters), launch.square_to(run.setup.balls[0])
     shares = launch.lift_share or 1.0, launch.side_share
 
-    def slope(rates: Rates, at: Sideways) -> Sideways:
+    def slope(rates: _Rates, at: Sideways) -> Sideways:
         w, q, _, _ = at
         pull, lifted = rates.lift * shares[1], w - rates.lift_wind
         along = ((rates.through + q) * square_to.conjugate()).real
@@ -151,7 +151,7 @@ def _ahead(at: Sideways, h: float, rate: Sideways) -> Sideways:
     return w + h * dw, q + h * dq, z + h * dz, p + h * dp
 
 
-def _rates(run: Run, parameters: Flight) -> Callable[[float, State], Rates]:
+def _rates(run: Run, parameters: Flight) -> Callable[[float, State], _Rates]:
     """Return a function of time (s) and state that gives the coefficients."""
     ball, air = run.setup.balls[0], parameters.launch.in_plane(parameters.air.air)
     across = wind_in(air.model_copy(update={"wind": (getattr(air, "crosswind", None) or 0.0, 0.0)}))
@@ -170,10 +170,10 @@ def _rates(run: Run, parameters: Flight) -> Callable[[float, State], Rates]:
         u = through(force, t, state)
         return 0j if force is None or u == 0.0 else complex(*force(t, state[:2], state[2:4], state[4])) / u / ball.mass
 
-    def rates(t: float, state: State) -> Rates:
+    def rates(t: float, state: State) -> _Rates:
         wind = 0.0 if across is None else across(t, state[:2])[0]
         lifted = rate(lift, t, state).imag
-        return Rates(-rate(drag, t, state).real, lifted, through(lift, t, state), wind, 0.0 if over_ground else wind)
+        return _Rates(-rate(drag, t, state).real, lifted, through(lift, t, state), wind, 0.0 if over_ground else wind)
 
     return rates
 

@@ -34,20 +34,20 @@ from sandbox.window.view import View
 from sandbox.window.worker import checked, started
 from sandbox.workers import Processes
 
-MODIFIED = pygame.KMOD_CTRL | pygame.KMOD_ALT
+_MODIFIED = pygame.KMOD_CTRL | pygame.KMOD_ALT
 
 FRAMES = 60  # per second
 #: How often files are checked while nothing happens, in s; an event ends the wait.
 IDLE = 0.4
 #: How often events are looked for then, in s, if none came for so many s; before that in every frame.
-LOOKS, QUIET = 0.05, 2.0
+LOOKS, _QUIET = 0.05, 2.0
 #: Until its first shot, but no longer than this time, in s, the window shows that it loads.
 FIRST = 1.5
 #: What SDL falls back to if there is no display.
-HEADLESS_DRIVERS = ("offscreen", "dummy")
+_HEADLESS_DRIVERS = ("offscreen", "dummy")
 #: Variables of which one names the display or the driver.
-SEEN_BY = ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER")
-NO_DISPLAY = "no display to open a window on; without one use sandbox run SCENE with --poster F.png or --gif F.gif"
+_SEEN_BY = ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER")
+_NO_DISPLAY = "no display to open a window on; without one use sandbox run SCENE with --poster F.png or --gif F.gif"
 
 
 class App:
@@ -90,7 +90,7 @@ class App:
         thousand times a second."""
         end = perf_counter() + IDLE
         while perf_counter() < end and not pygame.event.peek():
-            sleep(LOOKS if perf_counter() - self.last_event > QUIET else 1 / FRAMES)
+            sleep(LOOKS if perf_counter() - self.last_event > _QUIET else 1 / FRAMES)
 
     def close(self) -> None:
         """End the background threads."""
@@ -163,7 +163,7 @@ class App:
             case pygame.DROPFILE:
                 self.game.opening.open(event.file)
             case pygame.KEYDOWN:
-                found, plain = commands.pressed(event.key, event.mod), not event.mod & MODIFIED
+                found, plain = commands.pressed(event.key, event.mod), not event.mod & _MODIFIED
                 if not (plain and view.shown.key_in_overlay(event.key)) and found is not None:
                     commands.do(view, found[0].name, found[1])
             case _:
@@ -176,7 +176,7 @@ class App:
             watching.live.let_go()
         if event.type == pygame.KEYUP:
             self.held.discard(event.key)
-        if not (down or event.type == pygame.KEYUP) or (down and event.mod & MODIFIED):
+        if not (down or event.type == pygame.KEYUP) or (down and event.mod & _MODIFIED):
             return False
         if down and (self.view.shown.overlay is not None or self.view.panel.typing is not None):
             return False
@@ -268,17 +268,17 @@ def _load_there(worker: Processes, source: str, changes: Mapping[str, Any]) -> N
 def opened(title: str) -> Iterator[pygame.Surface]:
     """A window that can be resized, as large as suits the desktop. Raises RequestError if there is no display."""
     os.environ.setdefault("SDL_WINDOWS_DPI_AWARENESS", "permonitorv2")  # no scaling on high-resolution displays
-    if sys.platform == "linux" and not any(os.environ.get(name) for name in SEEN_BY):
-        raise RequestError(NO_DISPLAY)
+    if sys.platform == "linux" and not any(os.environ.get(name) for name in _SEEN_BY):
+        raise RequestError(_NO_DISPLAY)
     try:
         try:
             pygame.display.init()
-            if "SDL_VIDEODRIVER" not in os.environ and pygame.display.get_driver() in HEADLESS_DRIVERS:
-                raise RequestError(NO_DISPLAY)
+            if "SDL_VIDEODRIVER" not in os.environ and pygame.display.get_driver() in _HEADLESS_DRIVERS:
+                raise RequestError(_NO_DISPLAY)
             desktop = min(pygame.display.get_desktop_sizes())  # of several the smallest: it may be moved there
             screen = pygame.display.set_mode(size_for(desktop), pygame.RESIZABLE)
         except pygame.error:
-            raise RequestError(NO_DISPLAY) from None
+            raise RequestError(_NO_DISPLAY) from None
         pygame.display.set_caption(title)
         pygame.key.set_repeat(350, 40)
         yield screen

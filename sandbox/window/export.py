@@ -17,7 +17,7 @@ from sandbox.window.shots import Shot
 
 FOLDER = Path("out")
 FPS = 25
-GIF_SIZE = (640, 360)  # px
+_GIF_SIZE = (640, 360)  # px
 
 
 def new_file(stem: str, suffix: str, write: Callable[[Path], object]) -> Path:
@@ -38,7 +38,7 @@ def new_file(stem: str, suffix: str, write: Callable[[Path], object]) -> Path:
 
 def animate(shot: Shot, path: Path) -> None:
     """Write a shot as an animated GIF."""
-    save_gif(shot.scene.picture(shot.run, GIF_SIZE), shot.run, path, FPS)
+    save_gif(shot.scene.picture(shot.run, _GIF_SIZE), shot.run, path, FPS)
 
 
 def scene_file(session: Session) -> Path:

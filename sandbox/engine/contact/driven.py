@@ -161,7 +161,7 @@ def _interpolated(values: Sequence[float], slopes: Sequence[float]) -> list[floa
     return [first, *found[1:-1], values[-1]]
 
 
-class Drive(NamedTuple):
+class _Drive(NamedTuple):
     """The velocity field of a rigid surface at one time."""
 
     x: float  # m, of the point that has the velocity
@@ -225,7 +225,7 @@ class PosedObstacle(Obstacle):
         self.source = source
         self.stands_until = source.path.stands_until(t)
         self.moves = self.stands_until <= t
-        self._drive = Drive(x, y, vx, vy, spin)
+        self._drive = _Drive(x, y, vx, vy, spin)
 
     def velocity_at(self, point: Vector) -> Vector:
         return self._drive.velocity_at(point)

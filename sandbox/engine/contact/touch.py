@@ -28,7 +28,7 @@ from sandbox.physics.elementwise import hypot, maximum, minimum, where
 
 Point = tuple[Any, Any]
 
-SIDE, CORNER_A, CORNER_B = range(3)
+SIDE, _CORNER_A, _CORNER_B = range(3)
 
 
 class Touching(NamedTuple):
@@ -93,8 +93,8 @@ class Outline(NamedTuple):
         beyond = along > self.length
         on_side = (along >= 0.0) & (beyond ^ True) & (self.length > 0.0)
         if isinstance(on_side, bool):
-            return self.side(x, y) if on_side else self.corner(CORNER_B if beyond else CORNER_A, x, y)
-        side, corner = self.side(x, y), self.corner(where(beyond, CORNER_B, CORNER_A), x, y)
+            return self.side(x, y) if on_side else self.corner(_CORNER_B if beyond else _CORNER_A, x, y)
+        side, corner = self.side(x, y), self.corner(where(beyond, _CORNER_B, _CORNER_A), x, y)
         return Touching(*(where(on_side, *parts) for parts in zip(side, corner, strict=True)))
 
     def side(self, x: Any, y: Any) -> Touching:
@@ -105,7 +105,7 @@ class Outline(NamedTuple):
 
     def corner(self, feature: Any, x: Any, y: Any) -> Touching:
         """Gap and normal of a ball to a corner."""
-        at_b = feature == CORNER_B
+        at_b = feature == _CORNER_B
         cx, cy = where(at_b, self.bx, self.ax), where(at_b, self.by, self.ay)
         dx = x - cx
         dy = y - cy
@@ -174,9 +174,9 @@ class Obstacle:
         along = outline.along(x, y)
         forward = mx * outline.tx + my * outline.ty
         if abs(along) <= SEAM:
-            return self.on_feature(CORNER_A if forward < 0.0 else SIDE, x, y)
+            return self.on_feature(_CORNER_A if forward < 0.0 else SIDE, x, y)
         if abs(along - outline.length) <= SEAM:
-            return self.on_feature(CORNER_B if forward > 0.0 else SIDE, x, y)
+            return self.on_feature(_CORNER_B if forward > 0.0 else SIDE, x, y)
         return touching
 
     def edge(self, feature: int, arc: Arc) -> float | None:
@@ -187,8 +187,8 @@ class Obstacle:
         along = [self.outline.along(x, y) for x, y in zip(arc.x, arc.y, strict=True)]
         ends = {
             SIDE: (along, [length - s for s in along]),
-            CORNER_A: ([-s for s in along],),
-            CORNER_B: ([s - length for s in along],),
+            _CORNER_A: ([-s for s in along],),
+            _CORNER_B: ([s - length for s in along],),
         }
         found = (next(downward_crossings(end), None) for end in ends[feature])
         return min((u for u in found if u is not None), default=None)

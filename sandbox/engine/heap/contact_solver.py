@@ -96,7 +96,7 @@ class Contacts:
         bounds = Bounds(self._count, self._rubs, self._friction, self._brakes)
         start = np.zeros(len(speeds))
         start[: self._count] = np.array(guess) / self._scale[: self._count]
-        found = self._scale * complementary(self._matrix, self._scale * speeds, bounds, start)
+        found = self._scale * _complementary(self._matrix, self._scale * speeds, bounds, start)
         after = self._velocity + self._moved @ found
         return after.reshape(-1, 3).tolist(), found[: self._count].tolist()
 
@@ -104,7 +104,7 @@ class Contacts:
         """The least movement, in m and rad, that takes the points apart by these depths (m)."""
         count, scale, none = self._count, self._scale[: self._count], np.zeros(0)
         bounds, deep = Bounds(count, np.zeros(0, int), none, none), np.array(depths)
-        found = complementary(self._matrix[:count, :count], -scale * deep, bounds, np.maximum(deep, 0.0))
+        found = _complementary(self._matrix[:count, :count], -scale * deep, bounds, np.maximum(deep, 0.0))
         return (self._moved[:, :count] @ (scale * found)).reshape(-1, 3).tolist()
 
 
@@ -127,7 +127,7 @@ class Bounds(NamedTuple):
         return np.clip(impulses, *self.around(impulses))
 
 
-def complementary(matrix: np.ndarray, offset: np.ndarray, bounds: Bounds, start: np.ndarray) -> np.ndarray:
+def _complementary(matrix: np.ndarray, offset: np.ndarray, bounds: Bounds, start: np.ndarray) -> np.ndarray:
     """The z within its bounds for which ``A z + offset`` is zero where z is between them, not negative where it is low
     and not positive where it is high; a guess of it is given."""
     fastest, length = float(np.abs(offset).max()), 1.0 / np.abs(matrix).sum(axis=1).max()

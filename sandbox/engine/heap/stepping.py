@@ -67,7 +67,7 @@ class Touch:
 Group = tuple[list[Member], list[Touch]]
 
 
-class Accounts(NamedTuple):
+class _Accounts(NamedTuple):
     """The energies of the steps of a heap so far."""
 
     gained: float  # J, negative, as contacts take energy
@@ -81,7 +81,7 @@ class HeapState(NamedTuple):
     pressed: dict[frozenset[int], float]
     resting: dict[int, set[int]]
     numbers: tuple[float, float, float, float, int]
-    accounts: Accounts
+    accounts: _Accounts
 
 
 class Stepper:
@@ -128,11 +128,11 @@ class Stepper:
         del self._of_disc[member.disc]
         self.world.space.remove(member.body, member.disc, member.brake)
 
-    def accounts(self) -> Accounts:
+    def accounts(self) -> _Accounts:
         """Return the energies of its steps so far."""
-        return Accounts(self._gained, dict(self._most))
+        return _Accounts(self._gained, dict(self._most))
 
-    def restore(self, accounts: Accounts) -> None:
+    def restore(self, accounts: _Accounts) -> None:
         """Go on with these accounts."""
         self._gained, self._most = accounts.gained, dict(accounts.most)
 

@@ -43,7 +43,7 @@ _STEPS = 2
 _CREATED = 1e-3
 
 #: Approach speed in m/s below which balls push rather than strike each other: these get impulses.
-FAINTEST = 1e-3
+_FAINTEST = 1e-3
 
 
 class _Blow(NamedTuple):
@@ -75,7 +75,7 @@ class ClusterSearch:
         ``slow`` (m/s) lasts.
         """
         model = self._setup.contact
-        blow = self._hardest_blow(t, touching, max(slow, FAINTEST)) if model.name != "rigid" else None
+        blow = self._hardest_blow(t, touching, max(slow, _FAINTEST)) if model.name != "rigid" else None
         if blow is None:
             return None
         members = dict(touching)

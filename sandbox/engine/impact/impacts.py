@@ -44,7 +44,7 @@ _SAME_POINT = 2e-6
 _FAINT = 1e-4
 
 
-class ImpactGroup(NamedTuple):
+class _ImpactGroup(NamedTuple):
     """Balls that touch at one time, directly or through others."""
 
     t: float  # s
@@ -72,7 +72,7 @@ class Outcome(NamedTuple):
 
 
 #: Simulates the contact at t of balls in these states; returns None if impulses are right.
-ResolveCluster = Callable[[float, dict[int, State]], Outcome | None]
+_ResolveCluster = Callable[[float, dict[int, State]], Outcome | None]
 
 
 class Impacts:
@@ -93,7 +93,7 @@ class Impacts:
         self._all_round = all_round(*setup.balls)
         self._heaviest = max(ball.mass for ball in setup.balls)  # kg
 
-    def exchange(self, t: float, group: ImpactGroup, resolve_cluster: ResolveCluster) -> Outcome:
+    def exchange(self, t: float, group: _ImpactGroup, resolve_cluster: _ResolveCluster) -> Outcome:
         """The outcome of the impact at t of balls that touch.
 
         Balls and hard walls exchange impulses at once; soft walls push back afterwards, one after another, and so on
@@ -147,7 +147,7 @@ class Impacts:
         """True if some of these are bodies, not balls."""
         return not self._all_round and any(self._movers[index].ball.rotates for index in indices)
 
-    def _close_at_once(self, group: ImpactGroup, soft: bool | None) -> tuple[list[ImpactContact], float]:
+    def _close_at_once(self, group: _ImpactGroup, soft: bool | None) -> tuple[list[ImpactContact], float]:
         """Close all contacts of balls with each other and with soft or hard walls, or both, at once; returns those that
         were closing, and the work in J of moving surfaces. If a ball closes one, and does not come to close the others
         by that, these do not act."""
@@ -166,7 +166,7 @@ class Impacts:
         balls, met = self._balls(contact), contact.relative_states(states)
         return speeds_where_touching(balls, met, contact.nx, contact.ny, contact.sine)[0] > CLOSING
 
-    def _close_soft_walls(self, group: ImpactGroup) -> tuple[list[ImpactContact], float]:
+    def _close_soft_walls(self, group: _ImpactGroup) -> tuple[list[ImpactContact], float]:
         """Close the contacts with soft walls, one after another; returns them, and the work in J of those that move."""
         closed, work = [], 0.0
         for contact in self._contacts_with_surfaces(group, True):
@@ -175,7 +175,7 @@ class Impacts:
                 closed.append(contact)
         return closed, work
 
-    def _kick(self, group: ImpactGroup, closed: Sequence[ImpactContact]) -> float:
+    def _kick(self, group: _ImpactGroup, closed: Sequence[ImpactContact]) -> float:
         """Add what surfaces that were hit kick with, shared among the points of one contact; returns the work in J of
         this, and of what moves where balls are kicked into something else."""
         kicking = [contact for contact in closed if contact.kick > 0.0]
@@ -192,7 +192,7 @@ class Impacts:
             work += self._exchange_at_once(states, found)
         return work
 
-    def touching(self, t: float, seeds: Sequence[int], gap: float = TOUCHING_GAP) -> ImpactGroup:
+    def touching(self, t: float, seeds: Sequence[int], gap: float = TOUCHING_GAP) -> _ImpactGroup:
         """All balls that touch those in ``seeds`` at t, directly or through others, up to a ``gap`` in m."""
         states: dict[int, State] = {}
         waiting = list(seeds)
@@ -219,11 +219,11 @@ class Impacts:
                     pairs.append((index, other))
         place = {index: number for number, index in enumerate(states)}
         pairs.sort(key=lambda pair: (place[pair[0]], place[pair[1]]))
-        return ImpactGroup(t, states, pairs, gap)
+        return _ImpactGroup(t, states, pairs, gap)
 
     # ------------------------------------------------------------------ contacts
 
-    def _contacts_with_surfaces(self, group: ImpactGroup, soft: bool | None) -> Iterator[ImpactContact]:
+    def _contacts_with_surfaces(self, group: _ImpactGroup, soft: bool | None) -> Iterator[ImpactContact]:
         """The contacts with soft or hard walls, or both, each from the states at the time when it is yielded. Where two
         surfaces join, a point of both counts once, for the surface with the least ``tilt_from_side``."""
         states = group.states
@@ -256,7 +256,7 @@ class Impacts:
     def _soft(self, surface: Surface) -> bool:
         return self._all_soft or surface.nose_height is not None
 
-    def _contacts_of_balls(self, group: ImpactGroup) -> Iterator[ImpactContact]:
+    def _contacts_of_balls(self, group: _ImpactGroup) -> Iterator[ImpactContact]:
         states, pairs, gap = group.states, group.pairs, group.gap
         for pair in pairs:
             balls = [self._movers[index].ball for index in pair]

@@ -12,7 +12,7 @@ from sandbox.physics.integrators import INTEGRATORS
 METHODS = ("exact", "plain")
 
 #: Lowest hop in m that is simulated where a plane presses a sliding ball against another ball or a cushion.
-LOWEST_HOP = 1e-6
+_LOWEST_HOP = 1e-6
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,7 @@ class Accuracy:
     tolerance: float  # m
     step: float  # s
     settle: float  # m
-    hop: float = LOWEST_HOP  # m
+    hop: float = _LOWEST_HOP  # m
     skin: float = SKIN  # m
 
     @property

@@ -48,7 +48,7 @@ _TERMS, _MOTION = ("forces", "torques"), ("velocity", "spin", "impulse", "positi
 
 
 @dataclass(frozen=True)
-class MotionChange:
+class _MotionChange:
     """A change of the state of one ball; None for what stays as it is."""
 
     velocity: Vector | None = None  # m/s
@@ -72,7 +72,7 @@ class Change:
 
     setup: Setup  # that is valid from then on, with all balls that there are or were
     forced: frozenset[str]  # balls with other forces or torques
-    motion: Mapping[str, MotionChange]
+    motion: Mapping[str, _MotionChange]
     added: Sequence[Ball]
     removed: frozenset[str]
     given: frozenset[str]  # fields of the setup
@@ -110,7 +110,7 @@ def checked(changes: Mapping[str, Any], setup: Setup, present: Collection[str]) 
         raise RequestError(str(error)) from None
     if _rolls(new, balls) != _rolls(setup, balls):
         raise RequestError("plane: balls that move in the picture's plane, on cloth, or on ice go on in their own way")
-    changed = {ball: MotionChange(**values) for ball, values in motion.items()}
+    changed = {ball: _MotionChange(**values) for ball, values in motion.items()}
     return Change(new, frozenset(terms), changed, added, frozenset(removed), frozenset(given))
 
 

@@ -29,7 +29,7 @@ _SHALLOW = 1e-3
 _CORNERS = 64
 
 
-class MassProperties(NamedTuple):
+class _MassProperties(NamedTuple):
     """The mass properties of an outline, per unit of mass per area."""
 
     area: float  # m^2
@@ -97,37 +97,37 @@ class Polygon:
             corners.append((x - inward * (ax + cx), y - inward * (ay + cy)))
         return Polygon(corners, self.radius + by)
 
-    def mass_properties(self) -> MassProperties:
+    def mass_properties(self) -> _MassProperties:
         """The sum of the polygon, a rectangle along each side, and a sector of a disc at each corner."""
         r = self.radius
-        parts: list[MassProperties] = []
+        parts: list[_MassProperties] = []
         (ox, oy), corners = self.corners[0], self.corners
         for (ax, ay), (bx, by) in pairwise(corners[1:]):
             ax, ay, bx, by = ax - ox, ay - oy, bx - ox, by - oy  # a triangle at the first corner
             area, x, y = 0.5 * (ax * by - ay * bx), (ax + bx) / 3.0, (ay + by) / 3.0
             about_corner = area * (ax * (ax + bx) + bx * bx + ay * (ay + by) + by * by) / 6.0
-            parts.append(MassProperties(area, (ox + x, oy + y), about_corner - area * (x * x + y * y)))
+            parts.append(_MassProperties(area, (ox + x, oy + y), about_corner - area * (x * x + y * y)))
         for number, ((ax, ay), (bx, by)) in enumerate(_sides(corners)):
             if r == 0.0:
                 break
             length, normal = hypot(bx - ax, by - ay), self.normals[number]
             center = 0.5 * (ax + bx + r * cos(normal)), 0.5 * (ay + by + r * sin(normal))
-            parts.append(MassProperties(length * r, center, length * r * (length * length + r * r) / 12.0))
+            parts.append(_MassProperties(length * r, center, length * r * (length * length + r * r) / 12.0))
             turn = (normal - self.normals[number - 1]) % (2.0 * pi)
             middle, out = normal - 0.5 * turn, 4.0 * r * sin(0.5 * turn) / (3.0 * turn)
             area = 0.5 * turn * r * r
             center = ax + out * cos(middle), ay + out * sin(middle)
-            parts.append(MassProperties(area, center, area * (0.5 * r * r - out * out)))
+            parts.append(_MassProperties(area, center, area * (0.5 * r * r - out * out)))
         if len(corners) == 1:
-            parts.append(MassProperties(pi * r * r, (ox, oy), 0.5 * pi * r**4))
+            parts.append(_MassProperties(pi * r * r, (ox, oy), 0.5 * pi * r**4))
         area = sum(part.area for part in parts)
         if area == 0.0:
-            return MassProperties(0.0, self.corners[0], 0.0)
+            return _MassProperties(0.0, self.corners[0], 0.0)
         x, y = (sum(part.area * part.center[axis] for part in parts) / area for axis in (0, 1))
         moment = sum(
             part.moment + part.area * ((part.center[0] - x) ** 2 + (part.center[1] - y) ** 2) for part in parts
         )
-        return MassProperties(area, (x, y), moment)
+        return _MassProperties(area, (x, y), moment)
 
     def corner_towards(self, angle: float) -> int:
         """Return the number of the corner that is farthest in a direction (rad)."""
@@ -211,10 +211,10 @@ class Ellipse:
         """The same outline elsewhere."""
         return replace(self, center=(self.center[0] + dx, self.center[1] + dy))
 
-    def mass_properties(self) -> MassProperties:
+    def mass_properties(self) -> _MassProperties:
         """``pi a b``, and ``m (a^2 + b^2) / 4``."""
         area = pi * self.a * self.b
-        return MassProperties(area, self.center, 0.25 * area * (self.a**2 + self.b**2))
+        return _MassProperties(area, self.center, 0.25 * area * (self.a**2 + self.b**2))
 
     def corner_towards(self, angle: float) -> int:
         """Its one piece."""

@@ -22,7 +22,7 @@ from sandbox.physics.timing import Timing
 AHEAD = 1.0
 
 
-class Forced(Protocol):
+class _Forced(Protocol):
     """A ball or body on which forces act."""
 
     ball: Ball
@@ -60,7 +60,7 @@ def rest_end(
     return (until, False) if wakes is None else (wakes, True)
 
 
-def steady_end(movers: Sequence[Forced], states: Mapping[int, State], since: float, t: float, until: float) -> float:
+def steady_end(movers: Sequence[_Forced], states: Mapping[int, State], since: float, t: float, until: float) -> float:
     """Return the time in s up to which the forces on balls that rest in these states are known to stay as they were at
     ``since``; t if they do not now."""
     for index, state in states.items():

@@ -41,7 +41,7 @@ def data_of(scene: Scene, tables: Sequence[tuple[str, Table]], how: Reading) -> 
         tables = [(name, renamed(table, how.entries)) for name, table in tables]
         how = replace(how, entries=())
     else:
-        check_named(tables[0][1])
+        _check_named(tables[0][1])
     first = tables[0][1]
     if not how.entries and all(has_positions(table) for _, table in tables):
         if how.where:
@@ -52,7 +52,7 @@ def data_of(scene: Scene, tables: Sequence[tuple[str, Table]], how: Reading) -> 
         about = f"looks like {known.title}, whose columns are known for {known.scene}"
         raise RequestError(f"{first.where}: {about}; for {scene.title} name them by --map")
     if form is None:
-        check_positions(first)
+        _check_positions(first)
         try:
             measurements(tables, how.film)  # says which column is missing
         except RequestError as error:
@@ -82,7 +82,7 @@ def _track(scene: Scene, tables: Sequence[tuple[str, Table]], how: Reading) -> T
     return Track(*places, found.t, **about)
 
 
-def check_named(table: Table) -> None:
+def _check_named(table: Table) -> None:
     """Raise RequestError for a table without names of its columns, with the names that three columns may have."""
     if not table.is_named:
         begins = shortened(", ".join(column.cells[0] for column in table.columns), 40)
@@ -94,7 +94,7 @@ def check_named(table: Table) -> None:
         )
 
 
-def check_positions(table: Table) -> None:
+def _check_positions(table: Table) -> None:
     """Raise RequestError for a table that has accelerations in place of positions."""
     named = [one.name for one in table.columns if "accel" in one.name.lower() or one.unit == "m/s^2"]
     if named and not has_positions(table):

@@ -15,7 +15,7 @@ from sandbox.lab.fit.loss import Loss
 from sandbox.lab.fit.problem import Problem
 
 #: Steps that are tried, at most; dampings at which a step is given up; and the share of the cost that is not worth one.
-MOST_STEPS, FIRST_DAMPING, MOST_DAMPING = 60, 1e-3, 1e8
+MOST_STEPS, _FIRST_DAMPING, _MOST_DAMPING = 60, 1e-3, 1e8
 WORTH = 1e-7
 
 #: The longest step, as a share of the range in which starts are searched: slopes say little of what is farther.
@@ -48,14 +48,14 @@ def descend(
     """
     until = problem.last if until is None else until
     inverse = np.where(problem.times <= until, inverse_sd, 0.0)
-    here, damping = _place(problem, share, inverse, loss, until), FIRST_DAMPING
+    here, damping = _place(problem, share, inverse, loss, until), _FIRST_DAMPING
     if not np.isfinite(here.cost):
         return here
     low, high = problem.starts_within
     longest = LONGEST * (high - low)
     for _ in range(steps):
         step, saved = _step(here, inverse, loss, damping, longest)
-        if abs(saved) <= worth * here.cost or damping > MOST_DAMPING:
+        if abs(saved) <= worth * here.cost or damping > _MOST_DAMPING:
             break
         if saved < 0.0:  # what was cut at a bound spoils the rest of the step
             damping *= 10.0
@@ -64,7 +64,7 @@ def descend(
         if trial.cost < here.cost:
             here, damping = trial, 0.1 * damping
         else:
-            damping *= 10.0 if damping > FIRST_DAMPING else 100.0
+            damping *= 10.0 if damping > _FIRST_DAMPING else 100.0
     return here
 
 

@@ -14,13 +14,13 @@ from sandbox.lab.fit.parsing import Measurements
 from sandbox.scene import Scene
 
 #: The keys of what may be free.
-KEYS = {"time": ("track.time",), "origin": ("track.origin.x", "track.origin.y"), "tilt": ("track.tilt",)}
+_KEYS = {"time": ("track.time",), "origin": ("track.origin.x", "track.origin.y"), "tilt": ("track.tilt",)}
 
 #: A camera is tilted by at most this, in deg: assumed, more is seen while filming.
-TILT = 10.0
+_TILT = 10.0
 
 #: A track is shifted by at most this in m, or by its own extent if that is more: assumed.
-SHIFT = 1.0
+_SHIFT = 1.0
 
 
 @dataclass(frozen=True)
@@ -54,15 +54,15 @@ def parse_free(option: str, texts: Sequence[str]) -> tuple[str, ...]:
     """The names in ``origin,time,tilt``, in the order of KEYS. Raises RequestError."""
     names = [name.strip() for text in texts for name in text.split(",")]
     for name in names:
-        if name not in KEYS:
-            raise RequestError(f"{option} {name}: what may be free is {', '.join(KEYS)}, as in {option} origin,time")
-    return tuple(name for name in KEYS if name in names)
+        if name not in _KEYS:
+            raise RequestError(f"{option} {name}: what may be free is {', '.join(_KEYS)}, as in {option} origin,time")
+    return tuple(name for name in _KEYS if name in names)
 
 
 def frame_of(scene: Scene, measured: Measurements, names: Sequence[str]) -> Frame:
     """The frame of a film; it is searched near where its first point is that of the launch. Raises RequestError."""
     free: list[Free] = []
-    extent = max(float(np.ptp(measured.positions, axis=0).max()), SHIFT)
+    extent = max(float(np.ptp(measured.positions, axis=0).max()), _SHIFT)
     for name in names:
         if name == "time":
             if measured.t is None:
@@ -75,5 +75,5 @@ def frame_of(scene: Scene, measured: Measurements, names: Sequence[str]) -> Fram
             for axis, start in zip("xy", apart.tolist(), strict=True):
                 free.append(Free(f"track.origin.{axis}", start - extent, start + extent, start, "m"))
         else:
-            free.append(Free("track.tilt", -TILT, TILT, 0.0, "deg"))
+            free.append(Free("track.tilt", -_TILT, _TILT, 0.0, "deg"))
     return Frame(tuple(free))

@@ -10,11 +10,11 @@ import numpy as np
 from sandbox.lab.fit.loss import Loss
 
 #: Groups in one unit scatter alike, unless their variances differ by this many standard errors.
-DIFFERENT = 3.0
+_DIFFERENT = 3.0
 
 #: A direction of the values with less than this share of the largest effect has none: its variance is then so large
 #: that the interval is the whole range.
-NO_EFFECT = 1e-9
+_NO_EFFECT = 1e-9
 
 
 @dataclass(frozen=True)
@@ -75,7 +75,7 @@ def pooled(sds: np.ndarray, counts: np.ndarray, units: tuple[str, ...]) -> np.nd
         own = np.array([each == unit for each in units])
         if own.sum() > 1 and (sds[own] > 0.0).all():
             logs, errors = 2.0 * np.log(sds[own]), np.sqrt(2.0 / counts[own])
-            if np.ptp(logs) < DIFFERENT * float(np.hypot(*np.sort(errors)[-2:])):
+            if np.ptp(logs) < _DIFFERENT * float(np.hypot(*np.sort(errors)[-2:])):
                 found[own] = np.sqrt((counts[own] * sds[own] ** 2).sum() / counts[own].sum())
         elif own.sum() > 1:
             found[own] = np.sqrt((counts[own] * sds[own] ** 2).sum() / counts[own].sum())
@@ -113,9 +113,9 @@ def inverse_of(slopes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The inverse of slopes' slopes in directions that have an effect, and the enormous variance of those that have
     none."""
     size = np.sqrt((slopes**2).sum(axis=0))
-    size = np.maximum(size, NO_EFFECT * (float(size.max(initial=0.0)) or 1.0))
+    size = np.maximum(size, _NO_EFFECT * (float(size.max(initial=0.0)) or 1.0))
     unit = slopes / size
     values, vectors = np.linalg.eigh(unit.T @ unit)
-    known, scale = values > NO_EFFECT**2, np.outer(size, size)
+    known, scale = values > _NO_EFFECT**2, np.outer(size, size)
     inverse = (vectors[:, known] / values[known]) @ vectors[:, known].T / scale
-    return inverse, (vectors[:, ~known] / NO_EFFECT**2) @ vectors[:, ~known].T / scale
+    return inverse, (vectors[:, ~known] / _NO_EFFECT**2) @ vectors[:, ~known].T / scale

@@ -13,7 +13,7 @@ from sandbox.scene.points import Points
 from sandbox.scene.scene_run import SceneRun
 
 #: Steps along a path between which the nearest place is looked for, and steps of Newton's method from there.
-STEPS, NEWTON = 96, 3
+STEPS, _NEWTON = 96, 3
 
 
 @dataclass(frozen=True)
@@ -75,7 +75,7 @@ def distances(run: SceneRun, ball: str, places: np.ndarray) -> np.ndarray:
     ends = np.concatenate([[0.0], impacts, [run.duration]])  # of smooth arcs
     after = np.clip(np.searchsorted(ends, t, side="right"), 1, len(ends) - 1)
     low, high = ends[after - 1], ends[after]
-    for _ in range(NEWTON):  # the nearest place is where the velocity is square to the way to the point
+    for _ in range(_NEWTON):  # the nearest place is where the velocity is square to the way to the point
         state = run.states(ball, t)
         velocity, way = state[:, 2:4], places - state[:, :2]
         speed2 = np.maximum((velocity**2).sum(axis=1), 1e-300)

@@ -14,14 +14,14 @@ from sandbox.parameters import value_at
 from sandbox.scene import Scene
 
 #: Differences of neighbouring runs: as a share of the value, but at least and at most this share of its range.
-STEP, LEAST_STEP, MOST_STEP = 1e-5, 1e-8, 1e-5
+STEP, _LEAST_STEP, _MOST_STEP = 1e-5, 1e-8, 1e-5
 
 #: A slope to one side so many times as steep as to the other is that of a cliff.
-STEEPER = 3.0
+_STEEPER = 3.0
 
 #: Declared bounds so many times as wide as the scene's own value are searched near that value only, directions all
 #: round it (in deg); and what belongs to a film within this share of its range around where it most likely is.
-WIDE, ALL_ROUND, LIKELY = 20.0, 180.0, 0.2
+WIDE, _ALL_ROUND, _LIKELY = 20.0, 180.0, 0.2
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ class Problem:
 
         Slopes are from differences to one side. A run that fails gives no slope.
         """
-        steps = np.clip(STEP * np.abs(self.values(share)) / self.width, LEAST_STEP, MOST_STEP)
+        steps = np.clip(STEP * np.abs(self.values(share)) / self.width, _LEAST_STEP, _MOST_STEP)
         steps = np.where(share + steps > 1.0, -steps, steps)
         found = self.residuals(np.vstack([share, share + np.diag(steps)]), until)
         return found[0], np.nan_to_num((found[1:] - found[:1]) / steps[:, None]).T
@@ -84,7 +84,7 @@ class Problem:
             slopes = (found[1:] - found[0]).reshape(2, count, -1) / apart[:, :, None]
         effect = np.sqrt(((slopes * inverse_sd) ** 2).sum(axis=2))
         effect = np.where(np.isnan(effect), np.inf, effect)  # a run that failed, or no room before an end of the range
-        keep = (effect <= STEEPER * effect.min(axis=0)) & np.isfinite(effect)
+        keep = (effect <= _STEEPER * effect.min(axis=0)) & np.isfinite(effect)
         kept = np.where(keep[:, :, None], slopes, 0.0).sum(axis=0) / np.maximum(keep.sum(axis=0), 1)[:, None]
         return np.asarray(kept).T
 
@@ -94,6 +94,6 @@ class Problem:
         own, turns = np.abs(self.values(self.own)), np.array([unit == "deg" for unit in self.units])
         near = self.declared & (own > 0.0) & (self.width > WIDE * own)
         reach = np.where(near, 2.0 * own / self.width, 1.0)
-        reach = np.where(self.declared & turns, ALL_ROUND / self.width, reach)
-        reach[len(self.scene_keys) :] = LIKELY
+        reach = np.where(self.declared & turns, _ALL_ROUND / self.width, reach)
+        reach[len(self.scene_keys) :] = _LIKELY
         return np.clip(self.own - reach, 0.0, 1.0), np.clip(self.own + reach, 0.0, 1.0)

@@ -17,24 +17,24 @@ from sandbox.lab.fit.loss import Loss
 from sandbox.lab.fit.problem import Problem
 
 #: Standard errors by which a value is moved along a line, but at most this share of a range.
-MOVED, WIDEST = (3.0, 6.0, 10.0, 16.0, 26.0, 45.0), 0.5
+_MOVED, WIDEST = (3.0, 6.0, 10.0, 16.0, 26.0, 45.0), 0.5
 
 #: Most runs for all lines together, and fewest steps of a line that are worth a look: a long table of shots has none.
-MOST_RUNS, FEWEST_STEPS = 1000, 4
+MOST_RUNS, _FEWEST_STEPS = 1000, 4
 
 #: The share of chi^2 one step before, below which it falls; how many times more or less than the slopes say is odd; and
 #: from how many places of both kinds another minimum is looked for.
-FALLS, ODD, LOOKED_FALLING, LOOKED_ODD = 0.99, 2.0, 3, 2
+FALLS, _ODD, _LOOKED_FALLING, _LOOKED_ODD = 0.99, 2.0, 3, 2
 
 #: A path with so many times as much of chi^2 as residuals, 7 standard deviations off, has lost the data.
 LOST = 50.0
 
 #: Steps after which a way that leads back is given up, and all steps; and the share of the cost that one must save.
-FIRST_STEPS, STEPS, WORTH = 4, 12, 1e-3
+_FIRST_STEPS, STEPS, WORTH = 4, 12, 1e-3
 
 #: A minimum whose chi^2 is so much more than that of the best explains the data no longer (as Akaike's criterion has
 #: it: Burnham & Anderson 2002, section 2.6).
-NEARLY = 10.0
+_NEARLY = 10.0
 
 #: Values so many half widths of an interval away are others.
 APART = 1.5
@@ -63,17 +63,17 @@ def rivals(weighted: Weighted, best: Place, errors: Errors, known: Sequence[Plac
     ``known`` are places where other starts ended.
     """
     least = float(weighted.chi2(best.residuals))
-    shares = [place.share for place in known if weighted.chi2(place.residuals) - least < 2.0 * NEARLY]
+    shares = [place.share for place in known if weighted.chi2(place.residuals) - least < 2.0 * _NEARLY]
     ended: list[tuple[float, Place]] = []
     for share in [*shares, *_doubtful(weighted, best, errors)]:
-        place = weighted.down(share, FIRST_STEPS)
+        place = weighted.down(share, _FIRST_STEPS)
         if np.isfinite(place.cost) and _apart(place, best, errors):
-            place = weighted.down(place.share, STEPS - FIRST_STEPS)
+            place = weighted.down(place.share, STEPS - _FIRST_STEPS)
             ended.append((float(weighted.chi2(place.residuals)) - least, place))
     found: list[tuple[float, Place]] = []
     for more, place in sorted(ended, key=lambda pair: pair[0]):
         others = [best, *(other for _, other in found)]
-        if more < NEARLY and all(_apart(place, other, errors) for other in others):
+        if more < _NEARLY and all(_apart(place, other, errors) for other in others):
             found.append((more, place))
     return found
 
@@ -88,7 +88,7 @@ def _doubtful(weighted: Weighted, best: Place, errors: Errors) -> list[np.ndarra
     """Candidates where chi^2, along a line away from the best, is less again than before; and those where it is not
     what slopes say. Of both the least first, and none that has lost the data."""
     most = MOST_RUNS // (weighted.problem.measured.runs * 4 * len(best.share))  # steps of each line
-    if most < FEWEST_STEPS:
+    if most < _FEWEST_STEPS:
         return []
     shares = _lines(best, errors)[:, :most]
     lines, steps, count = shares.shape
@@ -97,9 +97,9 @@ def _doubtful(weighted: Weighted, best: Place, errors: Errors) -> list[np.ndarra
     expected = weighted.chi2(best.residuals + (flat - best.share) @ best.slopes.T)
     falls, along = np.zeros((lines, steps), dtype=bool), found.reshape(lines, steps)
     falls[:, 1:] = along[:, 1:] < FALLS * along[:, :-1]
-    odd = (found > ODD * expected) | (expected > ODD * found)
+    odd = (found > _ODD * expected) | (expected > _ODD * found)
     chosen: list[int] = []
-    for which, most in ((falls.ravel(), LOOKED_FALLING), (odd, LOOKED_ODD)):
+    for which, most in ((falls.ravel(), _LOOKED_FALLING), (odd, _LOOKED_ODD)):
         near = which & (found < LOST * len(best.residuals))
         order = np.argsort(np.where(near, found, np.inf), kind="stable")
         chosen += [place for place in order[:most].tolist() if near[place] and place not in chosen]
@@ -111,6 +111,6 @@ def _lines(best: Place, errors: Errors) -> np.ndarray:
     their correlations."""
     sds = np.maximum(errors.sds, 1e-300)
     ways = np.vstack([(errors.covariance / sds).T, np.diag(errors.sds)])  # by one standard error
-    moves = np.vstack([ways, -ways])[:, None] * np.array(MOVED)[:, None]
+    moves = np.vstack([ways, -ways])[:, None] * np.array(_MOVED)[:, None]
     moves = moves * np.minimum(1.0, WIDEST / np.maximum(np.abs(moves).max(axis=2, keepdims=True), 1e-300))
     return np.asarray(np.clip(best.share + moves, 0.0, 1.0))

@@ -14,19 +14,19 @@ from sandbox.lab.fit.problem import Problem
 
 #: Starts that are tried for each value beyond the first, and those that are followed, at most; fewer are tried where
 #: one is more than so many runs in all, as for a long table of shots.
-TRIED, FOLLOWED, MOST_RUNS = 24, 6, 1000
+TRIED, _FOLLOWED, MOST_RUNS = 24, 6, 1000
 
 #: The first window, and by how much it grows at least, as shares of the points; smaller where that leads nowhere.
-WINDOW, GROWTHS = 0.25, (0.125, 0.05)
+WINDOW, _GROWTHS = 0.25, (0.125, 0.05)
 
 #: A window grows up to where the path is so many standard deviations from the points, which are taken to be at least
 #: this share of what a start is typically off by: those of few points say little.
-LOST, LOST_SCALE = 8.0, 0.02
+LOST, _LOST_SCALE = 8.0, 0.02
 
 #: A larger window that fits so many times worse, or with one new point so many standard deviations off, has lost the
 #: path. Candidates are then drawn from those that fit the smaller one, with so many times its standard errors, but at
 #: most this share of a range; the best are followed. Where that did not help so many times, it is not tried any more.
-WORSE, WORSE_ROBUST, FAR, INFLATED, WIDEST, DRAWN, POLISHED, VAIN = 1.25, 1.6, 4.5, 2.0, 0.3, 32, 4, 2
+_WORSE, _WORSE_ROBUST, FAR, _INFLATED, WIDEST, DRAWN, _POLISHED, _VAIN = 1.25, 1.6, 4.5, 2.0, 0.3, 32, 4, 2
 
 #: Starts that lead to the same path in the first window, to this share of its standard deviation, and to values less
 #: apart than this share of a range, are one.
@@ -38,20 +38,20 @@ COARSE = 0.3
 #: Ratio of von Neumann (1941): the mean square of differences of neighbouring residuals over the mean square of the
 #: residuals. It is 2 for errors that are independent; below this the path has another shape than the track, perhaps or
 #: surely.
-ALIKE, OTHER_SHAPE = 1.2, 0.4
+ALIKE, _OTHER_SHAPE = 1.2, 0.4
 
 #: A path with another shape that is so much off, as a share of what a start is typically off by, ends the search.
-FAR_OFF = 0.1
+_FAR_OFF = 0.1
 
 #: Residuals of a group below which their order says nothing; and how many times the median they may be.
-ENOUGH, LARGE = 8, 5.0
+ENOUGH, _LARGE = 8, 5.0
 
 
 def search(problem: Problem, robust: bool) -> list[Place]:
     """The places where starts ended, the best first; none if no run could be completed."""
     starts, scale = _starts(problem)
     ended: list[tuple[float, Place]] = []
-    for growth in GROWTHS:
+    for growth in _GROWTHS:
         following = _Following(problem, scale, robust, growth)
         for share in starts:
             found = following.from_start(share)
@@ -79,7 +79,7 @@ def neumann(groups: np.ndarray, residuals: np.ndarray) -> float:
     for group in np.unique(groups):
         part = residuals[groups == group]
         if len(part) >= ENOUGH and part.any():
-            most = LARGE * float(np.median(np.abs(part))) or float(np.abs(part).max())
+            most = _LARGE * float(np.median(np.abs(part))) or float(np.abs(part).max())
             part = np.clip(part, -most, most)
             ratios.append(float((np.diff(part) ** 2).mean() / (part**2).mean()))
     return min(ratios, default=0.0)
@@ -100,7 +100,7 @@ def _starts(problem: Problem) -> tuple[list[np.ndarray], np.ndarray]:
     """The scene's own values and a Latin hypercube, the best by the first window first; and a scale for each residual,
     the same for those in one unit, so that others can be compared."""
     rng, (low, high) = np.random.default_rng(0), problem.starts_within
-    tried = min(TRIED * max(len(problem) - 1, 1), max(FOLLOWED, MOST_RUNS // problem.measured.runs))
+    tried = min(TRIED * max(len(problem) - 1, 1), max(_FOLLOWED, MOST_RUNS // problem.measured.runs))
     columns = [rng.permutation(tried) for _ in range(len(problem))]
     cube = low + (np.column_stack(columns) + rng.random((tried, len(problem)))) / tried * (high - low)
     cube[::2, len(problem.scene_keys) :] = problem.own[len(problem.scene_keys) :]  # of a film, where it most likely is
@@ -113,7 +113,7 @@ def _starts(problem: Problem) -> tuple[list[np.ndarray], np.ndarray]:
     if done.any():
         scale = robust_sds(np.median(np.abs(found[done]), axis=0), units, problem.times <= until)
     costs = np.where(done, (np.abs(found) / scale)[:, problem.times <= until].sum(axis=1), np.inf)
-    return [starts[place] for place in np.argsort(costs, kind="stable")[:FOLLOWED] if done[place]], scale
+    return [starts[place] for place in np.argsort(costs, kind="stable")[:_FOLLOWED] if done[place]], scale
 
 
 def window(problem: Problem, share: float) -> float:
@@ -127,7 +127,7 @@ class _Following:
 
     def __init__(self, problem: Problem, scale: np.ndarray, robust: bool, growth: float) -> None:
         self.problem, self.scale, self.robust, self.growth = problem, scale, robust, growth
-        self.worse = WORSE_ROBUST if robust else WORSE
+        self.worse = _WORSE_ROBUST if robust else _WORSE
         self._vain = 0
         self.hopeless = False  # whether the path has another shape than the track already where it is followed
         self.agreed = 0  # starts that came to the same path as others in the first window
@@ -176,11 +176,11 @@ class _Following:
         the window ``before`` as well are tried: an impact makes large differences of small ones."""
         worth = self._least_saving(until)
         found = self._descend(place.share, until, worth)
-        if found is not None and (self._vain >= VAIN or not self._is_lost(place, before, found, until)):
+        if found is not None and (self._vain >= _VAIN or not self._is_lost(place, before, found, until)):
             return found
         inside = self.problem.times <= before
         ratio = neumann(self.problem.measured.groups[inside], place.residuals[inside])
-        if found is not None and 0.0 < ratio < OTHER_SHAPE and self.off(place.residuals, before) > FAR_OFF:
+        if found is not None and 0.0 < ratio < _OTHER_SHAPE and self.off(place.residuals, before) > _FAR_OFF:
             self.hopeless = True
             return found
         tried = [found] if found is not None else []
@@ -210,12 +210,12 @@ class _Following:
         sds = robust_sds(place.residuals, problem.measured.groups, inside)
         slopes = place.slopes[inside] / sds[inside, None]
         variances, axes = np.linalg.eigh(slopes.T @ slopes)
-        widths = np.minimum(INFLATED / np.sqrt(np.maximum(variances, 1e-12)), WIDEST)
+        widths = np.minimum(_INFLATED / np.sqrt(np.maximum(variances, 1e-12)), WIDEST)
         drawn = np.random.default_rng(1).normal(size=(DRAWN, len(problem))) * widths @ axes.T
         shares = np.clip(place.share + drawn, 0.0, 1.0)
         found = np.abs(problem.residuals(shares, until) / self.scale)[:, problem.times <= until]
         costs = np.nan_to_num(found.sum(axis=1), nan=np.inf)
-        return [shares[best] for best in np.argsort(costs, kind="stable")[:POLISHED] if np.isfinite(costs[best])]
+        return [shares[best] for best in np.argsort(costs, kind="stable")[:_POLISHED] if np.isfinite(costs[best])]
 
     def off(self, residuals: np.ndarray, until: float) -> float:
         """The typical distance of the path from the points of a window: the root mean square, or the median where
@@ -254,6 +254,6 @@ class _Following:
         if np.isnan(whole).any():
             return until
         sds = robust_sds(place.residuals, problem.measured.groups, inside)
-        far = np.abs(whole) > LOST * np.maximum(sds, LOST_SCALE * self.scale)
+        far = np.abs(whole) > LOST * np.maximum(sds, _LOST_SCALE * self.scale)
         lost = problem.times[far & ~inside]
         return problem.last if not len(lost) else float(problem.times[problem.times < lost.min()].max(initial=until))
