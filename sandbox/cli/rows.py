@@ -30,6 +30,9 @@ MORE = ("acceleration", "forces", "energy")
 #: Most rows of a trajectory for each ball: more is taken as a mistake.
 _MOST_ROWS = 10_000_000
 
+#: Most rows of the table of impacts.
+_MOST_IMPACTS = 12
+
 #: The columns of the table of impacts, with their units in the names of those that people see.
 _IMPACTS = ("t", "ball", "mass", "vx_before", "vy_before", "vx_after", "vy_after", "px_before", "py_before", "px_after",
            "py_after", "energy_before", "energy_after", "angular_before", "angular_after", "spin_before",
@@ -152,7 +155,7 @@ def write_impacts(run: SceneRun, path: Path, others: Mapping[str, SceneRun] = {}
                 rows.writerow((*(cells[key] for key in _IMPACTS), *([csv_text(title)] if others else [])))
 
 
-def impact_lines(run: SceneRun, most: int = 12) -> list[str]:
+def impact_lines(run: SceneRun) -> list[str]:
     """The table of impacts for people: of the first ones, if there are many."""
     from sandbox.lab.tables import table
 
@@ -165,7 +168,7 @@ def impact_lines(run: SceneRun, most: int = 12) -> list[str]:
         "  mass in kg, velocity v in m/s, momentum p in kg m/s (x, y), kinetic energy E in J,",
         "  angular momentum L about the origin in kg m^2/s, spin in rad/s, counter-clockwise",
     ]
-    for t, group in groupby(rows[:most], key=lambda row: row["t"]):
+    for t, group in groupby(rows[:_MOST_IMPACTS], key=lambda row: row["t"]):
         texts = [
             (row["ball"], significant(row["mass"], 3),
              *(_vector(row, f"{kind}{{}}_{when}") for kind in "vp" for when in ("before", "after")),
@@ -177,11 +180,11 @@ def impact_lines(run: SceneRun, most: int = 12) -> list[str]:
                 row["ball"],
                 *(_number(row[f"{kind}_{when}"]) for kind in ("angular", "spin") for when in ("before", "after")),
             )
-            for row in rows[:most]
+            for row in rows[:_MOST_IMPACTS]
             if row["t"] == t
         ]
         lines += [f"  at {t:.3f} s", *table(heads, texts, "lrrrrrrr"), *table(spins, turning, "lrrrr")]
-    return [*lines, *([f"  ... {len(rows) - most} more rows"] if len(rows) > most else [])]
+    return [*lines, *([f"  ... {len(rows) - _MOST_IMPACTS} more rows"] if len(rows) > _MOST_IMPACTS else [])]
 
 
 def _vector(row: Mapping[str, Any], key: str) -> str:

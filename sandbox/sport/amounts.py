@@ -192,14 +192,6 @@ def scale_unit(length: float) -> tuple[str, float]:
     return next(((unit, metre) for unit, metre in found if 1.998 * length >= metre), min(found, key=lambda one: one[1]))
 
 
-def listed(values: Sequence[float], unit: str, digits: int | None = None) -> str:
-    """Numbers with the unit after the last: ``26.8, 12.1 m/s``; each in that of the largest."""
-    largest = max(values, key=abs)
-    name = amount(largest, unit, digits).rpartition(" ")[2]
-    steps = [step for step in ladder(unit) if step.unit == name][:1]
-    return ", ".join(written(value, unit, steps, digits).removesuffix(f" {name}") for value in values) + f" {name}"
-
-
 def metres(value: float, digits: int | None = None) -> str:
     """A length in m as people write it on a scale, without cm: 0.42 m, 8.31 m, 251.4 m, 12.3 km; or with ``digits``
     after the point. It is in the units that were chosen."""

@@ -12,7 +12,6 @@ from sandbox.sport.amounts import (
     converted,
     in_chosen_unit,
     in_two_units,
-    listed,
     margin,
     metres,
     roughly,
@@ -66,7 +65,6 @@ def test_others():
         "0.14 m", "0.99 m", "2.9 m", "9.9 m", "10 m", "252 m",
     ]  # fmt: skip
     assert [times(x) for x in (1.44, 9.94, 9.96, 86.4)] == ["1.4 times", "9.9 times", "10 times", "86 times"]
-    assert listed([26.81, 9.04], "m/s", 1) == "26.8, 9.0 m/s"
     assert in_two_units(91.44, "yd") == "91.4 m   100 yd"
 
 
@@ -83,7 +81,6 @@ def test_chosen_units():
         assert in_chosen_unit(3.048, "m") == (pytest.approx(10.0), "ft")
         assert in_chosen_unit(2.0, "deg") == (2.0, "deg")
         assert scale_unit(0.4) == ("ft", 0.3048)
-        assert listed([26.81, 4.0], "m/s", 1) == "60.0, 8.9 mph"
     with shown_in("ft, km/h"):
         assert [amount(252.3, "m"), amount(10.0, "m/s"), amount(1.0, "N")] == ["828 ft", "36 km/h", "1.00 N"]
     assert amount(8.3, "m") == "8.30 m"
