@@ -46,6 +46,8 @@ if TYPE_CHECKING:
 
     Subject = Run | pygame.Surface | Image.Image
 
+__all__ = ["Golden", "golden"]
+
 #: Most changes of a run that a message lists.
 _MOST_CHANGES = 5
 
@@ -373,7 +375,7 @@ def golden(request: pytest.FixtureRequest) -> Golden:
 
 
 def golden_of(test: pytest.Item) -> Golden:
-    """What compares with the golden pictures of a test."""
+    """The fixture for the golden pictures of a test."""
 
     def note(kind: str, line: str) -> None:
         # Part of the test's report, which pytest-xdist sends back from its processes.

@@ -631,7 +631,7 @@ def _words_for(key: str, schema: type[Group]) -> Iterator[str]:
 
 
 def wrong_group(error: ValidationError) -> str:
-    """What is wrong with a group that was made in Python, in a line."""
+    """The problem with a group that was made in Python, in a line."""
     first, *others = error.errors(include_url=False)
     key, more = ".".join(map(str, first["loc"])), f" (and {len(others)} more)" if others else ""
     if first["type"] == "missing":

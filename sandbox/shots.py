@@ -61,7 +61,7 @@ class _Trend(_Row):
 
 
 class _KnownShots(BaseModel):
-    """What a file of shots has."""
+    """The content of a file of shots."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
@@ -109,7 +109,7 @@ def _check_shot(source: str, shot: Shot, scores: Mapping[str, list[str]], golden
 
 
 def differences(run: SceneRun, shot: Shot, scores: Mapping[str, list[str]]) -> Iterator[str]:
-    """What of a run is not as it is known, a line each; ``scores`` are those of KnownShots."""
+    """The differences of a run from what is known, a line each; ``scores`` are those of KnownShots."""
     word, sentence = run.result.get("verdict", ""), run.scene.verdict(run)
     if shot.verdict is not None and word != shot.verdict:
         yield f"verdict = {word!r}, not {shot.verdict!r}"

@@ -126,7 +126,7 @@ def suggestion(given: str) -> str:
 
 
 def comma_error(text: str) -> str:
-    """What is wrong with a number that has commas, such as ``"60,5 m/s"``, and how to write it; "" if none has."""
+    """The problem with a number that has commas, such as ``"60,5 m/s"``, and how to write it; "" if none has."""
     match = _COMMAS.match(text)
     if match is None:
         return ""

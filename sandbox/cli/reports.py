@@ -1,4 +1,4 @@
-"""What commands that report share: the options for their outputs, and writing them."""
+"""Outputs of commands that report: their options, and writing them."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ PAGES = "pages of reports"
 
 @dataclass(frozen=True)
 class Outputs:
-    """What a command that reports is to write."""
+    """The outputs that a command is to write."""
 
     as_json: bool
     plot: Path | None

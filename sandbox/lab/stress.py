@@ -273,7 +273,7 @@ _SUMS = (
 
 
 def report_of(outcomes: Sequence[Outcome]) -> Report:
-    """How often each method held, and each failure; as details each extreme of each scene, with its refusals."""
+    """Counts of how each method held, and each failure; as details each extreme of each scene, with its refusals."""
     sensible = _sensible(outcomes)
     counts = summary(outcomes)
     scenes = {scene: scene or _BARE for scene, _ in _grouped(outcomes, "scene")}
@@ -337,7 +337,7 @@ _BARE = "setups without a scene"
 
 
 def summary(outcomes: Sequence[Outcome]) -> Table:
-    """How often each method held, its largest energy gain and its largest overlap, and the longest step at which
+    """Counts of how each method held, its largest energy gain and its largest overlap, and the longest step at which
     it held in every scene."""
     rows: list[list[Any]] = []
     for method, own in _grouped(_sensible(outcomes), "method"):

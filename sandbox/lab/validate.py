@@ -134,7 +134,7 @@ def _table(title: str, rows: Sequence[Compared], given: str) -> Table:
 
 
 def _chart(rows: Sequence[Compared]) -> Chart:
-    """How far off each number is, in its tolerance, by scene: those that count in colour."""
+    """The error of each number over its tolerance, by scene: those that count in colour."""
     scenes = list(dict.fromkeys(row.sport for row in rows))[::-1]
     known = [row for row in rows if row.difference is not None and row.tolerance]
 

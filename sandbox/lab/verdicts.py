@@ -54,7 +54,7 @@ class VerdictChanges:
     failures: dict[str, dict[str, int]] = field(default_factory=dict)  # of each method, how many by their name
 
     def table(self) -> Table:
-        """How many shots have the same verdict, another one, or failed, and how, by method."""
+        """Counts of shots with the same verdict, another one, or a failure and its kind, by method."""
         about = f"{self.shots} shots, {self.over[0]} within {100 * _SPEED:.0f} %, {self.over[1]} within {_ANGLE:g} deg"
         count = [Column(heading, write=lambda shots: str(shots or "-")) for heading in ("same", "other", "failed")]
         rows = [[name, of.same, of.other, of.failed, self.named(name)] for name, of in self.methods.items()]
@@ -62,7 +62,7 @@ class VerdictChanges:
         return Table([words("by"), *count, words()], rows, title, detail=True)
 
     def named(self, method: str) -> str:
-        """How its shots failed, with counts."""
+        """The kinds of failure of its shots, with counts."""
         return ", ".join(f"{name} {count}" for name, count in self.failures.get(method, {}).items())
 
 

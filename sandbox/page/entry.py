@@ -1,4 +1,4 @@
-"""What pages for a browser add."""
+"""Commands and parts that pages for a browser add."""
 
 PARTS = {
     "notebooks": "sandbox.page.notebook",

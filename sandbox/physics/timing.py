@@ -28,7 +28,7 @@ TIME_SCALE = 0.01
 
 
 class Timing(NamedTuple):
-    """How some forces depend on time; the numbers are floats, or arrays for many shots."""
+    """The dependence of some forces on time; the numbers are floats, or arrays for many shots."""
 
     depends: bool  # on time
     scale: Any  # s, longest step

@@ -1,3 +1,3 @@
-"""What pictures add."""
+"""Parts that pictures add."""
 
 PARTS = {"pictures": "sandbox.picture.plain", "images": "sandbox.picture.images"}

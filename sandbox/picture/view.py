@@ -134,7 +134,7 @@ class View(BallDrawing[P]):
 
     @property
     def solids(self) -> list[Segment | Circle]:
-        """What is shown where it is near: surfaces, and those that move at some times of the run."""
+        """Surfaces that are shown where they are near; those that move at some times of the run."""
         return [shape for surface in self.run.setup.surfaces for shape in self._seen_of(surface)]
 
     def _seen_of(self, surface: Surface) -> list[Segment | Circle]:

@@ -1,4 +1,4 @@
-"""What scenes in browsers add."""
+"""Commands that scenes in browsers add."""
 
 NEEDS = ("page", "tasks", "window")
 COMMANDS = {"serve": "sandbox.serve.command"}

@@ -42,7 +42,7 @@ class _Job:
 
     @property
     def turn(self) -> Hashable:
-        """Of jobs with the same turn one runs at a time."""
+        """The key of jobs that take turns: of those that share it, one runs at a time."""
         return self.player, self.want in _ASIDE
 
 

@@ -1,4 +1,4 @@
-"""What tasks and games for two add."""
+"""Commands and parts that tasks and games for two add."""
 
 COMMANDS = {"tasks": "sandbox.tasks.command"}
 PARTS = {"schemas of tasks": "sandbox.tasks.schema", "tasks": "sandbox.tasks.command"}

@@ -127,7 +127,7 @@ class Score:
         return self.text(self.total(attempts))
 
     def shot_text(self, worth: float | None) -> str:
-        """What a shot counts, where its verdict does not say so: ``off by 0.34 m/s``, ``counts 5 points``; else ""."""
+        """The worth of a shot, ``off by 0.34 m/s``, ``counts 5 points``; "" where its verdict says it."""
         return ""
 
     @property

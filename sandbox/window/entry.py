@@ -1,4 +1,4 @@
-"""What the window adds."""
+"""Commands and parts that the window adds."""
 
 NEEDS = ("tasks",)
 COMMANDS = {"play": "sandbox.window.command"}

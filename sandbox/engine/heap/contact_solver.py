@@ -147,7 +147,7 @@ def _complementary(matrix: np.ndarray, offset: np.ndarray, bounds: Bounds, start
 
 
 def _left(matrix: np.ndarray, offset: np.ndarray, bounds: Bounds, found: np.ndarray) -> float:
-    """How far these impulses are from the solution, as a speed."""
+    """The distance of these impulses from the solution, as a speed."""
     return float(np.abs(found - bounds.bounded(found - matrix @ found - offset)).max())
 
 

@@ -40,7 +40,7 @@ QUINTIC = 6
 
 
 class Next(Enum):
-    """What is to be done for a ball that flies on, if it is not to wait for an event on its arc."""
+    """The next step for a ball that flies on, unless it waits for an event on its arc."""
 
     ARC = auto()
     """Plan its next arc."""
@@ -66,7 +66,7 @@ class Flying(Protocol):
 
 
 class Flight(NamedTuple):
-    """What stays the same on the way, and whom to tell of what happens."""
+    """Constants of a flight, and the receivers of its events."""
 
     setup: Setup
     control: StepControl

@@ -121,7 +121,7 @@ def shortest(t: float) -> float:
 
 
 class StepLimits(NamedTuple):
-    """What steps of a ball must not skip."""
+    """Times and places that steps of a ball must not skip."""
 
     depends: bool  # its forces do, on time
     scale: float  # s, in which they change

@@ -36,7 +36,7 @@ class Flown(Sequence[Any]):
         alone: Mapping[int, Run | Exception],
         seconds: float,
     ) -> None:
-        """Of each shot: its path, its events, its duration in s, how it ended and what it cost. ``counts`` has the
+        """For each shot: its path, its events, its duration in s, how it ended and what it cost. ``counts`` has the
         shape (shots, 6): the first six fields of ``Numerics``; each shot took so many ``seconds``. Those that ran
         ``alone`` have only a path."""
         self.setups = setups

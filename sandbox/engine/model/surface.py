@@ -40,7 +40,7 @@ class Segment:
 
     @property
     def ends(self) -> tuple[Vector, Vector]:
-        """Where it begins and ends, in m."""
+        """Its two ends, in m."""
         return self.a, self.b
 
     @property

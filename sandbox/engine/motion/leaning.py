@@ -65,7 +65,7 @@ class Leaning(ArcContact):
         return (0.0, 0.0) if in_corner else (ax, ay)
 
     def applied(self, forces: Applied) -> Applied:
-        """What the forces on the ball still do."""
+        """The acceleration that the forces leave it."""
 
         def applied(t: float, state: State) -> Acceleration:
             px, py, torque = forces(t, state)

@@ -124,7 +124,7 @@ class MovingBall:
     def flight(
         self, exchange: Exchange, first_touch: FirstTouch, check: Callable[[float], None], note_impact: NoteImpact
     ) -> Flight:
-        """What it takes to follow its flight."""
+        """The data from which its flight is followed."""
         setup, limits, settle = self._setup, StepLimits.of(self._setup, self.ball), self._accuracy.settle
         own = setup, self._control, limits, settle, self._acceleration_at, self._step, self._numerics
         return Flight(*own, exchange, first_touch, check, note_impact)

@@ -1,4 +1,4 @@
-"""What lies still under forces that depend on time: how long it stays so.
+"""Rest under forces that depend on time: until when it lasts.
 
 It is asked again at each of the forces' times: at their discontinuities, and in between as often as their time scale
 says. Where it does not stay, the time at which it begins to move is found to rounding.
