@@ -12,7 +12,7 @@ from sandbox.engine.kernel.event_kind import EventKind
 from sandbox.engine.motion.moving_ball import MovingBall
 
 #: In place of the second ball of an event that has only one.
-NO_BALL = -1
+_NO_BALL = -1
 
 
 class QueuedEvent(NamedTuple):
@@ -29,7 +29,7 @@ class QueuedEvent(NamedTuple):
     @property
     def balls(self) -> list[int]:
         """The one or two balls."""
-        return [self.ball] if self.other == NO_BALL else [self.ball, self.other]
+        return [self.ball] if self.other == _NO_BALL else [self.ball, self.other]
 
 
 class EventQueue:
@@ -40,9 +40,9 @@ class EventQueue:
         self._heap: list[QueuedEvent] = []
         self._order = count()
 
-    def push(self, t: float, kind: EventKind, ball: int, other: int = NO_BALL) -> None:
+    def push(self, t: float, kind: EventKind, ball: int, other: int = _NO_BALL) -> None:
         """Add an event at t that holds as long as its balls are on their present arcs."""
-        other_version = 0 if other == NO_BALL else self._movers[other].version
+        other_version = 0 if other == _NO_BALL else self._movers[other].version
         event = QueuedEvent(t, next(self._order), kind, ball, self._movers[ball].version, other, other_version)
         heapq.heappush(self._heap, event)
 
@@ -67,5 +67,5 @@ class EventQueue:
         """Return True if the balls of an event are still on the arcs for which it was predicted."""
         _, _, _, ball, version, other, other_version = event
         return self._movers[ball].version == version and (
-            other == NO_BALL or self._movers[other].version == other_version
+            other == _NO_BALL or self._movers[other].version == other_version
         )

@@ -13,7 +13,7 @@ from sandbox.engine.paths.arc import Arc
 from sandbox.engine.paths.run import Numerics
 
 #: True for what a ball is in contact with and so does not meet: obstacles, and balls by index.
-InContact = Callable[[Obstacle | int], bool]
+_InContact = Callable[[Obstacle | int], bool]
 
 
 class Prediction:
@@ -26,7 +26,7 @@ class Prediction:
         self._numerics = numerics
         self._skin = skin
 
-    def predict(self, index: int, t: float, kind: EventKind, in_contact: InContact, others: Sequence[int]) -> None:
+    def predict(self, index: int, t: float, kind: EventKind, in_contact: _InContact, others: Sequence[int]) -> None:
         """Predict the first event from t on a ball's new arc, which ends as ``kind`` says: alone, or with ``others``.
         It does not meet what it is ``in_contact`` with."""
         mover = self._movers[index]
@@ -43,7 +43,7 @@ class Prediction:
         if others:
             self._predict_pairs(index, t, at, in_contact, others)
 
-    def _predict_pairs(self, index: int, t: float, until: float, in_contact: InContact, others: Sequence[int]) -> None:
+    def _predict_pairs(self, index: int, t: float, until: float, in_contact: _InContact, others: Sequence[int]) -> None:
         """Predict where a ball first touches each of the others, from t until ``until``."""
         mover = self._movers[index]
         left, bottom, right, top = mover.predicted_path.box()
@@ -68,7 +68,7 @@ class Prediction:
         arc: Arc,
         obstacles: Sequence[Obstacle],
         until: float,
-        in_contact: InContact = lambda obstacle: False,
+        in_contact: _InContact = lambda obstacle: False,
     ) -> float | None:
         """The first time up to ``until`` (s) at which a ball touches one of these obstacles on an arc, or None."""
         first, (left, bottom, right, top) = None, arc.box()

@@ -50,7 +50,7 @@ _SHOWN, _SAME, _ZERO = 2, 1e-6, 1e-9
 _LEAST_SAVED, _NOISES, _ANOTHER_RUN = 0.01, 2.0, -1.0
 
 
-class Variant(NamedTuple):
+class _Variant(NamedTuple):
     """A setup with one part of its model changed."""
 
     part: str
@@ -88,7 +88,7 @@ class Ablated:
             return f"run failed: {self.problem}"
         if self.is_nothing:
             return "nothing: no contact" if self.idle else "nothing"
-        numbers = [(name, *map(_shown, values)) for name, values in (self.results or {}).items()]
+        numbers = [(name, *map(_rounded, values)) for name, values in (self.results or {}).items()]
         shown = [f"{name} {one} -> {other}" for name, one, other in numbers if one != other][:_SHOWN]
         if self.verdict[0] != self.verdict[1]:
             shown.append(_changed_words(*self.verdict))
@@ -103,7 +103,7 @@ class Ablated:
         return [self.part, self.change, *shifts, saved]
 
 
-def _shown(value: float) -> str:
+def _rounded(value: float) -> str:
     return significant(value if abs(value) >= _ZERO else 0.0, 4)
 
 
@@ -176,7 +176,7 @@ def _differences(a: SceneRun, b: SceneRun) -> dict[str, tuple[float, float]]:
 # -------------------------------------------------------------------------------------------------------- the variants
 
 
-def variants(setup: Setup) -> Iterator[Variant]:
+def variants(setup: Setup) -> Iterator[_Variant]:
     """Each part of the model left out, simplified, or added if the scene lacks it."""
     balls = [replace(ball, forces=[*ball.forces], torques=[*ball.torques]) for ball in setup.balls]
     setup = replace(setup, balls=balls, surfaces=[*setup.surfaces])  # lists throughout, to be compared
@@ -184,12 +184,12 @@ def variants(setup: Setup) -> Iterator[Variant]:
     yield from (variant for variant in changes if variant.setup != setup)
 
 
-def _of_balls(setup: Setup) -> Iterator[Variant]:
+def _of_balls(setup: Setup) -> Iterator[_Variant]:
     """Forces and torques; loss of mass; coefficients as at the start; wind, lift and spin decay."""
     first, terms = setup.balls[0], [term for ball in setup.balls for term in (*ball.forces, *ball.torques)]
 
-    def variant(part: str, change: str, changed: Callable[[Ball], Ball]) -> Variant:
-        return Variant(part, change, replace(setup, balls=[changed(ball) for ball in setup.balls]), touching=False)
+    def variant(part: str, change: str, changed: Callable[[Ball], Ball]) -> _Variant:
+        return _Variant(part, change, replace(setup, balls=[changed(ball) for ball in setup.balls]), touching=False)
 
     for name in dict.fromkeys(map(cause, terms)):
         yield variant(name, "left out", partial(_without, name=name))
@@ -271,17 +271,17 @@ def _with_decay(ball: Ball) -> Ball:
     return replace(ball, torques=[SpinDecay(ball.inertia, ball.radius, _DECAY)])
 
 
-def _of_contacts(setup: Setup) -> Iterator[Variant]:
+def _of_contacts(setup: Setup) -> Iterator[_Variant]:
     """Yield the variants of surfaces, and of impacts between balls."""
     for (part, change), changed in _OF_SURFACES.items():
-        yield Variant(part, change, replace(setup, surfaces=[changed(surface) for surface in setup.surfaces]), True)
+        yield _Variant(part, change, replace(setup, surfaces=[changed(surface) for surface in setup.surfaces]), True)
     if len(setup.balls) > 1:
         law, throw, one_by_one = setup.between_balls, "friction of balls (throw)", replace(setup.contact, name="rigid")
-        yield Variant("contact mechanics", "one impact after another", replace(setup, contact=one_by_one), True)
-        yield Variant(throw, "left out", replace(setup, between_balls=_law_without(law, "friction")), True)
+        yield _Variant("contact mechanics", "one impact after another", replace(setup, contact=one_by_one), True)
+        yield _Variant(throw, "left out", replace(setup, between_balls=_law_without(law, "friction")), True)
         if law(*_FAST) != law(*_SLOW):
             slow = replace(setup, between_balls=ConstantBounce(law(*_SLOW)))
-            yield Variant(throw, "at any speed as at 1 m/s", slow, True)
+            yield _Variant(throw, "at any speed as at 1 m/s", slow, True)
 
 
 @dataclass(frozen=True)
@@ -317,11 +317,11 @@ _OF_SURFACES: dict[tuple[str, str], Callable[[Surface], Surface]] = {
 }
 
 
-def _of_planes(setup: Setup) -> Iterator[Variant]:
+def _of_planes(setup: Setup) -> Iterator[_Variant]:
     """Yield the variants of the planes on which balls slide and roll."""
     every = [] if setup.plane is None else [setup.plane, *(plane for _, plane in setup.planes)]
     parts = {(term, plane.name): called for plane in every for term, called in plane.TERMS.items()}
     for (term, name), called in parts.items():
         own, *others = [without(plane, term) if plane.name == name else plane for plane in every]
         planes = [(ball, plane) for (ball, _), plane in zip(setup.planes, others, strict=True)]
-        yield Variant(f"{called} of the {name}", "left out", replace(setup, plane=own, planes=planes), False)
+        yield _Variant(f"{called} of the {name}", "left out", replace(setup, plane=own, planes=planes), False)

@@ -258,7 +258,7 @@ def _map(axes: Any, plan: Plan, found: ChartData, colours: Mapping[str, Any]) ->
         return np.repeat(cells, len(up) // len(cells), axis=0)
 
     if found.words:
-        chosen, codes = coded(found, colours)
+        chosen, codes = _coded(found, colours)
         cells = grid(codes)
         colour_map = ListedColormap(list(chosen.values()))
         mesh = axes.pcolormesh(across, up, cells, shading="nearest", cmap=colour_map, vmin=-0.5,
@@ -305,7 +305,7 @@ def _cloud(axes: Any, plan: Plan, found: ChartData, colours: Mapping[str, Any]) 
     if found.numbers is not None:
         _key(axes, axes.scatter(*found.axes, c=found.numbers, s=size, cmap=_HEIGHTS), found)
         return
-    chosen, codes = coded(found, colours)
+    chosen, codes = _coded(found, colours)
     for code, colour in reversed(list(enumerate(chosen.values()))):  # success on top
         axes.scatter(*(axis[codes == code] for axis in found.axes), s=size, color=colour)
     _legend(axes, found, chosen, colours)
@@ -338,7 +338,7 @@ def _is_high(found: ChartData, places: np.ndarray, own: float) -> bool:
     return bool(height > 0.5 * (np.nanmin(found.numbers) + np.nanmax(found.numbers)))
 
 
-def coded(found: ChartData, colours: Mapping[str, Any]) -> tuple[dict[str, str], np.ndarray]:
+def _coded(found: ChartData, colours: Mapping[str, Any]) -> tuple[dict[str, str], np.ndarray]:
     """A colour for each word, success vivid and the most common first, and the index of each point's colour."""
     counts = Counter(found.words)
     failures = counts.pop(FAILED, 0)

@@ -10,11 +10,11 @@ from statistics import NormalDist
 import numpy as np
 
 #: Standard deviations to either side that hold 95 % of a normal distribution.
-Z95 = NormalDist().inv_cdf(0.975)
+_Z95 = NormalDist().inv_cdf(0.975)
 
 #: Squared size, in standard deviations, of the ellipse that holds 95 % of a normal distribution in two directions:
 #: ``-2 ln 0.05``.
-ELLIPSE95 = -2.0 * float(np.log(0.05))
+_ELLIPSE95 = -2.0 * float(np.log(0.05))
 
 #: The shares of the shots whose quantiles are given.
 QUANTILES = (0.025, 0.05, 0.25, 0.5, 0.75, 0.95, 0.975)
@@ -101,7 +101,7 @@ class Ellipse:
     def axes(self) -> tuple[float, float]:
         """Half the length of the long and of the short axis, in m."""
         (short, long), _ = self._principal
-        return sqrt(ELLIPSE95 * max(long, 0.0)), sqrt(ELLIPSE95 * max(short, 0.0))
+        return sqrt(_ELLIPSE95 * max(long, 0.0)), sqrt(_ELLIPSE95 * max(short, 0.0))
 
     @property
     def angle(self) -> float:
@@ -114,13 +114,13 @@ class Ellipse:
         """The share of the points that are in it: 0.95 if they are normally distributed."""
         (short, long), axes = self._principal
         away = (self.points - self.points.mean(axis=0)) @ axes
-        return float(((away**2 / np.maximum([short, long], 1e-300)).sum(axis=1) <= ELLIPSE95).mean())
+        return float(((away**2 / np.maximum([short, long], 1e-300)).sum(axis=1) <= _ELLIPSE95).mean())
 
     def outline(self, points: int = 121) -> np.ndarray:
         """Points on it in m, shape (points, 2)."""
         turn = np.linspace(0.0, 2.0 * np.pi, points)
         (short, long), axes = self._principal
-        sizes = np.sqrt(ELLIPSE95 * np.maximum([short, long], 0.0))
+        sizes = np.sqrt(_ELLIPSE95 * np.maximum([short, long], 0.0))
         return np.asarray(self.center + (np.column_stack([np.cos(turn), np.sin(turn)]) * sizes) @ axes.T)
 
     @property
@@ -132,13 +132,13 @@ class Ellipse:
 
 def wilson(share: float, shots: int) -> tuple[float, float]:
     """The 95 % interval of a share that was seen in so many shots (Wilson 1927)."""
-    z = Z95 * Z95 / shots
+    z = _Z95 * _Z95 / shots
     middle, half = (share + 0.5 * z) / (1.0 + z), _half_width(share, shots)
     return max(0.0, middle - half), min(1.0, middle + half)
 
 
 def _half_width(share: float, shots: int) -> float:
-    z = Z95 * Z95 / shots
+    z = _Z95 * _Z95 / shots
     return sqrt(z * share * (1.0 - share) + 0.25 * z * z) / (1.0 + z)
 
 
@@ -156,7 +156,7 @@ def shots_for_share(share: float, within: float) -> int:
 def shots_for_mean(sd: float, within: float) -> int:
     """Return the random shots that tell a mean to within +-``within`` in 95 of 100 cases: ``(1.96 sd / within)^2``, and
     at least 2."""
-    return max(2, ceil((Z95 * sd / within) ** 2 * (1.0 - 1e-12)))
+    return max(2, ceil((_Z95 * sd / within) ** 2 * (1.0 - 1e-12)))
 
 
 def round_number(value: float) -> float:

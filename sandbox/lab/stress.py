@@ -42,10 +42,10 @@ from sandbox.sport.amounts import significant
 
 #: Allowed energy gain of the exact method, relative to the largest energy of the run: with an integrator that
 #: controls its error, and with one of fixed step.
-ENERGY, ENERGY_FIXED_STEP = 1e-3, 3e-2
+_ENERGY, _ENERGY_FIXED_STEP = 1e-3, 3e-2
 
 #: Allowed overlap of the exact method: in m, and for what lies in a heap, in radii while it moves and at rest.
-OVERLAP, POURED, AT_REST = 1e-7, 0.05, 1e-4
+OVERLAP, _POURED, AT_REST = 1e-7, 0.05, 1e-4
 
 #: All methods; and those that are tried where most of a run is a heap, which pymunk steps: of the integrators one of
 #: each kind.
@@ -150,7 +150,7 @@ def _tried(scene: str, extreme: Extreme, method: str, accuracy: Accuracy) -> Out
         return outcome(FAILED, f"{type(error).__name__}: {error}")
     took = process_time() - used
     gained, overlap, deep, through = _energy_gained(run), *_overlap(run)
-    bound = ENERGY if INTEGRATORS[accuracy.integrator].controls_error else ENERGY_FIXED_STEP
+    bound = _ENERGY if INTEGRATORS[accuracy.integrator].controls_error else _ENERGY_FIXED_STEP
     exact = accuracy.method == "exact"
     problems = {
         "NaN or infinite": not _is_finite(run),
@@ -223,7 +223,7 @@ def _allowed(run: Run, ball: Ball, t: float, *pressed: Phase) -> float:
     at = min(bisect_left(path.stops, t), len(path) - 1)
     if not any(arc.phase in (Phase.HEAP, *pressed) for arc in (path[max(0, at - 1)], path[at])):
         return OVERLAP
-    return ball.radius * (AT_REST if path[at].rests else POURED)
+    return ball.radius * (AT_REST if path[at].rests else _POURED)
 
 
 def _outline(run: Run, ball: Ball, t: float) -> tuple[Shape, Pose]:

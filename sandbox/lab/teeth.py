@@ -31,8 +31,8 @@ from sandbox.scene.running import simulate_at
 from sandbox.scene.scene_run import SceneRun
 
 #: Factors of an effect, and how they are called.
-FACTORS = {0.0: "off", 0.8: "-20 %", 1.2: "+20 %"}
-FIFTH = (FACTORS[0.8], FACTORS[1.2])
+_FACTORS = {0.0: "off", 0.8: "-20 %", 1.2: "+20 %"}
+_FIFTH = (_FACTORS[0.8], _FACTORS[1.2])
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ class Tried:
     def unnoticed(self, *changes: str) -> list[str]:
         """The effects that it does not show by these changes, or by another setting; by default by any change."""
         effects = dict.fromkeys(trial.effect for trial in self.trials)
-        by = {*(changes or FACTORS.values()), *effects}
+        by = {*(changes or _FACTORS.values()), *effects}
         shown = {trial.effect for trial in self.trials if trial.falls and trial.change in by}
         return [effect for effect in effects if effect not in shown]
 
@@ -92,7 +92,7 @@ def _changed(scene: Scene, effect: str) -> Iterator[tuple[str, SceneRun | None]]
         return
     parameter = next((each for each in walk(scene.parameters, entries=True) if each.key == effect), None)
     if parameter is not None:
-        values = {change: parameter.within(factor * parameter.value) for factor, change in FACTORS.items()}
+        values = {change: parameter.within(factor * parameter.value) for factor, change in _FACTORS.items()}
         for change, value in values.items():
             if value != parameter.value:
                 yield change, _run(scene.changed({effect: value}))
@@ -100,7 +100,7 @@ def _changed(scene: Scene, effect: str) -> Iterator[tuple[str, SceneRun | None]]
     setup = scene.build()
     if not any(cause(term) == effect for ball in setup.balls for term in (*ball.forces, *ball.torques)):
         raise RequestError(f"{scene.name}: {effect!r} is neither a force of this run nor a parameter")
-    for factor, change in FACTORS.items():
+    for factor, change in _FACTORS.items():
         yield change, _run(scene, _scaled(setup, effect, factor))
 
 
@@ -146,7 +146,7 @@ def report_of(rows: Sequence[Compared], tried: Sequence[Tried]) -> Report:
     """The rows that hold though an effect that they name is left out; those that hold with a fifth of it more and less;
     and how many do not."""
     blunt = [(one, one.unnoticed()) for one in tried if not one.has_teeth]
-    weak = [(one, one.unnoticed(*FIFTH)) for one in tried if one.has_teeth]
+    weak = [(one, one.unnoticed(*_FIFTH)) for one in tried if one.has_teeth]
     sections = [
         _table("rows that hold whatever their effect is", blunt),
         _table("rows that fall only without it", weak),
@@ -176,6 +176,6 @@ def _table(title: str, found: Sequence[tuple[Tried, list[str]]]) -> Table:
 def summary(tried: Sequence[Tried]) -> str:
     """Count those that fall, in a sentence."""
     sharp = [one for one in tried if one.has_teeth]
-    fifth = sum(not one.unnoticed(*FIFTH) for one in sharp)
+    fifth = sum(not one.unnoticed(*_FIFTH) for one in sharp)
     without = f"{len(sharp)} of {len(tried)} rows that hold fall without their effect"
     return f"{without}, {fifth} with a fifth more or less of it"

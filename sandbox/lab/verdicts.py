@@ -116,19 +116,19 @@ def shot_map(scene: Scene) -> VerdictChanges | None:
             found = verdicts(points, how)
             methods[name] = compared(truth, found)
             pairs = zip(truth, found, strict=True)
-            failures[name] = dict(Counter(failure(b) for a, b in pairs if has_failed(a, b)))
+            failures[name] = dict(Counter(failure(b) for a, b in pairs if _has_failed(a, b)))
     return VerdictChanges(keys, len(points), methods, {name: each for name, each in failures.items() if each})
 
 
 def compared(truth: Sequence[Any], found: Sequence[Any]) -> Verdicts:
     """The verdicts found, or exceptions, compared with the true ones."""
     pairs = list(zip(truth, found, strict=True))
-    failed = sum(has_failed(a, b) for a, b in pairs)
+    failed = sum(_has_failed(a, b) for a, b in pairs)
     other = sum(a != b and not isinstance(b, Exception) for a, b in pairs)
     return Verdicts(len(pairs) - failed - other, other, failed)
 
 
-def has_failed(truth: Any, found: Any) -> bool:
+def _has_failed(truth: Any, found: Any) -> bool:
     """True if the run failed and the true one did not."""
     return isinstance(found, Exception) and not isinstance(truth, Exception)
 

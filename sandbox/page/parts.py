@@ -20,7 +20,7 @@ from sandbox.page.templates import PLAYER, framed, source, with_player
 from sandbox.picture.palette import ASSETS, Colour
 from sandbox.text import one_line
 
-WEIGHTS = {"400": "Regular", "700": "Bold"}
+_WEIGHTS = {"400": "Regular", "700": "Bold"}
 #: The scripts of each page with data, in order.
 SCRIPTS = {
     "run.html": (*PLAYER, "run.js"),
@@ -66,7 +66,7 @@ def _letters(data: bytes) -> str:
 def fonts() -> dict[str, str]:
     """The letters of pictures by weight, packed."""
     return {
-        weight: _letters((ASSETS / "fonts" / f"NotoSans-{name}.ttf").read_bytes()) for weight, name in WEIGHTS.items()
+        weight: _letters((ASSETS / "fonts" / f"NotoSans-{name}.ttf").read_bytes()) for weight, name in _WEIGHTS.items()
     }
 
 

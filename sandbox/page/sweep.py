@@ -25,7 +25,7 @@ from sandbox.sport.amounts import amount, metres, round_number_above
 from sandbox.text import argument
 
 #: Most paths of a page, drawn for a picture of so many px; and most of them that are pale behind the chosen one.
-MOST_POINTS, PIXELS, PALE = 6000, 420, 150
+MOST_POINTS, _PIXELS, _PALE = 6000, 420, 150
 #: Width and height of the chart next to it, in inches.
 WIDTH, HEIGHT = 5.8, 4.2
 
@@ -126,7 +126,7 @@ def _paths(done: Sequence[SceneRun | Exception]) -> tuple[list[np.ndarray], np.n
     flat = np.concatenate([line[:, 1:] for line in lines]) if lines else np.zeros((1, 2))
     low, high = np.percentile(flat, 0.5, axis=0), np.percentile(flat, 99.5, axis=0)
     high = np.maximum(high, low + 1e-3)
-    px = float((high - low).max()) / PIXELS  # m
+    px = float((high - low).max()) / _PIXELS  # m
     found = [np.zeros((0, 2))] * len(done)
     for (i, _), line in zip(good, lines, strict=True):
         found[i] = simplify((line[:, 1:] - low) / px).round() * px + low
@@ -145,7 +145,7 @@ def _picture(done: Sequence[SceneRun | Exception], lines: Sequence[np.ndarray], 
     scale = round_number_above(float(size[0]) / 8.0)
     return {
         "box": " ".join(f"{v:.6g}" for v in (left - edge, -box[3] - edge, *(size + 2.0 * edge))),
-        "pale": " ".join(map(_line, lines[:: max(1, -(-len(lines) // PALE))])),
+        "pale": " ".join(map(_line, lines[:: max(1, -(-len(lines) // _PALE))])),
         "surfaces": "".join(
             f'<path d="M{a:.6g} {b:.6g}L{c:.6g} {d:.6g}" style="stroke-width: {2.0 * radius:.6g}"/>'
             f'<path class="thin" d="M{a:.6g} {b:.6g}L{c:.6g} {d:.6g}"/>'

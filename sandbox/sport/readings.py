@@ -181,7 +181,7 @@ def apex(run: Run, parameters: Any) -> float:
     return run.highest("ball")[1][1]
 
 
-def launch_value(what: str) -> Callable[[Run, Any], Any]:
+def _launch_value(what: str) -> Callable[[Run, Any], Any]:
     """Return a function that reads a value of the launch, as it was given: -28.8 deg, though its sine and cosine have
     lost the last digit of that."""
     return fact_from(start, lambda ball, parameters: rounded(getattr(ball, what), _DIGITS))
@@ -195,8 +195,8 @@ def whole_rpm(ball: Moment, parameters: Any) -> float:
 #: Digits after the point that are left of a value that was converted to a velocity or rad/s and back.
 _DIGITS = 10
 
-BALL_SPEED = Fact("ball_speed", "ball speed", "m/s", launch_value("speed"), "start")
-LAUNCH_ANGLE = Fact("launch_angle", "launch", "deg", launch_value("direction"), "start")
+BALL_SPEED = Fact("ball_speed", "ball speed", "m/s", _launch_value("speed"), "start")
+LAUNCH_ANGLE = Fact("launch_angle", "launch", "deg", _launch_value("direction"), "start")
 LAUNCH_SPIN = Fact(
     "launch_spin", "spin", "rpm", fact_from(start, lambda ball, it: round(whole_rpm(ball, it), _DIGITS)), "start",
     sides=("topspin", "backspin"),

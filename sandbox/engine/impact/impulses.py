@@ -23,7 +23,7 @@ from sandbox.physics.integrators import State
 
 #: Length in s of the step in which impulses are exchanged: at 340 m/s a ball moves 3e-13 m in it. No contact in it is
 #: deep enough for Chipmunk to correct positions.
-INSTANT = 1e-15
+_INSTANT = 1e-15
 
 #: A disc and its ground overlap by this fraction of the radius during the exchange, so that Chipmunk sees the contact;
 #: where several contacts close together by much less, as the arm of the friction is off by as much. There discs are as
@@ -35,13 +35,13 @@ OVERLAP, _CLOSE, _SMALL = 1e-6, 1e-11, 1e-2
 _ITERATIONS, _ITERATIONS_TURNING = 200, 2_000
 
 #: Height at which a disc waits that is not in use, in radii.
-PARKED = 1.5
+_PARKED = 1.5
 
 #: From a disc's centre to the ground.
 _DOWN: Vector = (0.0, -1.0)
 
 
-def still_space(iterations: int) -> pymunk.Space:
+def _still_space(iterations: int) -> pymunk.Space:
     """A Space that never corrects positions and forgets a contact in the step after it."""
     space = pymunk.Space()
     space.collision_slop = space.collision_bias = 1.0
@@ -60,12 +60,12 @@ def _enough(inertia: float, arm: Vector, friction: float) -> int:
     return min(_ITERATIONS_TURNING, int(-36.0 / log(left)) + 2) if left < 1.0 else _ITERATIONS_TURNING
 
 
-def disc_over_ground(space: pymunk.Space, x: float, y: float) -> tuple[pymunk.Circle, pymunk.Body]:
+def _disc_over_ground(space: pymunk.Space, x: float, y: float) -> tuple[pymunk.Circle, pymunk.Body]:
     """A disc of radius 1 and mass 1 that waits above its own piece of level ground at (x, y), and its body."""
     ground = pymunk.Segment(space.static_body, (x - 0.1, y), (x + 0.1, y), 0.0)
     ground.elasticity = ground.friction = 1.0  # pymunk multiplies both shapes' values: the disc has the pair's
     body = pymunk.Body(1.0, 1.0)
-    body.position = x, y + 1.0 + PARKED
+    body.position = x, y + 1.0 + _PARKED
     disc = pymunk.Circle(body, 1.0)
     space.add(ground, body, disc)
     return disc, body
@@ -75,8 +75,8 @@ class DiscOnGround:
     """A disc of radius 1 and mass 1 above level ground: the reduced form of a single contact."""
 
     def __init__(self) -> None:
-        self._space = still_space(1)
-        self._disc, self._body = disc_over_ground(self._space, 0.0, 0.0)
+        self._space = _still_space(1)
+        self._disc, self._body = _disc_over_ground(self._space, 0.0, 0.0)
         self._pair = 0.0, 0.0, 1.0  # restitution, friction, moment of inertia
         self._arm = _DOWN  # from the centre of mass to the ground
 
@@ -98,12 +98,12 @@ class DiscOnGround:
             if arm is not _DOWN:
                 body.angle = 0.0  # in which the offset is
             body.position, body.velocity, body.angular_velocity = (x, y), (slip, -approach), 0.0
-            self._space.step(INSTANT)
+            self._space.step(_INSTANT)
             along, away = body.velocity
             return away + approach, along - slip
         finally:  # apart, so that pymunk forgets the contact
-            body.position = x, y + PARKED
-            self._space.step(INSTANT)
+            body.position = x, y + _PARKED
+            self._space.step(_INSTANT)
 
 
 _made = threading.local()
@@ -202,7 +202,7 @@ def after_contacts_at_once(
     its tangent plane on the second, or on what is fixed; they overlap at its point, and have its normal.
     """
     turning = any(balls[index].rotates for index in states)
-    space = still_space(_ITERATIONS_TURNING if turning else _ITERATIONS)
+    space = _still_space(_ITERATIONS_TURNING if turning else _ITERATIONS)
     bodies: dict[int, pymunk.Body] = {}
     left, bottom, *_ = next(iter(states.values()))
     for index, (x, y, vx, vy, spin, *_) in states.items():
@@ -234,7 +234,7 @@ def after_contacts_at_once(
         work += away * total.dot(contact.drive)
 
     space.on_collision(pre_solve=bounce, post_solve=read)
-    space.step(INSTANT)
+    space.step(_INSTANT)
     after = {}
     for index, (x, y, _, _, _, *more) in states.items():
         after[index] = (x, y, *bodies[index].velocity, bodies[index].angular_velocity, *more)

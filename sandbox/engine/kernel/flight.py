@@ -49,7 +49,7 @@ class Next(Enum):
     """After an impact, find out whether it stays on what it has hit, and plan its next arc."""
 
 
-class Flying(Protocol):
+class _Flying(Protocol):
     """The ball that flies, as a ``MovingBall``."""
 
     ball: Ball
@@ -103,7 +103,7 @@ def after_impact(
 
 
 def fly(
-    flight: Flight, mover: Flying, t: float, touches: bool, until: float, most: int
+    flight: Flight, mover: _Flying, t: float, touches: bool, until: float, most: int
 ) -> tuple[int, EventKind | Next, float]:
     """Follow a ball from an event at t (s) on its arc, a touch or the arc's end, through events up to ``until`` (s).
 
@@ -163,7 +163,7 @@ def fly(
         check(t)
 
 
-def _after_touch(flight: Flight, mover: Flying, t: float, state: State) -> Next | None:
+def _after_touch(flight: Flight, mover: _Flying, t: float, state: State) -> Next | None:
     """Move a ball that touches something in this state at t (s) past its impact: what is next, or None if it has none
     that is plain."""
     found = touched(mover.obstacles, state[0], state[1])

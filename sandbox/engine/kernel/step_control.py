@@ -14,10 +14,10 @@ from sandbox.physics.integrators import INTEGRATORS, Acceleration, Method, State
 
 #: Local error of a step relative to the tolerance at the end. Each impact on a round shape multiplies an error by ten
 #: or more, so the flight must be much more accurate; this value is enough for shots with several rim contacts.
-LOCAL_SHARE = 3e-4
+_LOCAL_SHARE = 3e-4
 
 #: Weight of an error in spin as an error in m: it moves the ball only through lift and the next bounce.
-SPIN_WEIGHT = 0.1  # s
+_SPIN_WEIGHT = 0.1  # s
 
 #: First step tried under error control; it shrinks by 5 until the error fits.
 FIRST_STEP = 0.05  # s
@@ -49,7 +49,7 @@ class StepControl:
     def __init__(self, accuracy: Accuracy) -> None:
         method = self.integrator = INTEGRATORS[accuracy.integrator]
         self.exponent = 1.0 / method.order
-        self.local_error = accuracy.tolerance * LOCAL_SHARE  # m
+        self.local_error = accuracy.tolerance * _LOCAL_SHARE  # m
         self.step = accuracy.step  # s
         self.evaluations = method.evaluations  # of the forces in each step
         self.first = FIRST_STEP if method.controls_error else accuracy.step  # s
@@ -89,7 +89,7 @@ class StepControl:
             return True, min(2.0 * h, self.step) if h >= wanted else wanted, end, last
         if len(error) == 5:
             ex, ey, evx, evy, spin = error
-            off = abs(ex) + abs(ey) + abs(evx) + abs(evy) + SPIN_WEIGHT * radius * abs(spin)
+            off = abs(ex) + abs(ey) + abs(evx) + abs(evy) + _SPIN_WEIGHT * radius * abs(spin)
         else:
             off = size(error, radius)
         most = self.local_error
@@ -109,7 +109,7 @@ def size(error: State, radius: float) -> float:
     """Local error in m: that of the position, plus that of the velocity over a second; of a body's turning and a ball's
     rolling, too."""
     ex, ey, evx, evy, spin = error[:5]
-    off = abs(ex) + abs(ey) + abs(evx) + abs(evy) + SPIN_WEIGHT * radius * abs(spin)
+    off = abs(ex) + abs(ey) + abs(evx) + abs(evy) + _SPIN_WEIGHT * radius * abs(spin)
     if len(error) == 5:
         return off
     return off + radius * sum(map(abs, error[4:6] if len(error) == 6 else error[5:]))

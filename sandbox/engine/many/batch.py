@@ -32,7 +32,7 @@ from sandbox.engine.model.tolerances import CLOSING, NEGLIGIBLE_OVERLAP
 from sandbox.engine.paths.arc import hermite_arc
 
 #: Fields of a setup that are combined for flights together; their ``until`` is called for each.
-FLIGHT = ("balls", "surfaces", "force_regions", "bounds", "duration", "discontinuities")
+_FLIGHT = ("balls", "surfaces", "force_regions", "bounds", "duration", "discontinuities")
 
 #: Pieces of path in a batch, 300 bytes each, beyond which its shots continue one at a time, where the number of steps
 #: is limited.
@@ -62,7 +62,7 @@ def _stack(setups: Sequence[Setup]) -> Stack | None:
     if len(setups) < FEWEST or not all(setup.is_single_ball for setup in setups):
         return None
     try:
-        return Stack.of(setups, (*FLIGHT, "until") if isinstance(setups[0].until, Until) else FLIGHT)
+        return Stack.of(setups, (*_FLIGHT, "until") if isinstance(setups[0].until, Until) else _FLIGHT)
     except Exception:  # NotStackable, or what a class of the scene raises when it is compared
         return None
 

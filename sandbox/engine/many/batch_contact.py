@@ -70,9 +70,9 @@ class BatchContacts:
         """Find the shots that slide or roll now, and place them exactly on their surfaces."""
         flying = self._flying
         phases = set(flying.phase[flying.surface >= 0].tolist())
-        self._held = [self._placed(flying.phase == phase, phase) for phase in Phase if phase in phases]
+        self._held = [self._held_in(flying.phase == phase, phase) for phase in Phase if phase in phases]
 
-    def _placed(self, mask: np.ndarray, phase: Phase) -> _Held:
+    def _held_in(self, mask: np.ndarray, phase: Phase) -> _Held:
         """The shots of this mask, projected onto their surfaces in this phase of motion."""
         flying = self._flying
         lanes = mask.nonzero()[0]
@@ -123,7 +123,7 @@ class BatchContacts:
             for held in self._held:
                 some = flying.motion_ended & (flying.phase == held.contact.phase)
                 if some.any():
-                    self._placed(some, BECOMES[held.contact.phase])
+                    self._held_in(some, BECOMES[held.contact.phase])
 
     # ------------------------------------------------------------------ where contact begins or changes
 

@@ -18,7 +18,7 @@ from sandbox.engine.model.tolerances import GAP_ROUNDING, SKIN, TOUCHING_GAP
 from sandbox.engine.paths.arc import Arc
 
 
-class SurfaceProperties(NamedTuple):
+class _SurfaceProperties(NamedTuple):
     """Properties of many surfaces, with arrays for numbers."""
 
     restitution: Any
@@ -28,7 +28,7 @@ class SurfaceProperties(NamedTuple):
     kick: Any  # N s
 
 
-class Obstacles(Obstacle):
+class _Obstacles(Obstacle):
     """Many surfaces as one: that of each of some shots, with arrays for numbers."""
 
     def __init__(self, surface: Any, outline: Outline) -> None:
@@ -48,7 +48,7 @@ class BatchSurfaces:
         radii = np.broadcast_to(setups.whole.balls[0].radius, len(setups))
         surfaces = setups.whole.surfaces
         outlines = [Outline.of(surface.shape, radii) for surface in surfaces]
-        properties = [[getattr(surface, name) for name in SurfaceProperties._fields] for surface in surfaces]
+        properties = [[getattr(surface, name) for name in _SurfaceProperties._fields] for surface in surfaces]
         # of shape (parts of an outline or its properties, surfaces, shots)
         self._table, self._properties = (
             np.array([[np.broadcast_to(part, radii.shape) for part in row] for row in rows]).transpose(1, 0, 2)
@@ -57,10 +57,10 @@ class BatchSurfaces:
         self._boxes = np.array(Outline(*self._table).box())
         self._obstacles: dict[tuple[int, int], Obstacle] = {}
 
-    def of(self, surfaces: np.ndarray, shots: np.ndarray) -> Obstacles:
+    def of(self, surfaces: np.ndarray, shots: np.ndarray) -> _Obstacles:
         """The surface with the given index, of each of these shots."""
-        return Obstacles(
-            SurfaceProperties(*self._properties[:, surfaces, shots]), Outline(*self._table[:, surfaces, shots])
+        return _Obstacles(
+            _SurfaceProperties(*self._properties[:, surfaces, shots]), Outline(*self._table[:, surfaces, shots])
         )
 
     def near(

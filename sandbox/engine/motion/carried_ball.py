@@ -3,7 +3,7 @@
 As seen from a surface that does not turn, a ball in contact moves as on one that stands still, under the applied forces
 and the inertial force ``-m A`` of the surface's acceleration A. So it slides, rolls and rests there as exactly as
 elsewhere, and its path is the sum of two polynomials. While a surface stands it is like any other. On one that turns a
-ball that would stay on it goes along in hops of ``HOP``.
+ball that would stay on it goes along in hops of ``_HOP``.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from sandbox.engine.paths.phase import Phase
 from sandbox.physics.integrators import Acceleration, State
 
 #: Height in m of the hops in which a ball goes along with what turns: higher is less true, lower takes longer.
-HOP = 1e-6
+_HOP = 1e-6
 
 #: Points of an arc at rest on what moves at which it is tested that it stays so.
 _TESTS = 16
@@ -157,7 +157,7 @@ class CarriedBall(MovingBall):
                 0.0,
             )
             by = press(seen, inertial, touch.nx, touch.ny, touch.curvature)
-            short = takeoff_speed(by, max(height, HOP)) - self._leaving((obstacle, touch), self.state)
+            short = takeoff_speed(by, max(height, _HOP)) - self._leaving((obstacle, touch), self.state)
             if by > PUSH and short >= 0.0:
                 self.state = (u, v, ux + short * touch.nx, uy + short * touch.ny, *spins)
 

@@ -16,7 +16,7 @@ from sandbox.physics.forces import Drag, Gravity, Magnus, SpinDecay, Wind, in_wi
 from sandbox.physics.integrators import Acceleration, AccelerationFunction, State
 
 #: Everyday names of causes.
-CALLED = {"magnus": "lift", "bullet drag": "drag"}
+_CALLED = {"magnus": "lift", "bullet drag": "drag"}
 
 
 class Turned(tuple[Any, Any]):
@@ -171,7 +171,7 @@ def by_cause(terms: Sequence[Any], t: float, state: State) -> Iterator[tuple[str
 def cause(term: object) -> str:
     """Display name of a force or torque: ``SpinDecay`` is "spin decay"; a function keeps its own name."""
     words = "".join(f" {c.lower()}" if c.isupper() else c for c in _name(term)).replace("_", " ").strip()
-    return CALLED.get(words, words)
+    return _CALLED.get(words, words)
 
 
 def wrong_term(ball: Ball, t: float, state: State) -> str | None:

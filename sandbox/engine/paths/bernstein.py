@@ -40,13 +40,13 @@ def _horner(b: Sequence[float], r: float) -> float:
         case 4:
             return ((b[0] * r + 3.0 * b[1]) * r + 3.0 * b[2]) * r + b[3]
     value = 0.0
-    for binomial, coefficient in zip(binomials(len(b) - 1), b, strict=False):
+    for binomial, coefficient in zip(_binomials(len(b) - 1), b, strict=False):
         value = value * r + binomial * coefficient
     return value
 
 
 @cache
-def binomials(n: int) -> Sequence[float]:
+def _binomials(n: int) -> Sequence[float]:
     """Return C(n, k) for k from 0 to n."""
     return [float(comb(n, k)) for k in range(n + 1)]
 

@@ -42,7 +42,7 @@ class Numerics:
 
 
 #: What is done about a time before the start or after the end of a run: an error, or NaN in place of numbers.
-Outside = Literal["error", "nan"]
+_Outside = Literal["error", "nan"]
 
 #: A time may be so much of the duration outside a run, which is rounding: 3 * 0.1 is more than 0.3.
 ROUNDING_OF_TIME = 1e-12
@@ -75,7 +75,7 @@ def meeting_time(events: Sequence[Event], partner: str | None, ball: str = "") -
     return next(meets, inf)
 
 
-class Resumable(Protocol):
+class _Resumable(Protocol):
     """The record of how a run came about, from which it can be computed again from any time on."""
 
     def fork(self, t: float, changes: Mapping[str, Any]) -> Run:
@@ -109,12 +109,12 @@ class Run(Drawable):
     #: The setups of a run that was changed on its way, each with the time in s from which it was valid; ``setup`` is
     #: the last.
     eras: Sequence[tuple[float, Setup]] = field(default=(), kw_only=True)
-    record: Resumable | None = field(default=None, kw_only=True, compare=False, repr=False)
+    record: _Resumable | None = field(default=None, kw_only=True, compare=False, repr=False)
 
     def __repr__(self) -> str:
         return f"<Run: {self.duration:.2f} s, {len(self.events)} events, ended by {self.ended}>"
 
-    def state(self, ball: str, t: float, outside: Outside = "error") -> State:
+    def state(self, ball: str, t: float, outside: _Outside = "error") -> State:
         """Return x, y (m), vx, vy (m/s) and spin (rad/s) of a ball or body at time t in s.
 
         At an impact it is the state just after. A time before the start or after the end of the run raises
@@ -125,7 +125,7 @@ class Run(Drawable):
             return State(nan, nan, nan, nan, nan)
         return State(*path.at(t).state(t)[:5])
 
-    def states(self, ball: str, times: Sequence[float] | np.ndarray, outside: Outside = "error") -> np.ndarray:
+    def states(self, ball: str, times: Sequence[float] | np.ndarray, outside: _Outside = "error") -> np.ndarray:
         """Return the states of a ball at these n times in s, in any order, as an array of shape (n, 5): x, y in m, vx,
         vy in m/s, spin in rad/s. That of a body has shape (n, 6): its angle in rad comes last.
 
@@ -143,7 +143,7 @@ class Run(Drawable):
         rows = [path.at(t).state(t)[:columns] if self._within(path, ball, t, outside) else missing for t in asked]
         return np.array(rows, dtype=float).reshape(-1, columns)
 
-    def _within(self, path: Path, ball: str, t: float, outside: Outside) -> bool:
+    def _within(self, path: Path, ball: str, t: float, outside: _Outside) -> bool:
         """Return True if the run has the time t, apart from rounding. Raises RequestError if not, unless NaN may do."""
         start, rounding = path[0].t0, ROUNDING_OF_TIME * self.duration
         if not isinstance(t, int | float) and getattr(t, "ndim", None) != 0:

@@ -22,7 +22,7 @@ SCAN = 129
 
 #: Points of the scan for a target that is not a number, where runs are computed together, and where one by one. The
 #: result may change between any two points without a sign of it, so their spacing is the width that is guaranteed.
-DENSE, DENSE_ALONE = 2049, 513
+_DENSE, DENSE_ALONE = 2049, 513
 
 #: Refinements of an interval with a jump, the parts of each, and the most runs that these may add: for a number; and
 #: for a target that is none, where runs are computed together and where one by one. Baskets off the rim alternate with
@@ -232,7 +232,7 @@ def dense_scan(shots: Shots) -> list[tuple[float, dict[str, Any] | None]]:
     span = shots.spans[0]
     middle = 0.5 * (span.low + span.high)
     together = fly_together(shots.scene, [span.key], [middle])
-    points, most = (DENSE, _MOST_TOGETHER) if together else (DENSE_ALONE, _MOST_ALONE)
+    points, most = (_DENSE, _MOST_TOGETHER) if together else (DENSE_ALONE, _MOST_ALONE)
     shots.planned = points
     shots.resolved(1.0 / (points - 1))
     places = np.linspace(span.low, span.high, points).tolist()

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 #: Points that are imagined after the last one, at most up to so many times its time; and how much better the worse
 #: known of two values must become.
-IMAGINED, LONGER, BETTER = 12, 2.0, 2.0
+_IMAGINED, LONGER, BETTER = 12, 2.0, 2.0
 
 #: The difference of neighbouring runs, as a share of the half width of an interval.
 STEP = 0.1
@@ -32,8 +32,8 @@ def advice(found: Fit, first: str, second: str) -> str:
     own = next(runs(found.scene, (), [()]))
     if isinstance(own, Exception) or own.duration <= 1.05 * last:
         return ""
-    times = np.linspace(last, min(own.duration, LONGER * last), IMAGINED + 1)[1:]
-    for end in (times[IMAGINED // 3 - 1], times[-1]):
+    times = np.linspace(last, min(own.duration, LONGER * last), _IMAGINED + 1)[1:]
+    for end in (times[_IMAGINED // 3 - 1], times[-1]):
         if _gain(found, (first, second), ball, times[times <= end]) >= BETTER:
             return f"{_named(own, ball, last, float(end))} would help, up to {end:.3g} s"
     return ""

@@ -21,7 +21,7 @@ from sandbox.cli.reports import Outputs, report_options
 from sandbox.files import writing
 
 
-def print_formats(context: click.Context, option: click.Parameter, value: bool) -> None:
+def _print_formats(context: click.Context, option: click.Parameter, value: bool) -> None:
     """Print the known columns of tables and end, in place of a command."""
     if value:
         from sandbox.lab.formats import as_text
@@ -61,7 +61,7 @@ def print_formats(context: click.Context, option: click.Parameter, value: bool) 
     is_flag=True,
     is_eager=True,
     expose_value=False,
-    callback=print_formats,
+    callback=_print_formats,
     help="List known columns of tables, and exit.",
 )
 @click.option(

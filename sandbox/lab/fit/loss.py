@@ -26,16 +26,16 @@ OUTLIER = 4.0
 
 #: From here on, in standard deviations, outliers count less (Huber) or not at all (Tukey); both lose 5 % of accuracy
 #: where errors are normally distributed.
-HUBER, TUKEY = 1.345, 4.685
+_HUBER, TUKEY = 1.345, 4.685
 
 
 def _huber_weight(u: np.ndarray) -> np.ndarray:
-    return HUBER / np.maximum(np.abs(u), HUBER)
+    return _HUBER / np.maximum(np.abs(u), _HUBER)
 
 
 def _huber_cost(u: np.ndarray) -> np.ndarray:
     size = np.abs(u)
-    return np.where(size < HUBER, 0.5 * u * u, HUBER * (size - 0.5 * HUBER))
+    return np.where(size < _HUBER, 0.5 * u * u, _HUBER * (size - 0.5 * _HUBER))
 
 
 def _inside(u: np.ndarray) -> np.ndarray:
@@ -43,7 +43,7 @@ def _inside(u: np.ndarray) -> np.ndarray:
 
 
 SQUARES = Loss("least squares", lambda u: 0.5 * u * u, np.ones_like, np.ones_like)
-HUBERS = Loss("Huber's loss", _huber_cost, _huber_weight, lambda u: (np.abs(u) < HUBER).astype(float))
+HUBERS = Loss("Huber's loss", _huber_cost, _huber_weight, lambda u: (np.abs(u) < _HUBER).astype(float))
 TUKEYS = Loss(
     "Tukey's biweight",
     lambda u: TUKEY**2 / 6.0 * (1.0 - _inside(u) ** 3),

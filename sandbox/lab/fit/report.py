@@ -22,11 +22,11 @@ if TYPE_CHECKING:
     from sandbox.lab.fit.squares import Fit, Value
 
 #: Two values whose errors are correlated more strongly than this can hardly be told apart, and this not at all.
-HARDLY, NOT = 0.95, 0.999
+_HARDLY, _NOT = 0.95, 0.999
 
 #: Differences of Akaike's criterion up to which models are alike, and from which one is ruled out (Burnham & Anderson
 #: 2002, section 2.6).
-AS_GOOD, RULED_OUT = 2.0, 10.0
+_AS_GOOD, _RULED_OUT = 2.0, 10.0
 
 #: Most outliers that are listed, and other minima.
 _MOST, _OTHERS = 12, 3
@@ -42,7 +42,7 @@ def report_of(found: Fit) -> Report:
     """The values with their intervals, points and residuals as charts, and what is to be said of them; as details the
     correlations, and the models that were compared."""
     pairs = [
-        (f"{one} and {other}", value, "hardly told apart" if abs(value) > HARDLY else "")
+        (f"{one} and {other}", value, "hardly told apart" if abs(value) > _HARDLY else "")
         for (one, other), value in found.correlations.items()
     ]
     correlations = [words(), Column("correlation", write="{:.3f}".format), words()]
@@ -119,7 +119,7 @@ def sentences(found: Fit) -> Iterator[str]:
     yield from _of_others(found)
     yield from _of_pairs(found)
     if found.models:
-        yield models_text(found)
+        yield _models_text(found)
     if found.outliers:
         rows = ", ".join(map(str, found.outliers[:_MOST]))
         more = f" and {len(found.outliers) - _MOST} more" if len(found.outliers) > _MOST else ""
@@ -163,8 +163,8 @@ def _of_values(found: Fit) -> Iterator[str]:
 def _of_pairs(found: Fit) -> Iterator[str]:
     for (first, second), value in found.correlations.items():
         known = not (found.values[first].unknown or found.values[second].unknown)
-        if abs(value) > HARDLY and known:
-            can = "cannot" if abs(value) > NOT else "can hardly"
+        if abs(value) > _HARDLY and known:
+            can = "cannot" if abs(value) > _NOT else "can hardly"
             help_ = advice(found, first, second)
             yield (
                 f"{first} and {second} {can} be told apart (correlation {value:.3f})" + (f": {help_}" if help_ else "")
@@ -182,7 +182,7 @@ def _of_others(found: Fit) -> Iterator[str]:
                  for key in apart]  # fmt: skip
         said.append(f"{', '.join(named)} (chi^2 {other.more:.1f} more)")
     more = f"; and {len(found.others) - _OTHERS} more" if len(found.others) > _OTHERS else ""
-    well = "as well" if found.others[0].more < AS_GOOD else "nearly as well"
+    well = "as well" if found.others[0].more < _AS_GOOD else "nearly as well"
     listed, what = "; ".join(said) + more, found.measured.what
     yield (
         f"other values explain these {what}s {well}: {listed}. The intervals are for those above only; narrower ranges "
@@ -190,10 +190,14 @@ def _of_others(found: Fit) -> Iterator[str]:
     )
 
 
-def models_text(found: Fit) -> str:
+def _models_text(found: Fit) -> str:
     """Say in a sentence which model fits best."""
     (best, _), *others = found.models.items()
-    limits = {("fits", "fit", "as well"): AS_GOOD, ("fits", "fit", "worse"): RULED_OUT, ("is", "are", "ruled out"): inf}
+    limits = {
+        ("fits", "fit", "as well"): _AS_GOOD,
+        ("fits", "fit", "worse"): _RULED_OUT,
+        ("is", "are", "ruled out"): inf,
+    }
     said, beyond = [f"{found.models_of}: {best} fits best"], -inf
     for (one, several, rest), limit in limits.items():
         some = [f"{name} (AICc {each.behind:.1f} more)" for name, each in others if beyond <= each.behind < limit]

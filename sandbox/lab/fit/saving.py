@@ -12,7 +12,7 @@ from sandbox.lab.fit.squares import Fit
 from sandbox.scene.writing import scene_text
 
 
-def points_file(path: Path) -> Path:
+def _points_file(path: Path) -> Path:
     """The file with the points of a scene file."""
     return path.with_suffix(".csv")
 
@@ -24,7 +24,7 @@ def check_saving(option: str, path: Path, has_points: bool) -> None:
     check_installed(option, "tomlkit")
     if not has_points:
         return
-    points = points_file(path)
+    points = _points_file(path)
     if points.exists() and _points_named(path) != points.resolve():
         raise RequestError(f"{option} {path}: its points would be written over {points}; choose another name")
     check_replaced(option, points)
@@ -42,12 +42,12 @@ def save(found: Fit, path: Path) -> list[Path]:
     """Write the scene file, and the points in the scene's coordinates next to it: both or none; what they replace is
     kept with ``~``. Returns their paths."""
     points = found.measured.points(found.scene, found.free)
-    track = points_file(path).name if points is not None else ""
+    track = _points_file(path).name if points is not None else ""
     about = [f"Fitted: {title(found)}; residuals {residual_text(found)}."]
     about += [f"{key}: {low_to_high} {unit} (95 %)".replace("  ", " ")
               for key, _, unit, low_to_high, _ in value_rows(found)]  # fmt: skip
     files = {path: scene_text(found.scene, path.parent, "\n".join(about), track).encode()}
     if points is not None:
-        files[points_file(path)] = points.as_csv().encode()
+        files[_points_file(path)] = points.as_csv().encode()
     write_together(files, kept=True)
     return list(files)

@@ -28,18 +28,18 @@ from sandbox.text import with_noun
 
 #: Rounds in which values and standard deviations of the groups are found one from the other; and in which a minimum is
 #: looked for whose chi^2 is at least so much less.
-ROUNDS, ROUNDS_OF_RIVALS, BETTER = 3, 6, 0.2
+ROUNDS, _ROUNDS_OF_RIVALS, BETTER = 3, 6, 0.2
 
 #: Steps for the last slopes, in standard errors of the values as they seem before: the first, which at most may be this
 #: share of a range; and how often they are made smaller.
-FIRST_STEP, WIDEST_STEP, SHRINKING = 300.0, 0.02, 6
+FIRST_STEP, _WIDEST_STEP, _SHRINKING = 300.0, 0.02, 6
 
 #: A standard deviation that is smaller than this, in its unit, is rounding; and so are residuals that are a smaller
 #: share than this of what the ranges change.
-ROUNDING, ROUNDING_SHARE = 1e-12, 1e-8
+ROUNDING, _ROUNDING_SHARE = 1e-12, 1e-8
 
 #: A share of its range within which a value is at its end.
-AT_END = 1e-6
+_AT_END = 1e-6
 
 #: A fit whose residuals have a pattern, and on average this share of the extent of the data, explains nothing.
 NOTHING = 0.15
@@ -153,7 +153,7 @@ def solve(scene: Scene, measured: Measured, spans: Sequence[Span], robust: bool 
     if not ended:
         raise RunError(f"no run of {scene.title} in these ranges could be completed")
     place, known = ended[0], ended[1:]
-    for left in reversed(range(ROUNDS_OF_RIVALS)):
+    for left in reversed(range(_ROUNDS_OF_RIVALS)):
         place, sds, loss = _refined(problem, place, robust)
         place = Place(place.share, place.residuals, _slopes(problem, place, sds), place.cost)
         if near:
@@ -170,13 +170,13 @@ def _slopes(problem: Problem, place: Place, sds: np.ndarray) -> np.ndarray:
     """Slopes by differences that change the residuals as much as errors do: within these a path may bend, as where it
     grazes the rim, and a slope at one place says too little. From larger ones down to those that are as large."""
     effect = np.sqrt(((place.slopes / sds[:, None]) ** 2).sum(axis=0))
-    steps = np.clip(FIRST_STEP / np.maximum(effect, 1e-300), 1e-8, WIDEST_STEP)
-    for _ in range(SHRINKING):
+    steps = np.clip(FIRST_STEP / np.maximum(effect, 1e-300), 1e-8, _WIDEST_STEP)
+    for _ in range(_SHRINKING):
         slopes = problem.slopes(place.share, steps, 1.0 / sds)
         wanted = 1.0 / np.maximum(np.sqrt(((slopes / sds[:, None]) ** 2).sum(axis=0)), 1e-300)
         if (steps <= 3.0 * wanted).all():
             break
-        steps = np.clip(np.minimum(steps, np.maximum(wanted, 0.1 * steps)), 1e-8, WIDEST_STEP)
+        steps = np.clip(np.minimum(steps, np.maximum(wanted, 0.1 * steps)), 1e-8, _WIDEST_STEP)
     return slopes
 
 
@@ -242,7 +242,7 @@ def _finished(
 def _pattern(problem: Problem, residuals: np.ndarray, slopes: np.ndarray) -> float:
     """The factor by which residuals are larger than those of neighbours differ; 0.0 if they are not, are too few, or
     are rounding."""
-    if np.sqrt((residuals**2).mean()) < ROUNDING_SHARE * np.abs(slopes).max():
+    if np.sqrt((residuals**2).mean()) < _ROUNDING_SHARE * np.abs(slopes).max():
         return 0.0
     ratio = neumann(problem.measured.groups, residuals)
     return 0.0 if ratio == 0.0 or ratio >= ALIKE else float(np.sqrt(2.0 / ratio))
@@ -265,7 +265,7 @@ def _values(problem: Problem, share: np.ndarray, errors: Errors) -> dict[str, Va
     columns: Any = zip(problem.keys, problem.units, share, errors.half_widths, problem.low, problem.width, strict=True)
     for key, unit, at, half, low, width in columns:
         value, error = float(low + at * width), float(half * width)
-        if AT_END < at < 1.0 - AT_END:
+        if _AT_END < at < 1.0 - _AT_END:
             ends = max(float(low), value - error), min(float(low + width), value + error)
             found[key] = Value(value, *ends, unit, unknown=bool(half >= 1.0))
         else:
