@@ -1,3 +1,3 @@
-"""What measuring adds."""
+"""Commands that measuring adds."""
 
 PARTS = {"charts": "sandbox.lab.chart"}

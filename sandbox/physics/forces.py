@@ -90,7 +90,7 @@ class Gravity(OfBall):
         return 0.0, (self._loss.lost(t) - self._mass) * self.gravity
 
 
-class AirRow(NamedTuple):
+class _AirRow(NamedTuple):
     """The numbers of a drag or lift, and its coefficient."""
 
     half_density_area: Any  # kg/m
@@ -110,7 +110,7 @@ class _InAir(OfBall):
     area: float | None = None  # m^2; default: the sphere's cross-section
     viscosity: float = VISCOSITY  # Pa s
     PARTS: ClassVar[Parts] = IN_WIND
-    _row: AirRow = _computed()
+    _row: _AirRow = _computed()
 
     def __post_init__(self) -> None:
         check(type(self).__name__, self, not_negative=["density"], positive=["viscosity"])
@@ -122,12 +122,12 @@ class _InAir(OfBall):
     def _measure(self, radius: float) -> None:
         area = pi * radius * radius if self.area is None else self.area
         law = self.coefficient if callable(self.coefficient) else Constant(self.coefficient)
-        row = AirRow(0.5 * self.density * area, law, self.density * 2.0 * radius / self.viscosity, radius)
+        row = _AirRow(0.5 * self.density * area, law, self.density * 2.0 * radius / self.viscosity, radius)
         object.__setattr__(self, "_row", row)
 
     @property
-    def row(self) -> AirRow:
-        """What ``through_air`` takes."""
+    def row(self) -> _AirRow:
+        """The arguments of ``through_air``."""
         return self._row
 
     def on(self, ball: Any) -> Any:
@@ -270,7 +270,7 @@ class SpinDecay(OfBall):
 
     @property
     def row(self) -> float:
-        """What ``through_air`` takes, in kg m."""
+        """The arguments of ``through_air``, in kg m."""
         return self._k
 
     def __post_init__(self) -> None:
@@ -295,8 +295,8 @@ class SpinDecay(OfBall):
 
 
 def through_air(
-    drag: AirRow | None,
-    lift: AirRow | None,
+    drag: _AirRow | None,
+    lift: _AirRow | None,
     decay: Any,
     ux: Any,
     uy: Any,

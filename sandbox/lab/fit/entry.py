@@ -1,3 +1,3 @@
-"""What fits add."""
+"""Commands that fits add."""
 
 COMMANDS = {"fit": "sandbox.lab.fit.command"}

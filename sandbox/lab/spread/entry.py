@@ -1,3 +1,3 @@
-"""What scatter adds."""
+"""Commands that scatter adds."""
 
 COMMANDS = {"spread": "sandbox.lab.spread.command"}
