@@ -55,7 +55,7 @@ def page_of(plan: Plan, found: ChartData, of: str | None = None, family: str | N
     data = {
         "x": at[:, 0],
         "y": 1.0 - at[:, 1],
-        "along": len(shown) == 1,
+        "along": len(plan.axes) == 1,
         "chosen": _chosen(plan, shown, places),
         "texts": _texts(plan, done, swept),
         "starts": [0, *accumulate(map(len, lines))],
