@@ -230,7 +230,7 @@ def test_a_body_goes_on_turning_when_pushed():
 def test_a_change_in_a_contact_of_several_comes_after_it():
     run = sandbox.simulate("billiards/nine-ball-break")
     name, arc = next((name, arc) for name in run.arcs for arc in run.arcs[name] if isinstance(arc.contact, InCluster))
-    start, end = arc.contact
+    start, end = arc.contact_span
     still = run.fork(0.5 * (start + end), velocity={name: (0.0, 0.0)})
     assert still.before(name, end)[2:4] == pytest.approx(run.before(name, end)[2:4], abs=1e-12)
     assert still.state(name, end)[2:4] == (0.0, 0.0)
