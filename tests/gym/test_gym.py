@@ -94,6 +94,7 @@ def test_an_attempt_of_several_shots_has_several_steps(diagonal: TaskEnv):
     action = diagonal.course.action_of({"cue.angle": direction(observation[:2], observation[3:5])})
     observation, reward, terminated, _, info = diagonal.step(action)
     assert (reward, terminated, info["potted"], observation[5], observation[8]) == (1.0, False, ["1"], 0.0, 1.0)
+    assert observation[3:5].tolist() == [0.0, 0.0]  # where the potted ball was
     assert observation in diagonal.observation_space
     aim = {"cue.angle": direction(observation[:2], observation[6:8]), "cue.speed": 1.2, "cue.follow": -0.1}
     _, reward, terminated, _, info = diagonal.step(diagonal.course.action_of(aim))
