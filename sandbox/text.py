@@ -11,7 +11,7 @@ from sandbox.errors import RequestError
 
 #: Characters that a terminal interprets instead of showing: control characters (C0 except tab and newline, DEL, C1),
 #: and those that change the writing direction or break lines.
-_CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ufeff]|[\ud800-\udfff]")
+_CONTROL = "[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ufeff]|[\ud800-\udfff]"
 
 #: Halves of a character of UTF-16.
 _SURROGATE = "[\ud800-\udfff]"
@@ -28,7 +28,7 @@ _FORMULA = ("=", "+", "-", "@")
 
 def printable(text: str) -> str:
     r"""The text with control characters written out as ``\u001b``, as in JSON; newlines and tabs stay."""
-    return _CONTROL.sub(lambda match: f"\\u{ord(match[0]):04x}", text)
+    return re.sub(_CONTROL, lambda match: f"\\u{ord(match[0]):04x}", text)
 
 
 def encodable(text: str) -> str:
