@@ -56,6 +56,7 @@ from sandbox.kit import (
     one_of,
     quantity,
     roughly,
+    where,
 )
 from sandbox.physics.club import Head, book_strike, strike
 from sandbox.sport.flight import SlowedSphere
@@ -217,7 +218,7 @@ def flew(run: Run, parameters: Parameters) -> bool:
 def apex(run: Run, parameters: Parameters) -> float:
     """Greatest height in m above the launch: of the flight, or of the whole run if the flight does not end."""
     landed = landing(run, parameters)
-    until = landed.t if landed is not None and landed.t > 0.0 else inf
+    until = inf if landed is None else where(landed.t > 0.0, landed.t, inf)
     return run.highest("ball", until)[1][1] - run.setup.balls[0].position[1]
 
 

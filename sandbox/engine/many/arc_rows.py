@@ -59,21 +59,22 @@ class Paths:
         """The number of arcs of each path."""
         return np.diff(self._bounds)
 
-    @cached_property
-    def summits(self) -> tuple[np.ndarray, np.ndarray]:
-        """The time in s and the state where each path is highest, shapes (paths,) and (paths, 5); NaN without arcs. It
-        is the start, the end of an arc, or where it turns downwards."""
-        numbers = np.flatnonzero(self.lengths)  # of the paths that have arcs
-        first, y = np.array(self._bounds)[numbers], self.rows[:, END.start + 1]
+    def summits(self, until: Any = inf) -> tuple[np.ndarray, np.ndarray]:
+        """The time in s and the state where each path is highest, up to a time of its own or of all, shapes (paths,)
+        and (paths, 5); NaN without arcs. It is the start, the end of an arc, or where it turns downwards."""
+        limits, numbers = np.broadcast_to(until, len(self.lengths)), np.flatnonzero(self.lengths)  # that have arcs
+        first, ends = np.array(self._bounds)[numbers], self.rows[:, T1] <= np.repeat(limits, self.lengths)
+        y = np.where(ends, self.rows[:, END.start + 1], -inf)
         highest = np.flatnonzero(y == np.repeat(np.maximum.reduceat(y, first), self.lengths[numbers]))
         top = highest[np.searchsorted(highest, first)]  # the first of equal ones
         turning, t, states = self.passing(0, len(self.rows), climb)
         of = np.concatenate((numbers, numbers, turning))
         t = np.concatenate((self.rows[first, T0], self.rows[top, T1], t))
         states = np.concatenate((self.rows[first, START], self.rows[top, END], states))
+        of, t, states = (each[t <= limits[of]] for each in (of, t, states))
         order = np.lexsort((-states[:, 1], of))  # stable: the first of equal ones
         best = order[np.unique(of[order], return_index=True)[1]]
-        return self.spread(numbers, t[best], states[best])
+        return self.spread(of[best], t[best], states[best])
 
     def spread(self, numbers: np.ndarray, t: np.ndarray, states: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Times in s and states of the paths with these numbers as those of all, with NaN for the others."""
@@ -83,7 +84,7 @@ class Paths:
 
     @cached_property
     def _summits(self) -> list[Passage]:
-        return _listed(*self.summits)
+        return _listed(*self.summits())
 
     def summit(self, number: int) -> Passage:
         """Time in s and state where a path is highest."""

@@ -108,9 +108,9 @@ class AllRuns:
         self.missing: list[np.ndarray] = []  # masks, shape (shots,)
         self._flown = flown
 
-    def highest(self, ball: str) -> tuple[np.ndarray, State]:
+    def highest(self, ball: str, until: Any = inf) -> tuple[np.ndarray, State]:
         """As ``Run.highest``."""
-        return self._found(ball, *self._paths.summits)
+        return self._found(ball, *self._paths.summits(until))
 
     def first_crossing(self, ball: str, point: Vector, normal: Vector, before: Any = inf) -> tuple[np.ndarray, State]:
         """As ``Run.first_crossing``; line and time may be others for each run."""
