@@ -58,10 +58,10 @@ class Flown(Sequence[Any]):
         return len(self.setups)
 
     def __getitem__(self, shot: Any) -> Any:
-        return self._alone.get(shot) or _FlownRun(self, shot)
+        return self._alone.get(shot) or FlownRun(self, shot)
 
 
-class _FlownRun(Run):
+class FlownRun(Run):
     """The run of one of many shots: what is asked of it is read from their rows then."""
 
     def __init__(self, flown: Flown, shot: int) -> None:
