@@ -29,8 +29,10 @@ from sandbox.text import printable
     "--within",
     metavar="NAME=WIDTH",
     multiple=True,
-    help='With --map: how far off a result may be, as carry="5 yd" or carry=2%; repeatable.',
+    help='How far off a result of a launch may be, as carry="5 yd" or carry=2%; repeatable.',
 )
+@click.option("--by", metavar="COLUMN", help="Compare by the words of a column too, or by bins of its numbers.")
+@click.option("--all", "everything", is_flag=True, help="List the launches one by one.")
 @changes_options
 @strict_option
 @click.option("--teeth", is_flag=True, help="Switch off, or change by 20 %, what each row tests: does it fall?")
@@ -41,6 +43,8 @@ def validate(
     mapping: tuple[str, ...],
     where: tuple[str, ...],
     within: tuple[str, ...],
+    by: str | None,
+    everything: bool,
     changes: dict[str, Any],
     strict: bool,
     teeth: bool,
@@ -52,13 +56,15 @@ def validate(
     held-out rows are counted. The exit code is 0 however many hold: a number that the models miss is a finding.
 
     A table of your own has the columns result, value and tolerance, and as you like scene, case, set, unit, source,
-    kind and the others of the published tables; or one launch in each row, with its columns named by --map.
+    kind and the others of the published tables; or one launch in each row, with its columns known or
+    named by --map. Launches without --within are compared without tolerances: the bias of each result, and its scatter.
 
     \b
     Examples:
       sandbox validate
       sandbox validate golf --teeth
       sandbox validate golf --set ball.drag.model=usga --set ball.lift.model=usga
+      sandbox validate golf --against shots.csv --by Club
       sandbox validate golf --against shots.csv --within carry=3% --within apex="3 yd"
     """
     from sandbox.lab import teeth as of_rows
@@ -68,18 +74,33 @@ def validate(
     own = None
     notes: tuple[str, ...] = ()
     if against is not None:
-        from sandbox.lab.against import cases_against
+        from sandbox.lab import misfit
+        from sandbox.lab.against import Shots, cases_of_shots, read_against
         from sandbox.lab.formats import parse_entry
 
         if teeth:
             raise RequestError("--teeth: says what the published numbers test; it cannot be combined with --against")
         entries = [parse_entry(text) for text in mapping]
-        given = cases_against(against, scene, entries, pairs("--where", where), pairs("--within", within), strict)
-        own, notes = given.cases, tuple(filter(None, (given.left_out, *given.notes)))
-        if outputs.as_json and given.left_out:  # JSON is a list of the rows that are used
-            click.echo(printable(given.left_out), err=True)
-    elif mapping or where or within or strict:
-        raise RequestError("--map, --where, --within and --strict require --against F.csv")
+        given = read_against(against, scene, entries, pairs("--where", where), strict)
+        tolerances = pairs("--within", within)
+        if isinstance(given, Shots) and not tolerances:
+            with bar("validate") as progress:
+                found = misfit.misfit(given, changes, by, strict, progress)
+            outputs.write(misfit.report_of(found), everything)
+            return
+        if by is not None or everything:
+            raise RequestError("--by and --all are for a table of launches without --within")
+        if isinstance(given, Shots):
+            own, left_out, notes = cases_of_shots(given, tolerances)
+            notes = tuple(filter(None, (left_out, *notes)))
+            if outputs.as_json and left_out:  # JSON is a list of the rows that are used
+                click.echo(printable(left_out), err=True)
+        elif tolerances:
+            raise RequestError(f"--within: the table has its own tolerances: {against}")
+        else:
+            own = given
+    elif mapping or where or within or strict or by is not None or everything:
+        raise RequestError("--map, --where, --within, --by, --all and --strict require --against F.csv")
     with bar("validate") as progress:
         rows = lab.validate(scene, changes, progress, own)
     if teeth:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
@@ -10,7 +11,7 @@ from sandbox import units
 from sandbox.errors import RequestError
 from sandbox.files import from_here
 from sandbox.lab.formats import Entry, recognized, stated
-from sandbox.lab.mapped import Quantity, mapped
+from sandbox.lab.mapped import Mapped, Quantity, mapped
 from sandbox.lab.published import KINDS, Case, assignments, cases_by_form, form_of, tables_of, with_preset
 from sandbox.lab.selection import used
 from sandbox.lab.table_file import Table, read_table
@@ -32,26 +33,34 @@ class Given(NamedTuple):
     notes: tuple[str, ...] = ()
 
 
-def cases_against(
-    path: Path,
-    source: str | None,
-    entries: Sequence[Entry],
-    where: Mapping[str, str],
-    within: Mapping[str, str],
-    strict: bool = False,
-) -> Given:
-    """The numbers of a user's table, and sentences on how it was read. Raises RequestError.
+@dataclass(frozen=True)
+class Shots:
+    """The launches of a table and what was measured of each."""
+
+    scene: Scene
+    path: Path
+    table: Table
+    found: Mapped
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Sentences on how the table was read."""
+        unused = f"columns that are not used: {', '.join(self.found.unused)}" if self.found.unused else ""
+        return tuple(filter(None, (*self.found.notes, unused)))
+
+
+def read_against(
+    path: Path, source: str | None, entries: Sequence[Entry], where: Mapping[str, str], strict: bool = False
+) -> list[Case] | Shots:
+    """The numbers of a user's table. Raises RequestError.
 
     Without ``entries`` it has the columns of the published tables; ``source`` is the scene of rows that name none, or
     of which only those of this scene are wanted. With them, or with columns that are known, each row is a launch and
-    its results, and ``within`` has the tolerance of each: a number with a unit, or a percentage. A row with a fault is
-    left out; with ``strict`` it is refused.
+    its results. A row with a fault is left out; with ``strict`` it is refused.
     """
     table = read_table("--against", path)
     if not entries and all(name in table.names for name in _NEEDED):
-        if within:
-            raise RequestError(f"--within: the table has its own tolerances: {path}")
-        return Given(_published(table, path, source))
+        return _published(table, path, source)
     if source is None:
         raise RequestError(f"--against {path}: name the scene that its launches are for")
     scene = load(source)
@@ -59,19 +68,23 @@ def cases_against(
     if form is None:
         missing = next(name for name in _NEEDED if name not in table.names)
         raise RequestError(f"{table.where}: has no column {missing}, and no known ones; name them by --map")
-    found = mapped(scene, table, form, where, strict)
+    return Shots(scene, path, table, mapped(scene, table, form, where, strict))
+
+
+def cases_of_shots(shots: Shots, within: Mapping[str, str]) -> Given:
+    """Each measured result with its tolerance from ``within``: a number with a unit, or a percentage. Raises
+    RequestError."""
+    found = shots.found
     unknown = next((name for name in within if name not in found.measured), None)
     if unknown is not None:
         raise RequestError(f"--within {unknown}: is no result of the table, which has {', '.join(found.measured)}")
     settings = [_settings(found.given, place) for place in range(len(found.rows))]
     cases = [
-        _case(scene, path, row, settings[place], name, one, place, within)
+        _case(shots.scene, shots.path, row, settings[place], name, one, place, within)
         for place, row in enumerate(found.rows)
         for name, one in found.measured.items()
     ]
-    left_out = used(len(found.rows) + len(found.left_out), found.left_out)
-    unused = f"columns that are not used: {', '.join(found.unused)}" if found.unused else ""
-    return Given(cases, left_out, tuple(filter(None, (*found.notes, unused))))
+    return Given(cases, used(len(found.rows) + len(found.left_out), found.left_out), shots.notes)
 
 
 def own_cases(scene: str, folder: Path) -> list[Case]:

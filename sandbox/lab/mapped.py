@@ -13,8 +13,9 @@ from sandbox.errors import RequestError
 from sandbox.lab.axes import checked
 from sandbox.lab.formats import Entry, Form, declared_units
 from sandbox.lab.selection import LeftOut, Selection
-from sandbox.lab.table_file import Column, Table
+from sandbox.lab.table_file import Column, Table, split_unit
 from sandbox.scene import Scene
+from sandbox.text import nearest, shortened
 
 #: By how much a drive comes out too long that is computed in one plane with the backspin alone, in % of its carry, by
 #: the tilt of its spin axis in deg: the error grows with the square. A test integrates the path in space.
@@ -47,7 +48,7 @@ class Quantity:
 
 
 @dataclass(frozen=True)
-class _Mapped:
+class Mapped:
     """The quantities of each row of a table."""
 
     given: Mapping[str, Quantity]  # by parameter
@@ -56,9 +57,10 @@ class _Mapped:
     notes: tuple[str, ...]  # on how it was read, and which columns are not used
     left_out: tuple[LeftOut, ...]
     unused: tuple[str, ...]  # the names of columns that are not used
+    columns: Mapping[str, str]  # the column of each parameter and fact
 
 
-def mapped(scene: Scene, table: Table, form: Form, where: Mapping[str, str], strict: bool = False) -> _Mapped:
+def mapped(scene: Scene, table: Table, form: Form, where: Mapping[str, str], strict: bool = False) -> Mapped:
     """The columns of a form in those rows that have them all, within the bounds of the scene's parameters. Raises
     RequestError; with ``strict`` also for a row with a fault."""
     selection = _rows(table, form, where, strict)
@@ -82,7 +84,8 @@ def mapped(scene: Scene, table: Table, form: Form, where: Mapping[str, str], str
     taken |= {rule.column.lower() for rule in form.leave_out} | {name.lower() for name in where}
     unused = table.others(taken)
     rows = tuple(row + 1 for row in selection.rows)
-    return _Mapped(given, measured, rows, tuple(notes), selection.left_out, unused)
+    columns = {one.key: one.column for one in form.entries}
+    return Mapped(given, measured, rows, tuple(notes), selection.left_out, unused, columns)
 
 
 def _check_bounds(
@@ -107,6 +110,17 @@ def _check_bounds(
                 selection.leave_out(row, f"{written} is out of range ({str(error).strip()})")
                 break
     selection.check_some()
+
+
+def column_of(table: Table, columns: Mapping[str, str], name: str, option: str) -> Column:
+    """The column of this name, or that stands for the parameter or result of this name. Raises RequestError."""
+    wanted = [name, split_unit(name)[0], columns.get(name, "")]
+    found = next((column for each in wanted if (column := _column(table, each)) is not None), None)
+    if found is None:
+        near = nearest(name, [*table.names, *columns])
+        has = f"did you mean {near}?" if near else f"it has {shortened(', '.join(table.names), 200)}"
+        raise RequestError(f"{table.where}: has no column {name!r}, which {option} names; {has}")
+    return found
 
 
 def _column(table: Table, name: str) -> Column | None:

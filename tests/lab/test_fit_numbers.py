@@ -9,10 +9,11 @@ from scipy.stats import t as student_t
 
 import sandbox
 from sandbox.lab.axes import Span
-from sandbox.lab.fit.intervals import errors_of, group_sds, pooled, student
+from sandbox.lab.fit.intervals import errors_of, group_sds, pooled
 from sandbox.lab.fit.loss import HUBERS, SQUARES, TUKEYS, Loss
 from sandbox.lab.fit.problem import Problem
 from sandbox.lab.fit.search import neumann
+from sandbox.lab.statistics import student
 
 
 @pytest.mark.parametrize("freedom", [1, 2, 3, 4, 7, 20, 77, 1000])

@@ -10,14 +10,18 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from scipy.stats import t as student_t
 
 import sandbox
 from sandbox.errors import RequestError
+from sandbox.lab.against import Shots, read_against
 from sandbox.lab.axes import Span
 from sandbox.lab.fit.data import Reading, read_data
 from sandbox.lab.fit.problem import Problem
 from sandbox.lab.formats import parse_entry
 from sandbox.lab.mapped import TILTED
+from sandbox.lab.misfit import misfit
+from sandbox.lab.misfit import report_of as misfit_report
 from sandbox.lab.report import as_text
 from sandbox.lab.selection import LeftOut
 from sandbox.lab.table_file import read_table
@@ -136,6 +140,43 @@ def test_a_value_at_the_end_of_its_range_is_no_result(call: Call, tmp_path: Path
     assert "1.15 kg/m^3 no result: at the end of its range" in text_of(said.splitlines())
     assert "±" not in said
     assert "no result" in (tmp_path / "x.toml").read_text("utf-8")
+
+
+def test_launches_are_compared_without_tolerances(call: Call, tmp_path: Path, carries: list[float]):
+    off = [1.0, -2.0, 3.0, 0.5, 2.5]  # m, computed minus measured
+    rows = shots([carry - each for carry, each in zip(carries, off, strict=True)])
+    file = written(tmp_path, HEAD + "".join([next(iter(BAD)), *rows]))
+    args = ("validate", "golf", "--against", file, "--set", "air.density=1.1")
+    found = json.loads(call(*args, "--by", "launch.speed", "--json").out)
+    carry = found["results"]["carry"]
+    interval = student_t.interval(0.95, 4, np.mean(off), np.std(off, ddof=1) / 5**0.5)
+    assert (carry["low"], carry["high"]) == pytest.approx(interval, rel=4e-3)
+    assert (carry["n"], carry["unit"], carry["worst"]["row"]) == (5, "m", 4)
+    expected = np.mean(off), np.std(off, ddof=1), np.sqrt(np.mean(np.square(off))), 3.0
+    assert (carry["bias"], carry["sd"], carry["rms"], carry["worst"]["off"]) == pytest.approx(expected, abs=1e-6)
+    assert [each["why"][:9] for each in found["left_out"]] == ["Spin Rate"]
+    assert [(name, each["n"], each["low"]) for name, each in carry["groups"].items()] == [
+        (f"{speed:g} m/s", 1, None) for speed in SPEEDS
+    ]
+    said = call(*args, "--all").out
+    assert text_of(said.splitlines()).startswith("golf: 5 shots, computed minus measured result n bias")
+    assert "used 5 of 6 shots: row 1, Spin Rate" in text_of(said.splitlines())
+    assert said.count("  carry  ") == 1 + 5
+    assert_refused(call(*args, "--by", "Clbu"), f"{file}: has no column 'Clbu', which --by names; did you mean Club?")
+    assert_refused(call(*args, "--by", "Club", "--within", "carry=2%"), "--by and --all are for a table of launches")
+    assert_refused(call(*args, "--strict"), "row 1, Spin Rate = -21474836480 rpm is out of range")
+
+
+def test_groups_of_many_numbers_are_bins(tmp_path: Path):
+    file = written(tmp_path, HEAD + "".join(f"D,{60 + each},12,2600,150,3\n" for each in range(20)))
+    shots_of = read_against(file, "golf", (), {})
+    assert isinstance(shots_of, Shots)
+    found = misfit(shots_of, by="Ball Speed")
+    assert {name: kept.sum() for name, kept in found.groups.items()} == {
+        "60 to 62 m/s": 2, "62 to 64 m/s": 2, "64 to 66 m/s": 2, "66 to 68 m/s": 2, "68 to 70 m/s": 2,
+        "70 to 72 m/s": 2, "72 to 74 m/s": 2, "74 to 76 m/s": 2, "76 to 78 m/s": 2, "78 to 80 m/s": 2,
+    }  # fmt: skip
+    assert [chart.panels[0].x for chart in misfit_report(found).charts()] == ["measured (m)"]
 
 
 def test_rows_are_left_out_of_a_validation(call: Call, tmp_path: Path, carries: list[float]):

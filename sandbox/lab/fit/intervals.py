@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from statistics import NormalDist
 
 import numpy as np
 
 from sandbox.lab.fit.loss import Loss
+from sandbox.lab.statistics import student
 
 #: Groups in one unit scatter alike, unless their variances differ by this many standard errors.
 _DIFFERENT = 3.0
@@ -33,24 +33,6 @@ class Errors:
     def half_widths(self) -> np.ndarray:
         """Half of each 95 % interval."""
         return self.sds * np.array([student(each) for each in self.freedom.tolist()])
-
-
-def student(freedom: float) -> float:
-    """The 97.5 % quantile of Student's t with so many degrees of freedom, at least 1.
-
-    Abramowitz and Stegun 26.7.5; exact for 1 and 2, within 0.4 % for more. Between 1 and 3 it is interpolated.
-    """
-    if freedom < 3.0:
-        exact = (12.7062047, 4.3026527, 3.1824463)
-        return float(np.exp(np.interp(freedom, (1.0, 2.0, 3.0), np.log(exact))))
-    z = NormalDist().inv_cdf(0.975)
-    terms = (
-        (z**3 + z) / 4.0,
-        (5.0 * z**5 + 16.0 * z**3 + 3.0 * z) / 96.0,
-        (3.0 * z**7 + 19.0 * z**5 + 17.0 * z**3 - 15.0 * z) / 384.0,
-        (79.0 * z**9 + 776.0 * z**7 + 1482.0 * z**5 - 1920.0 * z**3 - 945.0 * z) / 92160.0,
-    )
-    return z + sum(term / freedom**power for power, term in enumerate(terms, 1))
 
 
 def group_sds(residuals: np.ndarray, slopes: np.ndarray, sds: np.ndarray, groups: np.ndarray) -> np.ndarray:
