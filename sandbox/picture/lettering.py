@@ -1,4 +1,4 @@
-"""Text: Noto Sans from assets/fonts, its figures all equally wide, in three sizes that go with the picture's height."""
+"""Text: Noto Sans from assets/fonts, its figures all equally wide, in four sizes that go with the picture's height."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from sandbox.picture.palette import ASSETS, Colour
 from sandbox.text import printable
 
 #: Height of the letters in px on a picture of 720 rows, and the least at which they can be read.
-_SIZES = {"small": (14.5, 11), "medium": (20, 14), "large": (40, 24)}
+_SIZES = {"small": (14.5, 11), "medium": (20, 14), "large": (40, 24), "huge": (72, 36)}
 
 
 #: Height of a line in units of the letters' size, and what the font keeps free above it.
@@ -49,7 +49,7 @@ def text_mask(text: str) -> np.ndarray:
 
 
 class Lettering:
-    """The three sizes for a picture of ``height`` px."""
+    """The four sizes for a picture of ``height`` px."""
 
     larger: ClassVar[float] = 1.0  # than usual, for those who need it
 

@@ -79,7 +79,8 @@ class Cards:
                 for place, entry in enumerate(contest.entries)
             ]
             entries, forces = [*entries, *([("aimed", shot.aimed)] if pulled else [])], ()
-        self.draw_head(sheet, layout, text, notes, colour)
+        if playback is None or not playback.over or not self.game.banner.shows:  # which says the same
+            self.draw_head(sheet, layout, text, notes, colour)
         numbers, overlay = pygame.Rect(0, sheet.card_row(), *sheet.size), self.shown.overlay
         if overlay is None or not overlay.place(self.screen.whole).colliderect(numbers):
             sheet.numbers([*entries, *forces])

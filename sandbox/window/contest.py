@@ -91,6 +91,10 @@ class Contest:
         """True if a shot is a success, before it is recorded."""
         raise NotImplementedError
 
+    def call(self, run: SceneRun) -> tuple[str, bool]:
+        """The verdict on a shot before it is recorded, in a sentence, and whether it is a success."""
+        return run.scene.verdict(run), self.would_score(run)
+
     def decided_at(self, run: SceneRun) -> float | None:
         """The time in s at which a shot is decided; None for when the scene's score is final."""
         return None
@@ -313,6 +317,13 @@ class AtMatch(Contest):
     def would_score(self, run: SceneRun) -> bool:
         after = self.match.after(run.result)
         return bool(run.result.get(run.scene.controls.scores)) and not after.foul
+
+    def call(self, run: SceneRun) -> tuple[str, bool]:
+        after = self.match.after(run.result)
+        if not after.foul:
+            return super().call(run)
+        follows = after.placing.partition(":")[0]
+        return f"Foul: {after.foul}" + (f". {follows[0].upper()}{follows[1:]}" if follows else ""), False
 
     def record(self, run: SceneRun) -> None:
         self.good = self.would_score(run)

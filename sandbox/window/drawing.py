@@ -16,6 +16,7 @@ from sandbox.picture.sheet import Entry
 from sandbox.picture.vectors import Vectors
 from sandbox.window import hand, scoreboard
 from sandbox.window.background import KeyedCache
+from sandbox.window.banner import banner_forms
 from sandbox.window.canvas import Canvas
 from sandbox.window.cards import Cards
 from sandbox.window.fan_of_shot import FanOfShot
@@ -55,6 +56,7 @@ class Drawing:
         self.game, self.screen, self.shown, self.stages, self.viewpoint = game, screen, shown, stages, viewpoint
         self.fan, self.targets, self.cards = fan, targets, cards
         self.layout = Layout(screen.area, 0)
+        self._banner_at = (0, 0)  # the middle of its upper edge, in px
         self._last: pygame.Surface | None = None  # the last picture of a shot
         self._once = KeyedCache()
 
@@ -107,9 +109,19 @@ class Drawing:
         self._draw_hand(sheet, shot)
         self.cards.draw_readings(sheet, self.layout, stage, shot)
         self.cards.draw_cards(sheet, self.layout, stage, shot)
+        self._draw_banner(sheet, shot)
         self._draw_contest(sheet, stage, shot)
         if "ghosts" in self.shown.on and self.game.grasp.pull is None and not self.shown.follows:
             stage.label_ghosts(sheet, self.game.ghosts, shot, self.layout)
+
+    def _draw_banner(self, sheet: Canvas, shot: Shot) -> None:
+        """The verdict at the moment of it, in the upper half."""
+        banner = self.game.banner
+        if not banner.shows:
+            self._banner_at = sheet.size[0] // 2, sheet.frame.top + (0 if shot.upright else sheet.size[1] // 6)
+        else:
+            rect = self.layout.put("banner", banner_forms(sheet, *banner.call), self._banner_at, "midtop")
+            self._banner_at = rect.midtop if rect is not None else self._banner_at  # it stays where it is
 
     def _draw_contest(self, sheet: Canvas, stage: Stage, shot: Shot) -> None:
         """The light of a success, and the card at the end of a contest."""

@@ -10,6 +10,7 @@ from typing import Any
 
 from sandbox.window.aiming import Aiming
 from sandbox.window.background import PATIENCE, Workers
+from sandbox.window.banner import Banner
 from sandbox.window.best import BestList
 from sandbox.window.contest import AtTask, Contest
 from sandbox.window.grasp import Grasp
@@ -53,6 +54,7 @@ class Game:
         self.opening = Opening(self.aiming, self.workers, self.messages, self._opened)
         self.referee = Referee(self.aiming, self.workers, self.messages)
         self.referee.ended = self._contest_ended
+        self.banner = Banner(self.referee)
         self.place = 0  # of the last score at a task in the best list; 0 for none
         self.running = True
         self.still = 0.0  # s since the shot changed
@@ -86,7 +88,7 @@ class Game:
         playback = self.watching.playback
         playing = playback is not None and playback.playing
         computing = not self.path.settled or bool(self.jobs.waiting)
-        return playing or computing or self.referee.busy or self.opening.loading is not None
+        return playing or computing or self.referee.busy or self.banner.left > 0.0 or self.opening.loading is not None
 
     @property
     def ghosts(self) -> list[Shot]:
@@ -113,6 +115,7 @@ class Game:
         return (
             *shown,
             *self.referee.visible_state,
+            self.banner.shows,
             self.failure,
             self.notices,
             len(self.jobs.waiting),
@@ -147,6 +150,7 @@ class Game:
         self.still, self._last = self.still + dt if self.shot is self._last else 0.0, self.shot
         played = (0.0, 0.0) if hold else self.watching.advance(dt)
         self.aiming.end_live()
+        self.banner.advance(dt, *played)  # before the shot is counted
         self.referee.advance(dt)
         return played
 

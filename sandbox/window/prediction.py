@@ -69,6 +69,10 @@ class Prediction(Contest):
         off, way = self._off(run)
         return abs(off) <= _GOOD * way
 
+    def call(self, run: SceneRun) -> tuple[str, bool]:
+        good = self.would_score(run)
+        return "On the mark" if good else "Off the mark", good
+
     def record(self, run: SceneRun) -> None:
         shot, (off, _) = Shot(run.scene, run), self._off(run)
         self.good, self.landed, self.fresh = self.would_score(run), _landing(shot)[1:], False

@@ -219,9 +219,26 @@ def deciding_ball(shot: Shot, decided: float) -> str:
 
 
 def decided_at(shot: Shot) -> float:
-    """The time in s at which a shot is decided: when the fact that it scored is final. Where that is not known before
-    the end it is with the last body that a trap takes, such as a pocket or a cup, or else with the last ball that the
-    one that is played meets, or the last impact."""
+    """The time in s at which a shot is decided: when its verdict is known. Where that is not known before the end it
+    is with the last ball that the one that is played meets, or the last impact."""
+    run, known = shot.run, _known_before_end(shot)
+    if known is not None:
+        return known
+    met = [event for event in run.events if event.kind == "impact" and shot.ball in (event.ball, event.partner)]
+    balls = {ball.name for ball in run.setup.balls}
+    among = [event for event in met if {event.ball, event.partner} <= balls]
+    return max([event.t for event in among or met], default=run.duration)
+
+
+def known_at(shot: Shot) -> float:
+    """The time in s at which the verdict on a shot is known, which may be at its end."""
+    known = _known_before_end(shot)
+    return shot.run.duration if known is None else known
+
+
+def _known_before_end(shot: Shot) -> float | None:
+    """The time in s at which the fact that a shot scored is final, or else a trap, such as a pocket or a cup, takes the
+    last body; None if neither happens."""
     run, fact = shot.run, shot.scene.facts.get(shot.scene.controls.scores)
     final = fact.final_when if fact is not None else "end"
     found = []
@@ -233,8 +250,4 @@ def decided_at(shot: Shot) -> float:
         found += [e.t for i, e in enumerate(run.events[:_MOST], 1) if condition.over(run.events[:i])][:1]
     if found:
         return float(min(found))
-    caught = [event for event in run.events if event.kind == "caught"]
-    met = [event for event in run.events if event.kind == "impact" and shot.ball in (event.ball, event.partner)]
-    balls = {ball.name for ball in run.setup.balls}
-    among = [event for event in met if {event.ball, event.partner} <= balls]
-    return max([event.t for event in caught or among or met], default=run.duration)
+    return max((event.t for event in run.events if event.kind == "caught"), default=None)

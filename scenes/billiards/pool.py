@@ -75,7 +75,7 @@ class Pool(Match):
         if outcome["scratch"]:
             return "scratch"
         if first is None:
-            return "meets no ball"
+            return "no ball hit"
         if not self.breaks and first not in self.targets:
             return f"meets the {first} first"
         if not outcome["potted"] and not self.breaks and not _cushions_after(outcome):

@@ -8,6 +8,7 @@ from concurrent.futures import wait
 from dataclasses import replace
 from pathlib import Path
 from threading import Thread
+from types import SimpleNamespace
 
 import pygame
 import pytest
@@ -17,6 +18,7 @@ from sandbox.errors import RequestError
 from sandbox.scene.finding import installed_folder, installed_folders
 from sandbox.window import commands, keeping
 from sandbox.window.app import play
+from sandbox.window.banner import LASTS
 from sandbox.window.best import MOST, Best, BestList, usual_file
 from sandbox.window.contest import AtMatch, AtTask
 from sandbox.window.front import START_HERE, TILE, Front, entries_of, first_task, sports
@@ -71,6 +73,7 @@ def shoot(player: Player, **values: float) -> None:
     shots = len(referee.shots)
     player.key(pygame.K_SPACE)
     passes(player, lambda: len(referee.shots) > shots and referee.tells and referee.again != "slow")
+    passes(player, lambda: not game.banner.shows)  # and then the contest tells
 
 
 #: The free throw of the preset that goes in.
@@ -211,6 +214,26 @@ class TestATask:
         thrower.click(thrower.view.screen.area.center)  # the next one
         thrower.settle()
         assert {GOAL, "attempt 2 of 5"} <= {part for text in said(thrower) for part in text.split("   ·   ")}
+
+    def test_a_verdict_is_shown_for_a_second_when_it_is_known(self, thrower):
+        game, seen = thrower.game, []
+
+        def gone() -> bool:
+            seen.append((game.watching.playback.t if game.watching.playback else 0.0, game.banner.left))
+            return bool(seen[-2:-1] and seen[-2][1] and not game.banner.left)
+
+        game.aiming.change({"launch.speed": 5.0})
+        thrower.settle()
+        thrower.key(pygame.K_SPACE)
+        passes(thrower, lambda: game.banner.shows)
+        assert {"Air ball", "Never as high as the ring"} <= said(thrower)
+        (shot,) = game.referee.shots
+        assert game.banner.call == (shot.verdict, False)
+        assert 0.0 <= game.watching.playback.t - game.referee.decided < 2 * LONGEST_FRAME
+        assert game.referee.decided < shot.run.duration
+        passes(thrower, gone)
+        assert seen[-1][0] - game.referee.decided == pytest.approx(LASTS, abs=3 * LONGEST_FRAME)
+        assert "Air ball" not in said(thrower)
 
     def test_a_success_glows_is_heard_and_shown_again_slowly(self, thrower):
         referee, watching, seen = thrower.game.referee, thrower.game.watching, []
@@ -388,6 +411,12 @@ def test_a_task_of_ones_own_has_its_own_best_list(tmp_path):
 
 
 class TestAMatch:
+    def test_a_foul_is_called_a_foul_and_which(self):
+        contest = AtMatch(installed_folder("billiards"), "eight-ball")
+        contest.match = replace(contest.match, balls={"cue": (0.0, 0.0), "1": (0.5, 0.3)})
+        run = SimpleNamespace(result={"scratch": False, "first_contact": None, "potted": [], "positions": {}})
+        assert contest.call(run) == ("Foul: no ball hit. Ball in hand", False)
+
     def test_the_ball_in_hand_is_dragged_and_the_rules_go_on(self, player):
         player = player("billiards/bank", (800, 500))
         player.game.referee.begin(AtMatch(installed_folder("billiards"), "eight-ball", seed=1))

@@ -23,6 +23,7 @@ ROWS = (
     {"find", "path", "watching"},
     {"aiming"},
     {"grasp", "opening", "referee"},
+    {"banner"},
     {"game", "scoreboard"},
     {"front", "panel", "shown"},
     {"screen"},

@@ -1,0 +1,91 @@
+"""The banner: the verdict of a shot in large letters, for a moment when it is decided."""
+
+from __future__ import annotations
+
+import re
+
+import pygame
+
+from sandbox.picture.palette import palette
+from sandbox.window.canvas import Canvas
+from sandbox.window.layout import Form
+from sandbox.window.referee import Referee, known_at
+from sandbox.window.shots import Shot
+
+_CARD = palette("card")
+
+#: How long it stays, in s of the window's clock, however slowly the shot is watched.
+LASTS = 1.0
+#: The most of the picture's width that it takes.
+_WIDEST = 0.6
+
+
+class Banner:
+    """Holds the verdict that is shown, as long as it is."""
+
+    def __init__(self, referee: Referee) -> None:
+        self.referee, self.watching, self.messages = referee, referee.watching, referee.messages
+        self.call = "", False  # the verdict, and whether it is good
+        self.left = 0.0  # s that it stays
+        self._shot: Shot | None = None  # the one that was watched last
+        self._at = 0.0  # s: when its verdict is known
+
+    @property
+    def shows(self) -> bool:
+        """True if it is shown: not where the end of a contest says all."""
+        referee = self.referee
+        return self.left > 0.0 and not (referee.is_over and referee.tells and referee.again != "slow")
+
+    def advance(self, dt: float, start: float, end: float) -> None:
+        """``dt`` s have passed, in which the shot was played from ``start`` to ``end``, in s of its own clock."""
+        self.left = max(0.0, self.left - dt)
+        playback = self.watching.playback
+        if playback is None or playback.shot is not self._shot:
+            self.left = 0.0
+        if playback is None or end <= start or self.watching.live is not None:
+            return
+        shot = playback.shot
+        if shot is not self._shot:
+            self._shot, self._at = shot, shot.run.duration
+            self.messages.reporting_errors(lambda: self._find(shot))
+        if start < self._at <= end:
+            self.messages.reporting_errors(lambda: self._show(shot))
+
+    def _find(self, shot: Shot) -> None:
+        """Find out when the verdict of a shot is known."""
+        contest = self.referee.contest
+        known = contest.decided_at(shot.run) if contest is not None else None
+        self._at = known_at(shot) if known is None else known
+
+    def _show(self, shot: Shot) -> None:
+        """Show the verdict of a shot: of all that score, and in a contest of the one that counts."""
+        contest = self.referee.contest
+        if contest is None and shot.scene.controls.scores:
+            self.call, self.left = (shot.verdict, shot.scored), LASTS
+        elif contest is not None and self.referee.pending is shot:
+            self.call, self.left = contest.call(shot.run), LASTS
+
+
+def banner_forms(sheet: Canvas, text: str, good: bool) -> list[Form]:
+    """A verdict: the words up to its first comma or colon in large letters, and below them the others; then smaller."""
+    first, *others = re.split(r"[,;:] ", text, maxsplit=1)
+    other = others[0][0].upper() + others[0][1:] if others and others[0] else ""
+    return [_form(sheet, first, other, good, size) for size in ("huge", "large", "medium")]
+
+
+def _form(sheet: Canvas, first: str, other: str, good: bool, size: str) -> Form:
+    """A verdict with its first words in one size."""
+    letters, gap, room = sheet.lettering, sheet.gap, _WIDEST * sheet.size[0]
+    below = "small" if size == "medium" else "medium"
+    whole = letters.width(first, size, bold=True) <= room
+    first, other = sheet.shortened(first, size, room, bold=True), sheet.shortened(other, below, room)
+    wide = max(letters.width(first, size, bold=True), letters.width(other, below)) + 6 * gap
+    tall = letters.height(size) + (letters.height(below) + gap) * bool(other) + 2 * gap
+
+    def draw(rect: pygame.Rect) -> None:
+        sheet.painter.panel(rect, _CARD["background"], 0.9, 12 * sheet.unit)
+        at = sheet.write(first, size, (rect.centerx, rect.top + gap), _CARD["good" if good else "bad"], "midtop", True)
+        if other:
+            sheet.write(other, below, (rect.centerx, at.bottom), _CARD["text"], "midtop")
+
+    return Form((wide, tall), draw, whole)
