@@ -49,7 +49,10 @@ map_option = click.option(
     help='What a column is: "Ball Speed=launch.speed mph", "Zeit=t ms"; repeatable.  [default: known names]',
 )
 where_option = click.option(
-    "--where", metavar="COLUMN=TEXT", multiple=True, help="Only rows of that table with this text; repeatable."
+    "--where",
+    metavar="COLUMN=TEXT",
+    multiple=True,
+    help='Only rows with this: "Club=Driver", "launch.angle=15:50", also with !=, <, <=, >, >=; repeatable.',
 )
 strict_option = click.option(
     "--strict", is_flag=True, help="Refuse a table with a bad row.  [default: leave it out, and say why]"

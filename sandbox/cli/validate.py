@@ -77,11 +77,12 @@ def validate(
         from sandbox.lab import misfit
         from sandbox.lab.against import Shots, cases_of_shots, read_against
         from sandbox.lab.formats import parse_entry
+        from sandbox.lab.where import parse_condition
 
         if teeth:
             raise RequestError("--teeth: says what the published numbers test; it cannot be combined with --against")
         entries = [parse_entry(text) for text in mapping]
-        given = read_against(against, scene, entries, pairs("--where", where), strict)
+        given = read_against(against, scene, entries, tuple(map(parse_condition, where)), strict)
         tolerances = pairs("--within", within)
         if isinstance(given, Shots) and not tolerances:
             with bar("validate") as progress:

@@ -15,6 +15,7 @@ from sandbox.lab.mapped import Mapped, Quantity, mapped
 from sandbox.lab.published import KINDS, Case, assignments, cases_by_form, form_of, tables_of, with_preset
 from sandbox.lab.selection import used
 from sandbox.lab.table_file import Table, read_table
+from sandbox.lab.where import Condition
 from sandbox.scene import Scene, load
 from sandbox.scene.finding import is_path
 from sandbox.text import argument, no_such_result, shortened
@@ -50,7 +51,7 @@ class Shots:
 
 
 def read_against(
-    path: Path, source: str | None, entries: Sequence[Entry], where: Mapping[str, str], strict: bool = False
+    path: Path, source: str | None, entries: Sequence[Entry], where: Sequence[Condition], strict: bool = False
 ) -> list[Case] | Shots:
     """The numbers of a user's table. Raises RequestError.
 

@@ -14,6 +14,7 @@ from sandbox.lab.axes import checked
 from sandbox.lab.formats import Entry, Form, declared_units
 from sandbox.lab.selection import LeftOut, Selection
 from sandbox.lab.table_file import Column, Table, split_unit
+from sandbox.lab.where import Condition
 from sandbox.scene import Scene
 from sandbox.text import nearest, shortened
 
@@ -60,14 +61,15 @@ class Mapped:
     columns: Mapping[str, str]  # the column of each parameter and fact
 
 
-def mapped(scene: Scene, table: Table, form: Form, where: Mapping[str, str], strict: bool = False) -> Mapped:
-    """The columns of a form in those rows that have them all, within the bounds of the scene's parameters. Raises
-    RequestError; with ``strict`` also for a row with a fault."""
+def mapped(scene: Scene, table: Table, form: Form, where: Sequence[Condition], strict: bool = False) -> Mapped:
+    """The columns of a form in those rows that are asked for and have them all, within the bounds of the scene's
+    parameters. Raises RequestError; with ``strict`` also for a row with a fault."""
     selection = _rows(table, form, where, strict)
     declared, notes = declared_units(scene), list[str]()
     found = {
         entry.key: _quantity(table, form, entry, selection.rows, declared[entry.key], notes) for entry in form.entries
     }
+    found = _by_values(table, found, where, selection)
     measured = {key: one for key, one in found.items() if key in scene.facts}
     given = {key: one for key, one in found.items() if key not in scene.facts}
     if not measured or not given:
@@ -76,12 +78,15 @@ def mapped(scene: Scene, table: Table, form: Form, where: Mapping[str, str], str
     notes += _in_one_plane(table, form, selection.rows)
     if form.title:
         notes.insert(0, f"read as {form.title}: {', '.join(f'{one.column} as {one.key}' for one in form.entries)}")
+    if where:
+        asked = " and ".join(map(str, where))
+        notes.insert(0, f"only rows with {asked}: {len(selection.rows)} of {len(table)}")
     before = list(selection.rows)
     _check_bounds(scene, form, selection, given, measured)
     kept = np.isin(before, selection.rows)
     given, measured = ({key: one.of(kept) for key, one in some.items()} for some in (given, measured))
     taken = {name.lower() for name in (*(one.column for one in form.entries), *form.spin_axis, form.length_unit)}
-    taken |= {rule.column.lower() for rule in form.leave_out} | {name.lower() for name in where}
+    taken |= {rule.column.lower() for rule in form.leave_out} | {one.name.lower() for one in where}
     unused = table.others(taken)
     rows = tuple(row + 1 for row in selection.rows)
     columns = {one.key: one.column for one in form.entries}
@@ -127,16 +132,11 @@ def _column(table: Table, name: str) -> Column | None:
     return next((one for one in table.columns if one.name.lower() == name.lower()), None)
 
 
-def _rows(table: Table, form: Form, where: Mapping[str, str], strict: bool) -> Selection:
+def _rows(table: Table, form: Form, where: Sequence[Condition], strict: bool) -> Selection:
     """The rows that have all values that are used and that the scene describes. Raises RequestError if none is left."""
     selection = Selection(table, strict)
-    for name, wanted in where.items():
-        column = _column(table, name)
-        if column is None:
-            raise RequestError(f"{table.where}: has no column {name!r}, which --where names")
-        selection.only(row for row in selection.rows if column.cells[row].strip().lower() == wanted.lower())
-        if not selection.rows:
-            raise RequestError(f"{table.where}: no row has {name} = {wanted}")
+    for condition in where:
+        _select(table, form, condition, selection)
     columns = [column for entry in form.entries if (column := _column(table, entry.column)) is not None]
     missing = _MISSING | {"0", "0.0"} if form.zeros else _MISSING
     for row in list(selection.rows):
@@ -159,6 +159,49 @@ def _rows(table: Table, form: Form, where: Mapping[str, str], strict: bool) -> S
                 selection.leave_out(row, rule.why, fault=False)
     selection.check_some()
     return selection
+
+
+def _select(table: Table, form: Form, condition: Condition, selection: Selection) -> None:
+    """Keep the rows for whose cells a condition holds; one on a parameter or result waits for its values. Where numbers
+    are compared, a row without one is left out. Raises RequestError if none is left."""
+    columns = {entry.key: entry.column for entry in form.entries}
+    if condition.name in columns and _column(table, condition.name) is None:
+        return
+    column = column_of(table, columns, condition.name, "--where")
+    unit = column.unit or next((one.unit for one in form.entries if one.column.lower() == column.name.lower()), "")
+    unit = unit if unit in units.KIND_OF else ""
+    compares, kept = condition.compares_numbers(unit), []
+    for row in list(selection.rows):
+        cell, fault = column.cells[row].strip(), table.fault(column, row)
+        if condition.holds(cell, None if fault else table.number(column, row), unit):
+            kept.append(row)
+        elif fault and compares:
+            selection.leave_out(row, fault, fault=cell.lower() not in _MISSING)
+    selection.only(kept)
+    if not kept:
+        numbers = [table.number(column, row) for row in range(len(table)) if not table.fault(column, row)]
+        has = f"has {', '.join(dict.fromkeys(filter(None, column.cells))) or 'nothing'}"
+        if numbers:
+            has = f"is from {min(numbers):g} to {max(numbers):g} {unit}".rstrip()
+        raise RequestError(f"{table.where}: no row has {condition}; {column.name} {shortened(has, 200)}")
+
+
+def _by_values(
+    table: Table, found: dict[str, Quantity], where: Sequence[Condition], selection: Selection
+) -> dict[str, Quantity]:
+    """The quantities in the rows for which conditions on parameters and results hold. Raises RequestError if there is
+    none."""
+    before = list(selection.rows)
+    for condition in where:
+        if _column(table, condition.name) is None and (one := found.get(condition.name)) is not None:
+            condition.check_number(one.unit)
+            values = dict(zip(before, one.values.tolist(), strict=True))
+            selection.only([row for row in selection.rows if condition.holds("", values[row], one.unit)])
+            if not selection.rows:
+                has = f"from {one.values.min():.6g} to {one.values.max():.6g} {one.unit}".rstrip()
+                raise RequestError(f"{table.where}: no row has {condition}; {condition.name} is {has}")
+    kept = np.isin(before, selection.rows)
+    return {key: one.of(kept) for key, one in found.items()}
 
 
 def _quantity(table: Table, form: Form, entry: Entry, rows: Sequence[int], unit: str, notes: list[str]) -> Quantity:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable, Sequence
 from math import cos, hypot, radians, sin
 from pathlib import Path
@@ -18,13 +19,14 @@ from sandbox.lab.against import Shots, read_against
 from sandbox.lab.axes import Span
 from sandbox.lab.fit.data import Reading, read_data
 from sandbox.lab.fit.problem import Problem
-from sandbox.lab.formats import parse_entry
-from sandbox.lab.mapped import TILTED
+from sandbox.lab.formats import parse_entry, recognized
+from sandbox.lab.mapped import TILTED, mapped
 from sandbox.lab.misfit import misfit
 from sandbox.lab.misfit import report_of as misfit_report
 from sandbox.lab.report import as_text
 from sandbox.lab.selection import LeftOut
 from sandbox.lab.table_file import read_table
+from sandbox.lab.where import conditions
 from sandbox.parameters import value_at, walk
 from sandbox.scene import listings
 from tests.own_scene import Outcome, assert_refused
@@ -89,6 +91,61 @@ def test_empty_cells_and_sums_are_left_out_also_if_strict(tmp_path: Path, carrie
     for strict in (False, True):
         found = sandbox.fit("golf", file, {"air.density": (1.0, 1.3)}, strict=strict).measured
         assert found.left_out == (LeftOut(1, "Spin Rate is missing"), LeftOut(7, "sums other rows up"))
+
+
+@pytest.mark.parametrize(
+    ("where", "rows"),
+    [
+        (["ball speed (m/s) = 62:68"], [2, 3, 4]),
+        (["Ball Speed >= 140 mph"], [3, 4, 5]),  # 62.59 m/s
+        (["launch.speed<65"], [1, 2]),
+        (["launch.speed <= 65", "launch.speed != 62"], [1, 3]),
+        (["Club!=w", "Ball Speed>62"], [3, 4]),
+        (["Club=D", "Spin Rate=2600.0", "carry=1:1000 yd"], [1, 2, 3, 4]),
+    ],
+)
+def test_conditions_choose_rows(tmp_path: Path, carries: list[float], where: list[str], rows: list[int]):
+    every = [*shots(carries)[:4], shots(carries)[4].replace("D", "W", 1)]
+    table = read_table("track", written(tmp_path, HEAD + "".join([*every, "D,60,12,2600,none,3\n"])))
+    scene = sandbox.load("golf")
+    form = recognized(table, scene)
+    assert form is not None
+    found = mapped(scene, table, form, conditions(where))
+    assert found.rows == tuple(rows)
+    assert set(found.left_out) <= {LeftOut(6, "Carry Flat - Length is missing")}
+
+
+def test_a_row_without_the_number_is_left_out_and_named(tmp_path: Path, carries: list[float]):
+    rows = [
+        row.replace(",3\n", f",{side}\n") for row, side in zip(shots(carries), ["3", "", "x", "9", "4"], strict=True)
+    ]
+    file = written(tmp_path, HEAD + "".join(rows))
+    read = read_against(file, "golf", (), conditions("Side < 5"))
+    assert isinstance(read, Shots)
+    assert read.found.rows == (1, 5)
+    assert read.found.left_out == (LeftOut(2, "Side is empty"), LeftOut(3, "Side = 'x' is not a number"))
+    assert read.notes[0] == "only rows with Side < 5: 2 of 5"
+    with pytest.raises(RequestError, match="row 3, Side = 'x' is not a number"):
+        read_against(file, "golf", (), conditions("Side < 5"), strict=True)
+
+
+@pytest.mark.parametrize(
+    ("where", "why"),
+    [
+        ("Club", "--where Club: write it as COLUMN=TEXT"),
+        ("Clbu=D", "has no column 'Clbu', which --where names; did you mean Club?"),
+        ("zzz=D", "which --where names; it has Club, Ball Speed, Launch Angle, Spin Rate, Carry Flat - Length, Side"),
+        ("Club=Iron", "no row has Club = Iron; Club has D"),
+        ("Ball Speed>80", "no row has Ball Speed > 80; Ball Speed is from 60 to 70 m/s"),
+        ("launch.speed=80:90", "no row has launch.speed = 80:90; launch.speed is from 60 to 70 m/s"),
+        ("Ball Speed<fast", "--where Ball Speed < fast: is not a number with a unit; use m/s"),
+        ("launch.speed<3 kg", "--where launch.speed < 3 kg: kg is a unit of mass; use m/s"),
+    ],
+)
+def test_a_condition_that_cannot_hold_is_refused(tmp_path: Path, carries: list[float], where: str, why: str):
+    file = written(tmp_path, HEAD + "".join(shots(carries)))
+    with pytest.raises(RequestError, match=re.escape(why)):
+        read_against(file, "golf", (), conditions(where))
 
 
 def test_no_row_that_can_be_used_is_an_error(call: Call, tmp_path: Path):
@@ -169,7 +226,7 @@ def test_launches_are_compared_without_tolerances(call: Call, tmp_path: Path, ca
 
 def test_groups_of_many_numbers_are_bins(tmp_path: Path):
     file = written(tmp_path, HEAD + "".join(f"D,{60 + each},12,2600,150,3\n" for each in range(20)))
-    shots_of = read_against(file, "golf", (), {})
+    shots_of = read_against(file, "golf", (), ())
     assert isinstance(shots_of, Shots)
     found = misfit(shots_of, by="Ball Speed")
     assert {name: kept.sum() for name, kept in found.groups.items()} == {

@@ -11,7 +11,6 @@ from sandbox.cli.arguments import (
     changes_options,
     load,
     map_option,
-    pairs,
     say,
     scene_argument,
     strict_option,
@@ -116,6 +115,7 @@ def fit(
     from sandbox.lab.fit.saving import check_saving
     from sandbox.lab.fit.saving import save as saved
     from sandbox.lab.formats import parse_entry
+    from sandbox.lab.where import parse_condition
 
     chosen = load(scene, changes)
     spans = [parse_varied(chosen, text) for text in vary]
@@ -126,7 +126,7 @@ def fit(
         dict(map(parse_ball, balls)),
     )
     entries = tuple(map(parse_entry, mapping))
-    how = Reading(film, parse_free("--free", free), entries, pairs("--where", where), strict)
+    how = Reading(film, parse_free("--free", free), entries, tuple(map(parse_condition, where)), strict)
     data = read_data(chosen, tracks, how)
     if save is not None:
         check_saving("--save", save, has_points=not isinstance(data, Launches))

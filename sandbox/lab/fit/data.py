@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +16,7 @@ from sandbox.lab.fit.parsing import NAMES, Film, flattened, has_positions, measu
 from sandbox.lab.fit.track import Track
 from sandbox.lab.formats import Entry, device, in_table, recognized, stated
 from sandbox.lab.table_file import Column, Table, read_table, split_unit
+from sandbox.lab.where import Condition
 from sandbox.physics.forces import Gravity
 from sandbox.scene import Scene, simulate
 from sandbox.text import shortened
@@ -31,7 +32,7 @@ class Reading:
     film: Film = Film()
     free: tuple[str, ...] = ()  # of the film: origin, time, tilt
     entries: tuple[Entry, ...] = ()  # columns of launches and results; known ones if there are none
-    where: Mapping[str, str] = field(default_factory=dict)  # only rows with this text in a column
+    where: tuple[Condition, ...] = ()  # only rows for which these hold
     strict: bool = False  # refuse a row with a fault, which is otherwise left out
 
 

@@ -21,6 +21,7 @@ from sandbox.lab.fit.parsing import Film, parse_scale
 from sandbox.lab.fit.problem import Declared
 from sandbox.lab.fit.squares import Fit, solve
 from sandbox.lab.formats import parse_entry
+from sandbox.lab.where import conditions
 from sandbox.parameters import value_at, walk
 from sandbox.scene import Scene, as_scene
 from sandbox.text import check_mapping
@@ -38,7 +39,7 @@ def fit(
     fps: float | None = None,
     balls: Mapping[str, str] | None = None,
     columns: Mapping[str, str] | None = None,
-    where: Mapping[str, str] | None = None,
+    where: Mapping[str, str] | Sequence[str] = (),
     models: str | Mapping[str, Sequence[Any]] | None = None,
     robust: bool = False,
     strict: bool = False,
@@ -54,8 +55,9 @@ def fit(
     the scene's by the names in the table.
 
     A table of launches has ``columns``: ``{"Ball Speed": "launch.speed mph", "Carry": "carry yd"}``, or those of a
-    known device; only rows with the text that ``where`` names are used. A row with a fault is left out, and listed with
-    its reason in ``measured.left_out``; with ``strict`` it raises RequestError.
+    known device; only rows for which ``where`` holds are used: ``("Club=Driver", "launch.angle=10:20", "Spin<4000")``.
+    A row with a fault is left out, and listed with its reason in ``measured.left_out``; with ``strict`` it raises
+    RequestError.
 
     Raises RequestError for an invalid request, and RunError if no run near the best values could be completed.
 
@@ -68,7 +70,8 @@ def fit(
     check_mapping("vary", vary, '{"launch.speed": (5, 15)}')
     film = Film(None if scale is None else parse_scale(scale), (float(origin[0]), float(origin[1])), fps, balls or {})
     entries = tuple(parse_entry(f"{column}={target}") for column, target in (columns or {}).items())
-    how = Reading(film, parse_free("free", [free] if isinstance(free, str) else free), entries, where or {}, strict)
+    frees = parse_free("free", [free] if isinstance(free, str) else free)
+    how = Reading(film, frees, entries, conditions(where), strict)
     if isinstance(track, Mapping):
         measured = data_of(chosen, [("", table_of(track))], how)
     else:

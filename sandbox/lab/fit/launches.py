@@ -16,6 +16,7 @@ from sandbox.lab.mapped import mapped
 from sandbox.lab.runs import outcomes
 from sandbox.lab.selection import LeftOut, reasons
 from sandbox.lab.table_file import Table
+from sandbox.lab.where import Condition
 from sandbox.scene import Scene
 from sandbox.scene.points import Points
 
@@ -117,7 +118,7 @@ class Launches:
         return (*self.notes, f"the launches are taken as measured: {', '.join(self.given)}")
 
 
-def launches(scene: Scene, table: Table, form: Form, where: Mapping[str, str], strict: bool = False) -> Launches:
+def launches(scene: Scene, table: Table, form: Form, where: Sequence[Condition], strict: bool = False) -> Launches:
     """The launches of a table, without those that have no such result in the scene. Raises RequestError; with
     ``strict`` also for a row with a fault."""
     found = mapped(scene, table, form, where, strict)
