@@ -6,6 +6,7 @@
 // numbers of the ball (picture/moving.py, picture/painter.py, sport/amounts.py). tests/page/test_replay.py compares them.
 
 const SLOWEST = -4, FASTEST = 3; // powers of two
+const VERDICT = 1000; // ms for which the verdict is large and coloured once it is in
 const NEAR = 28; // px around the pointer in which a path is found
 
 // ------------------------------------------------------------------------------------------------ numbers for people
@@ -60,6 +61,7 @@ class Player {
     this.whole = true;
     this.playing = false;
     this.t = data.told;
+    this.verdict("");
     this.pointed = null;
     this.hint.hidden = true;
     this.timeline();
@@ -484,11 +486,21 @@ class Player {
 
   tick(now) {
     if (!this.playing) return;
-    const passed = Math.max(0, Math.min((now - this.last) / 1000, 0.1));
+    const passed = Math.max(0, Math.min((now - this.last) / 1000, 0.1)), { t, data: { told, scored } } = this;
     this.last = now;
     if (this.t + passed * 2 ** this.power >= this.data.duration) this.playing = false;
     this.seek(this.t + passed * 2 ** this.power);
+    if (t < told && this.t >= told && scored !== null) this.verdict(scored ? "good" : "bad");
     if (this.playing) requestAnimationFrame((next) => this.tick(next));
+  }
+
+  /** Mark the verdict for a moment as good or bad, larger if there is room; as usual without a word. */
+  verdict(word) {
+    const title = document.querySelector("h1");
+    title.dataset.verdict = word;
+    if (word) title.style.setProperty("--larger", Math.max(1, Math.min(1.25, (0.9 * this.canvas.clientWidth) / title.offsetWidth)));
+    clearTimeout(this.called);
+    if (word) this.called = setTimeout(() => this.verdict(""), VERDICT);
   }
 
   step(by) {

@@ -162,6 +162,7 @@ def place_data(view: View[Any]) -> dict[str, Any]:
 
 def path_data(view: View[Any], run: SceneRun) -> dict[str, Any]:
     """Return the paths of a run, with what moves, as a page draws and plays them on a place."""
+    scores = run.scene.controls.scores
     names, looks = view.balls, [id(look) for look in _looks(view)]
     return {
         "ball": view.ball,
@@ -199,6 +200,7 @@ def path_data(view: View[Any], run: SceneRun) -> dict[str, Any]:
         "events": [event.t for event in run.events[:_MOST_EVENTS]],
         "duration": max([run.duration, *(ghost.run.duration for ghost in view.ghosts)]),
         "told": view.story_end,
+        "scored": bool(run.result.get(scores)) if scores else None,
     }
 
 

@@ -304,7 +304,7 @@ def _start(scene: Scene, run: SceneRun, view: View[Any], until: float) -> dict[s
     for ball in data["balls"]:
         ball |= {"path": path_until(run.arcs[ball["name"]], until), "rolls": False}
         ball |= dict.fromkeys(("turned", "caught", "fall"))
-    data |= {"events": [], "duration": until, "told": until, "verdict": "", "rows": [], "scored": False}
+    data |= {"events": [], "duration": until, "told": until, "verdict": "", "rows": [], "scored": None}
     return data | {"place": _place(scene), "hidden": True}
 
 
@@ -314,7 +314,6 @@ def _run_data(scene: Scene, run: SceneRun, view: View[Any]) -> dict[str, Any]:
         **path_data(view, run),
         "verdict": scene.verdict(run),
         "rows": scene.rows(run),
-        "scored": Shot(scene, run).scored,
         "place": _place(scene),
     }
 

@@ -200,6 +200,11 @@ def test_it_plays_by_mouse_keyboard_and_touch(browser, pages):
     ActionChains(driver).click().perform()
     assert browser.run("player.t") == pytest.approx(pointed)
     assert browser.run("document.getElementById('time').getAttribute('aria-valuetext')").startswith("time ")
+    # at the end the verdict is marked for a moment: the ball is not in the hole
+    browser.run("player.seek(player.data.told - 0.01)")
+    browser.run("player.play()")
+    WebDriverWait(driver, HANG).until(lambda _: browser.run("document.querySelector('h1').dataset.verdict") == "bad")
+    WebDriverWait(driver, HANG).until(lambda _: browser.run("document.querySelector('h1').dataset.verdict") == "")
     # on a phone, in the dark, by touch
     browser.open(pages("golf", "golf/headwind"), 390, 844, dark=True)
     assert browser.run("document.documentElement.scrollWidth") <= 390
