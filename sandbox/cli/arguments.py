@@ -54,6 +54,9 @@ where_option = click.option(
     multiple=True,
     help='Only rows with this: "Club=Driver", "launch.angle=15:50", also with !=, <, <=, >, >=; repeatable.',
 )
+without_option = click.option(
+    "--without", metavar="KEY", multiple=True, help="Do not use this column of a known table: air.density; repeatable."
+)
 strict_option = click.option(
     "--strict", is_flag=True, help="Refuse a table with a bad row.  [default: leave it out, and say why]"
 )

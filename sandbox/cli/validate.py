@@ -14,6 +14,7 @@ from sandbox.cli.arguments import (
     pairs,
     strict_option,
     where_option,
+    without_option,
 )
 from sandbox.cli.reports import Outputs, report_options
 from sandbox.errors import RequestError
@@ -25,6 +26,7 @@ from sandbox.text import printable
 @click.option("--against", metavar="F.csv", type=Path, help="A table of your own in place of the published ones.")
 @map_option
 @where_option
+@without_option
 @click.option(
     "--within",
     metavar="NAME=WIDTH",
@@ -42,6 +44,7 @@ def validate(
     against: Path | None,
     mapping: tuple[str, ...],
     where: tuple[str, ...],
+    without: tuple[str, ...],
     within: tuple[str, ...],
     by: str | None,
     everything: bool,
@@ -82,7 +85,7 @@ def validate(
         if teeth:
             raise RequestError("--teeth: says what the published numbers test; it cannot be combined with --against")
         entries = [parse_entry(text) for text in mapping]
-        given = read_against(against, scene, entries, tuple(map(parse_condition, where)), strict)
+        given = read_against(against, scene, entries, tuple(map(parse_condition, where)), strict, without)
         tolerances = pairs("--within", within)
         if isinstance(given, Shots) and not tolerances:
             with bar("validate") as progress:
@@ -100,8 +103,8 @@ def validate(
             raise RequestError(f"--within: the table has its own tolerances: {against}")
         else:
             own = given
-    elif mapping or where or within or strict or by is not None or everything:
-        raise RequestError("--map, --where, --within, --by, --all and --strict require --against F.csv")
+    elif mapping or where or without or within or strict or by is not None or everything:
+        raise RequestError("--map, --where, --without, --within, --by, --all and --strict require --against F.csv")
     with bar("validate") as progress:
         rows = lab.validate(scene, changes, progress, own)
     if teeth:

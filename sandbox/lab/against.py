@@ -10,7 +10,7 @@ from typing import NamedTuple
 from sandbox import units
 from sandbox.errors import RequestError
 from sandbox.files import from_here
-from sandbox.lab.formats import Entry, recognized, stated
+from sandbox.lab.formats import Entry, recognized, stated, without
 from sandbox.lab.mapped import Mapped, Quantity, mapped
 from sandbox.lab.published import KINDS, Case, assignments, cases_by_form, form_of, tables_of, with_preset
 from sandbox.lab.selection import used
@@ -51,16 +51,23 @@ class Shots:
 
 
 def read_against(
-    path: Path, source: str | None, entries: Sequence[Entry], where: Sequence[Condition], strict: bool = False
+    path: Path,
+    source: str | None,
+    entries: Sequence[Entry],
+    where: Sequence[Condition],
+    strict: bool = False,
+    unused: Sequence[str] = (),
 ) -> list[Case] | Shots:
     """The numbers of a user's table. Raises RequestError.
 
     Without ``entries`` it has the columns of the published tables; ``source`` is the scene of rows that name none, or
     of which only those of this scene are wanted. With them, or with columns that are known, each row is a launch and
-    its results. A row with a fault is left out; with ``strict`` it is refused.
+    its results, but for ``unused`` columns. A row with a fault is left out; with ``strict`` it is refused.
     """
     table = read_table("--against", path)
     if not entries and all(name in table.names for name in _NEEDED):
+        if where or unused:
+            raise RequestError("--where and --without are for tables of launches")
         return _published(table, path, source)
     if source is None:
         raise RequestError(f"--against {path}: name the scene that its launches are for")
@@ -69,7 +76,7 @@ def read_against(
     if form is None:
         missing = next(name for name in _NEEDED if name not in table.names)
         raise RequestError(f"{table.where}: has no column {missing}, and no known ones; name them by --map")
-    return Shots(scene, path, table, mapped(scene, table, form, where, strict))
+    return Shots(scene, path, table, mapped(scene, table, without(form, unused, table), where, strict))
 
 
 def cases_of_shots(shots: Shots, within: Mapping[str, str]) -> Given:

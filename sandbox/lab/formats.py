@@ -170,6 +170,18 @@ def stated(entries: Sequence[Entry], table: Table, scene: Scene) -> Form:
     return Form(entries)
 
 
+def without(form: Form, names: Sequence[str], table: Table) -> Form:
+    """The form without these columns, each named as in the table or by what it stands for. Raises RequestError for one
+    that it does not use."""
+    for name in names:
+        kept = tuple(entry for entry in form.entries if name.lower() not in (entry.column.lower(), entry.key))
+        if len(kept) == len(form.entries):
+            used = ", ".join(f"{entry.column} ({entry.key})" for entry in form.entries) or "none"
+            raise RequestError(f"--without {name}: {table.where} is read by other columns: {shortened(used, 200)}")
+        form = replace(form, entries=kept)
+    return form
+
+
 def declared_units(scene: Scene) -> Mapping[str, str]:
     """The unit of every parameter and result, "" for a plain number."""
     parameters = {one.key: one.unit or "" for one in walk(scene.parameters)}

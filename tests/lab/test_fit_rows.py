@@ -148,6 +148,24 @@ def test_a_condition_that_cannot_hold_is_refused(tmp_path: Path, carries: list[f
         read_against(file, "golf", (), conditions(where))
 
 
+def test_a_known_column_is_left_unused(call: Call, tmp_path: Path, carries: list[float]):
+    rows = [row.replace(",3\n", ",1.25\n") for row in shots(carries)]
+    head = HEAD.replace("Side (m)", "Air Density").replace("Carry Flat - Length", "Carry Distance")
+    file = written(tmp_path, head + "".join(rows))
+    assert_refused(
+        call("fit", "golf", file, "--vary", "air.density=1:1.3"),
+        "--vary air.density: is a column of the table; to fit it, leave that out: --without air.density",
+    )
+    found = sandbox.fit("golf", file, {"air.density": (1.0, 1.3)}, without="air.density")
+    assert found.values["air.density"].value == pytest.approx(1.1, abs=1e-6)
+    assert "Air Density" in found.measured.unused
+    with pytest.raises(RequestError, match=re.escape("--without launch: --against")):
+        read_against(file, "golf", (), (), unused=("launch",))
+    read = read_against(file, "golf", (), (), unused=("Air density",))
+    assert isinstance(read, Shots)
+    assert list(read.found.given) == ["launch.speed", "launch.angle", "launch.spin"]
+
+
 def test_no_row_that_can_be_used_is_an_error(call: Call, tmp_path: Path):
     file = written(tmp_path, HEAD + next(iter(BAD)) * 2)
     refused = call("fit", "golf", file, "--vary", "air.density=1:1.3")

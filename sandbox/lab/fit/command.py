@@ -15,6 +15,7 @@ from sandbox.cli.arguments import (
     scene_argument,
     strict_option,
     where_option,
+    without_option,
 )
 from sandbox.cli.reports import Outputs, report_options
 from sandbox.files import writing
@@ -55,6 +56,7 @@ def _print_formats(context: click.Context, option: click.Parameter, value: bool)
 )
 @map_option
 @where_option
+@without_option
 @click.option(
     "--formats",
     is_flag=True,
@@ -84,6 +86,7 @@ def fit(
     balls: tuple[str, ...],
     mapping: tuple[str, ...],
     where: tuple[str, ...],
+    without: tuple[str, ...],
     models: str | None,
     strict: bool,
     robust: bool,
@@ -126,7 +129,7 @@ def fit(
         dict(map(parse_ball, balls)),
     )
     entries = tuple(map(parse_entry, mapping))
-    how = Reading(film, parse_free("--free", free), entries, tuple(map(parse_condition, where)), strict)
+    how = Reading(film, parse_free("--free", free), entries, tuple(map(parse_condition, where)), without, strict)
     data = read_data(chosen, tracks, how)
     if save is not None:
         check_saving("--save", save, has_points=not isinstance(data, Launches))

@@ -14,7 +14,7 @@ from sandbox.lab.fit.measured import Measured
 from sandbox.lab.fit.outline import Outline
 from sandbox.lab.fit.parsing import NAMES, Film, flattened, has_positions, measurements, unknown_columns
 from sandbox.lab.fit.track import Track
-from sandbox.lab.formats import Entry, device, in_table, recognized, stated
+from sandbox.lab.formats import Entry, device, in_table, recognized, stated, without
 from sandbox.lab.table_file import Column, Table, read_table, split_unit
 from sandbox.lab.where import Condition
 from sandbox.physics.forces import Gravity
@@ -33,6 +33,7 @@ class Reading:
     free: tuple[str, ...] = ()  # of the film: origin, time, tilt
     entries: tuple[Entry, ...] = ()  # columns of launches and results; known ones if there are none
     where: tuple[Condition, ...] = ()  # only rows for which these hold
+    without: tuple[str, ...] = ()  # columns of launches that are not used
     strict: bool = False  # refuse a row with a fault, which is otherwise left out
 
 
@@ -47,6 +48,8 @@ def data_of(scene: Scene, tables: Sequence[tuple[str, Table]], how: Reading) -> 
     if not how.entries and all(has_positions(table) for _, table in tables):
         if how.where:
             raise RequestError("--where is for tables of launches")
+        if how.without:
+            raise RequestError("--without is for tables of launches")
         return _track(scene, tables, how)
     form = stated(how.entries, first, scene) if how.entries else recognized(first, scene)
     if form is None and (known := device(first)) is not None:
@@ -63,7 +66,7 @@ def data_of(scene: Scene, tables: Sequence[tuple[str, Table]], how: Reading) -> 
         raise RequestError(
             f"{first.where}: is a table of launches; options for films and several tracks do not apply to it"
         )
-    return launches(scene, first, form, how.where, how.strict)
+    return launches(scene, first, without(form, how.without, first), how.where, how.strict)
 
 
 def _track(scene: Scene, tables: Sequence[tuple[str, Table]], how: Reading) -> Track | Outline:

@@ -40,6 +40,7 @@ def fit(
     balls: Mapping[str, str] | None = None,
     columns: Mapping[str, str] | None = None,
     where: Mapping[str, str] | Sequence[str] = (),
+    without: Sequence[str] = (),
     models: str | Mapping[str, Sequence[Any]] | None = None,
     robust: bool = False,
     strict: bool = False,
@@ -55,9 +56,9 @@ def fit(
     the scene's by the names in the table.
 
     A table of launches has ``columns``: ``{"Ball Speed": "launch.speed mph", "Carry": "carry yd"}``, or those of a
-    known device; only rows for which ``where`` holds are used: ``("Club=Driver", "launch.angle=10:20", "Spin<4000")``.
-    A row with a fault is left out, and listed with its reason in ``measured.left_out``; with ``strict`` it raises
-    RequestError.
+    known device ``without`` some of them; only rows for which ``where`` holds are used: ``("Club=Driver",
+    "launch.angle=10:20", "Spin<4000")``. A row with a fault is left out, and listed with its reason in
+    ``measured.left_out``; with ``strict`` it raises RequestError.
 
     Raises RequestError for an invalid request, and RunError if no run near the best values could be completed.
 
@@ -71,7 +72,8 @@ def fit(
     film = Film(None if scale is None else parse_scale(scale), (float(origin[0]), float(origin[1])), fps, balls or {})
     entries = tuple(parse_entry(f"{column}={target}") for column, target in (columns or {}).items())
     frees = parse_free("free", [free] if isinstance(free, str) else free)
-    how = Reading(film, frees, entries, conditions(where), strict)
+    left_out = (without,) if isinstance(without, str) else tuple(without)
+    how = Reading(film, frees, entries, conditions(where), left_out, strict)
     if isinstance(track, Mapping):
         measured = data_of(chosen, [("", table_of(track))], how)
     else:
@@ -94,9 +96,7 @@ def fit_track(scene: Scene, measured: Measured, spans: Sequence[Span], robust: b
         raise RequestError(f"--vary {twice}: given twice")
     given = next((key for key in keys if isinstance(measured, Launches) and key in measured.given), None)
     if given is not None:
-        raise RequestError(
-            f"--vary {given}: is a column of the table; to fit it, leave that out by naming the others (--map)"
-        )
+        raise RequestError(f"--vary {given}: is a column of the table; to fit it, leave that out: --without {given}")
     return solve(scene, measured, spans, robust)
 
 
