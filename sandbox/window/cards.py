@@ -70,9 +70,13 @@ class Cards:
             text, _ = stage.picture_of(shot).progress(playback.t)
         notes = self._notes(shot) if live else [*self._notes(shot), *stage.notes]
         referee, contest = self.game.referee, self.game.referee.contest
-        if contest is not None and referee.tells:
-            text, said, colour = headline_of(referee, contest)
-            notes = notes if self.game.grasp.holds else said
+        plays = contest is not None and not contest.takes_marks and not live  # without values of a laboratory
+        if contest is not None and (referee.tells or plays):
+            if referee.tells:
+                text, said, colour = headline_of(referee, contest)
+                notes = notes if self.game.grasp.holds else said
+            else:
+                text, notes = contest.headline, [contest.stand, *notes]
             pulled = playback is None and self.game.session.may_change(_aim_keys(shot))
             entries = [
                 (*entry, _CARD["accent" if place == contest.marked else "text"])
