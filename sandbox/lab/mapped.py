@@ -103,18 +103,32 @@ def _check_bounds(
     """Leave out rows whose values the parameters cannot have, and those in which a result is a number that stands for
     none. Raises RequestError if no row is left."""
     columns = {entry.key: entry.column for entry in form.entries}
+    outside = {key: _outside(scene, key, one.values) for key, one in given.items()}
     for place, row in enumerate(list(selection.rows)):
         for key, one in [*given.items(), *measured.items()]:
-            try:
-                if key in given:
-                    checked(scene, "", key, float(one.values[place]))
-                elif abs(one.written[place]) >= _NO_VALUE:
-                    raise RequestError(f"{key}: stands for no value")
-            except RequestError as error:
+            if key in given:
+                why = outside[key].get(float(one.values[place]), "")
+            else:
+                why = f"{key}: stands for no value" if abs(one.written[place]) >= _NO_VALUE else ""
+            if why:
                 written = f"{columns[key]} = {one.written[place]:.12g} {one.units[place]}".rstrip()
-                selection.leave_out(row, f"{written} is out of range ({str(error).strip()})")
+                selection.leave_out(row, f"{written} is out of range ({why})")
                 break
     selection.check_some()
+
+
+def _outside(scene: Scene, key: str, values: np.ndarray) -> dict[float, str]:
+    """The values that a parameter cannot have, and why. What it can have is an interval, so that the rest need no check
+    once one from either end has passed: checking a scene takes a third of a millisecond."""
+    different, found = np.unique(values).tolist(), dict[float, str]()
+    for inwards in (different, different[::-1]):
+        for value in inwards:
+            try:
+                checked(scene, "", key, value)
+                break
+            except RequestError as error:
+                found[value] = str(error).strip()
+    return found
 
 
 def column_of(table: Table, columns: Mapping[str, str], name: str, option: str) -> Column:

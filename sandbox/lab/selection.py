@@ -47,11 +47,11 @@ class Selection:
         if fault and self.strict:
             raise RequestError(f"{self.table.where}: row {row + 1}, {why}")
         self._left_out[row] = why
-        self.rows = [each for each in self.rows if each != row]
+        self.rows.remove(row)
 
     def need_numbers(self, columns: Sequence[Column]) -> None:
         """Leave out rows without a number in one of these columns."""
-        for row in self.rows:
+        for row in list(self.rows):
             fault = next((why for column in columns if (why := self.table.fault(column, row))), "")
             if fault:
                 self.leave_out(row, fault)
