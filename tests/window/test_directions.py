@@ -14,7 +14,7 @@ WINDOW = Path(sandbox.window.__file__).parent
 
 #: A module may import, late or for types too, only from rows above its own.
 ROWS = (
-    {"background", "best", "contest", "entry", "history", "layout", "memory", "messages", "sound"},
+    {"background", "best", "contest", "history", "layout", "memory", "messages", "sound"},
     {"canvas", "jobs", "shots"},
     {"bar", "charts", "fan_card", "prediction"},
     {"fan", "live", "measure", "session", "stage"},
@@ -38,6 +38,7 @@ ROWS = (
     {"pointer"},
     {"app"},
     {"command"},
+    {"entry"},
 )
 ROW = {name: row for row, names in enumerate(ROWS) for name in names}
 
