@@ -28,6 +28,9 @@ _NO_VALUE = 1e8
 #: A spin axis that is tilted by more deg is none.
 _MOST_TILT = 90.0
 
+#: Two shots that agree by chance in every cell do not have so many columns of measured numbers.
+_TOLD_APART = 4
+
 #: Cells of what was not measured, and of rows that sum others up.
 _MISSING = {"", "-", "--", "–", "n/a", "null", "none"}
 _SUMMARIES = {"avg", "avg.", "average", "averages", "dev", "dev.", "std dev", "std. dev.", "deviation", "mean", "total"}
@@ -83,6 +86,8 @@ def mapped(scene: Scene, table: Table, form: Form, where: Sequence[Condition], s
         notes.insert(0, f"only rows with {asked}: {len(selection.rows)} of {len(table)}")
     before = list(selection.rows)
     _check_bounds(scene, form, selection, given, measured)
+    if len(form.entries) >= _TOLD_APART:
+        _leave_out_repeated(table, selection)
     kept = np.isin(before, selection.rows)
     given, measured = ({key: one.of(kept) for key, one in some.items()} for some in (given, measured))
     taken = {name.lower() for name in (*(one.column for one in form.entries), *form.spin_axis, form.length_unit)}
@@ -173,6 +178,15 @@ def _rows(table: Table, form: Form, where: Sequence[Condition], strict: bool) ->
                 selection.leave_out(row, rule.why, fault=False)
     selection.check_some()
     return selection
+
+
+def _leave_out_repeated(table: Table, selection: Selection) -> None:
+    """Leave out each row that has all cells of an earlier one: a file that was joined from two has shots twice."""
+    seen: dict[tuple[str, ...], int] = {}
+    for row in list(selection.rows):
+        first = seen.setdefault(tuple(column.cells[row] for column in table.columns), row)
+        if first != row:
+            selection.leave_out(row, f"repeats row {first + 1}", fault=False)
 
 
 def _select(table: Table, form: Form, condition: Condition, selection: Selection) -> None:

@@ -148,6 +148,18 @@ def test_a_condition_that_cannot_hold_is_refused(tmp_path: Path, carries: list[f
         read_against(file, "golf", (), conditions(where))
 
 
+def test_a_row_that_repeats_another_is_left_out(tmp_path: Path, carries: list[float]):
+    good = shots(carries)
+    file = written(tmp_path, HEAD + "".join([*good, good[1], good[2].replace(",3\n", ",4\n"), good[1]]))
+    read = read_against(file, "golf", (), (), strict=True)
+    assert isinstance(read, Shots)
+    assert read.found.left_out == (LeftOut(6, "repeats row 2"), LeftOut(8, "repeats row 2"))
+    few = [parse_entry("Ball Speed=launch.speed"), parse_entry("Carry Flat - Length=carry")]  # alike by chance
+    read = read_against(file, "golf", few, ())
+    assert isinstance(read, Shots)
+    assert read.found.left_out == ()
+
+
 def test_a_known_column_is_left_unused(call: Call, tmp_path: Path, carries: list[float]):
     rows = [row.replace(",3\n", ",1.25\n") for row in shots(carries)]
     head = HEAD.replace("Side (m)", "Air Density").replace("Carry Flat - Length", "Carry Distance")
