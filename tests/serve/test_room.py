@@ -14,6 +14,7 @@ import zlib
 from math import hypot
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import sandbox
@@ -218,10 +219,11 @@ def test_a_task_is_played_to_its_end(player):
     task = tasks.load("free-throw")
     assert [each["key"] for each in scene["parameters"]] == [control.key for control in task.controls]
     assert (scene["about"], scene["task"]["attempts"]) == (task.goal, task.attempts)
-    low = {each["key"]: each["low"] for each in scene["parameters"]}
-    client.ask("path", {"launch.speed": low["launch.speed"] - 1.0})
+    low, high = next((each["low"], each["high"]) for each in scene["parameters"] if each["key"] == "launch.speed")
+    client.ask("path", {"launch.speed": low - 1.0})
     assert "must be a number from" in client.hear("error")["text"]
-    aims = [{"launch.speed": 7.0 + 0.1 * n, "launch.angle": 52.0} for n in range(task.attempts)]
+    # from far too short to far too long, wherever it starts
+    aims = [{"launch.speed": float(speed), "launch.angle": 52.0} for speed in np.linspace(low, high, task.attempts)]
     told = [client.hear("shot", n=client.ask("shoot", aim))["run"] for aim in aims[:2]]
     client.socket.socket.close()  # the network is gone
     client = player(session=session, source="free-throw")
