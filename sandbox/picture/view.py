@@ -15,7 +15,7 @@ import pygame
 
 from sandbox.engine.model.surface import Circle, Segment, Surface
 from sandbox.errors import RequestError
-from sandbox.picture.camera import Camera
+from sandbox.picture.camera import Area, Camera
 from sandbox.picture.marks import Ghost, mark_impacts, mark_measured
 from sandbox.picture.moving import NOT_WORTH_NOTING, BallDrawing
 from sandbox.picture.options import P
@@ -77,6 +77,11 @@ class View(BallDrawing[P]):
         return Ghost(label, other, self.OTHER_TRACES[i % len(self.OTHER_TRACES)], (x - there_x, y - there_y))
 
     # What a view from the side and one from above say
+
+    @property
+    def area(self) -> Area:
+        """The part of the picture for what must be seen, in px."""
+        raise NotImplementedError
 
     @cached_property
     def on_dark(self) -> bool:
@@ -207,7 +212,7 @@ class View(BallDrawing[P]):
         self._trails(sheet, camera, t)
         self.draw_measured(painter, camera)
         if self.ball in placed and t < self.caught[self.ball]:
-            sheet.surface.set_clip((0, sheet.top_row, *self.size))
+            sheet.surface.set_clip((0, min(sheet.top_row, self.area.top), *self.size))
             self.vectors.draw(sheet, *placed[self.ball], t)
             sheet.surface.set_clip(None)
         for name, spot in placed.items():

@@ -93,7 +93,7 @@ class Picture(AboveView[Parameters]):
         )
 
     @cached_property
-    def seen(self) -> np.ndarray:
+    def must_show(self) -> np.ndarray:
         """The table with its rails, which no ball leaves."""
         return np.array([self.outer]) * [[1], [-1]]
 

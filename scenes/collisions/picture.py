@@ -103,7 +103,7 @@ class Picture(AboveView[Parameters]):
         return self.look_of(name).colour
 
     @cached_property
-    def seen(self) -> np.ndarray:
+    def must_show(self) -> np.ndarray:
         """With the ends of the strings, and the rows of other rules."""
         low, high = self.surroundings
         room = np.array([0.0, 0.3 * BETWEEN * max(self.radii.values())])

@@ -76,7 +76,7 @@ class Picture(AboveView[Parameters]):
         return [Box(end, -half, end + deep, half), Box(-end - deep, -half, -end, half)]
 
     @cached_property
-    def seen(self) -> np.ndarray:
+    def must_show(self) -> np.ndarray:
         """All of a table; of the ice what the puck crosses, with whoever it comes near."""
         rink = self.parameters.rink
         whole = 0.51 * np.array([(-rink.length, -rink.width), (rink.length, rink.width)])

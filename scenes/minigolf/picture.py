@@ -43,7 +43,7 @@ class Picture(AboveView[Parameters]):
         return [Box(hole.x - hole.radius, hole.y - hole.radius, hole.x + hole.radius, hole.y + hole.radius)]
 
     @cached_property
-    def seen(self) -> np.ndarray:
+    def must_show(self) -> np.ndarray:
         """The lane with its boards, from behind the tee to behind the hole, and to where the ball goes."""
         it = self.parameters
         half = np.array([0.5 * it.lane.length + FRAME, 0.5 * it.lane.width + FRAME])

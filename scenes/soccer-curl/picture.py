@@ -122,7 +122,7 @@ class Picture(AboveView[Parameters]):
         return [Box(goal.distance, goal.offset - aside, goal.distance + goal.depth, goal.offset + aside)]
 
     @cached_property
-    def seen(self) -> np.ndarray:
+    def must_show(self) -> np.ndarray:
         """The paths, the kicker, the goal, and where the straight line meets the goal line."""
         goal = self.parameters.goal
         half, back = goal.width / 2 + ASIDE, goal.distance + goal.depth

@@ -60,7 +60,7 @@ def check(view: View) -> None:
 @pytest.mark.parametrize("source", SCENES)
 def test_nothing_covers_anything_in_any_scene_and_size(source, monkeypatch):
     for part in (FanOfShot, MapOfShot):
-        monkeypatch.setattr(part, "wanted", None)
+        monkeypatch.setattr(part, "next_key", None)
     pygame.display.init()
     app = App(
         Game(Session(source), Here(), patience=60.0), pygame.display.set_mode(SIZES[0], pygame.RESIZABLE), patience=60.0

@@ -14,7 +14,7 @@ from sandbox.engine.impact.impulses import ImpactContact, after_contact_of_bodie
 from sandbox.engine.model.ball import Ball, kinetic
 from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.surface import Bounce, Surface
-from sandbox.engine.model.tolerances import CLOSING, TOUCHING_GAP
+from sandbox.engine.model.tolerances import CLOSING, CREATED, TOUCHING_GAP
 from sandbox.engine.motion.moving_ball import MovingBall
 from sandbox.engine.paths.arc import Arc, uniform_arc
 from sandbox.engine.paths.phase import InCluster
@@ -24,10 +24,6 @@ from sandbox.physics.integrators import State
 
 #: Largest relative energy gain of a cluster in an impact: rounding in Chipmunk's iterations.
 _GAIN = 1e-7
-
-#: Relative gain of energy in an impact that ends the run. Less: rounding in Chipmunk's iterations is an error; more:
-#: energy from nothing is not noticed.
-_CREATED = 1e-6
 
 #: Alternations between balls and soft walls at one instant, after which all exchange impulses at once.
 _TURNS = 9
@@ -135,7 +131,7 @@ class Impacts:
         """Raise RunError if the bodies that touch at t have more energy after their impact than before, and the
         ``work`` (J) of what moves."""
         had, has = self._energy(before) + abs(work), self._energy(after) + abs(work) - work
-        if has - had > _CREATED * had + len(hits) * self._heaviest * self._slowest_hop**2:
+        if has - had > CREATED * had + len(hits) * self._heaviest * self._slowest_hop**2:
             names = {self._movers[index].ball.name for index in before} | {hit.partner for hit in hits}
             raise RunError(
                 f"t = {t:.6g} s: {has - had:.3g} J appeared from nothing in the impact of "

@@ -18,7 +18,7 @@ from sandbox.engine.kernel.step_control import StepControl, StepLimits, allowed
 from sandbox.engine.model.ball import Ball
 from sandbox.engine.model.setup import Setup, Until
 from sandbox.engine.model.surface import Bounce
-from sandbox.engine.model.tolerances import CLOSING
+from sandbox.engine.model.tolerances import CLOSING, CREATED
 from sandbox.engine.paths.arc import Arc, hermite_arc
 from sandbox.engine.paths.run import Numerics
 from sandbox.physics.impulse import Motion, after_impulse, surface_speeds
@@ -178,6 +178,8 @@ def _after_touch(flight: Flight, mover: _Flying, t: float, state: State) -> Next
     normal = (nx, ny) if bounce.tilt == 0.0 else tilted(nx, ny, bounce.tilt, along)
     speeds = surface_speeds(state[2:], *normal, ball.radius)[:2]
     vx, vy, spin = after_impact(state[2:], *normal, ball, speeds, bounce, flight.exchange)
+    if _energy(ball, vx, vy, spin) > (1.0 + CREATED) * _energy(ball, *state[2:]):
+        return None  # which raises the error
     after = x, y, vx, vy, spin
     flight.numerics.impacts += 1
     flight.numerics.pymunk_steps += 1
@@ -197,3 +199,9 @@ def _after_touch(flight: Flight, mover: _Flying, t: float, state: State) -> Next
     flight.numerics.force_evaluations += 1
     mover.known = after, acceleration
     return Next.ARC
+
+
+def _energy(ball: Ball, vx: float, vy: float, spin: float) -> float:
+    """Kinetic energy over half the mass, in (m/s)^2."""
+    rim = ball.radius * spin
+    return vx * vx + vy * vy + ball.inertia_factor * rim * rim

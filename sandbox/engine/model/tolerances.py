@@ -94,3 +94,9 @@ SHORTEST_STEP = 1e-15
 
 #: Added to a divisor that may be zero, or its least value; negligible compared with any other.
 TINY = 1e-300
+
+# Energy -------------------------------------------------------------------------------------------------------------
+
+#: Relative gain of energy in an impact that ends the run. Less: rounding in Chipmunk's iterations is an error; more:
+#: energy from nothing is not noticed.
+CREATED = 1e-6
