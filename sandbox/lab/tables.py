@@ -71,11 +71,11 @@ def _wrapped(text: str, room: int) -> list[str]:
     return _lines(text, letters)
 
 
-def _lines(text: str, letters: int, indent: str = "", later: str = "") -> list[str]:
-    """The text in lines of so many letters; a number and its unit stay on one line."""
+def _lines(text: str, letters: int, indent: str = "", later: str = "", breaks: bool = True) -> list[str]:
+    """The text in lines of so many letters; a number and its unit stay on one line. ``breaks`` a longer word."""
     joined = _AMOUNT.sub(lambda found: found[0].replace(" ", _FIXED_SPACE), text)
-    lines = textwrap.wrap(joined, letters, initial_indent=indent, subsequent_indent=later, break_on_hyphens=False)
-    return [line.replace(_FIXED_SPACE, " ") for line in lines]
+    wrapper = textwrap.TextWrapper(letters, indent, later, break_on_hyphens=False, break_long_words=breaks)
+    return [line.replace(_FIXED_SPACE, " ") for line in wrapper.wrap(joined)]
 
 
 def _padded(text: str, room: int, side: str) -> str:
@@ -89,8 +89,8 @@ def _columns_of(text: str) -> int:
 
 
 def paragraph(text: str, indent: str = "  ") -> list[str]:
-    """A text wrapped to ``width``; lines after the first are indented by two more."""
-    return _lines(one_line(text), width(), indent, indent + "  ")
+    """A text wrapped to ``width``; lines after the first are indented by two more. A file's name stays whole."""
+    return _lines(one_line(text), width(), indent, indent + "  ", breaks=False)
 
 
 #: Lengths below this, in m, are rounding.

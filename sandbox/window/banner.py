@@ -25,7 +25,7 @@ class Banner:
 
     def __init__(self, referee: Referee) -> None:
         self.referee, self.watching, self.messages = referee, referee.watching, referee.messages
-        self.call = "", False  # the verdict, and whether it is good
+        self.call: tuple[str, bool | None] = "", None  # the verdict, and whether it is good, where that was the task
         self.left = 0.0  # s that it stays
         self._shot: Shot | None = None  # the one that was watched last
         self._at = 0.0  # s: when its verdict is known
@@ -58,33 +58,35 @@ class Banner:
         self._at = known_at(shot) if known is None else known
 
     def _show(self, shot: Shot) -> None:
-        """Show the verdict of a shot: of all that score, and in a contest of the one that counts."""
+        """Show the verdict of a shot: of all that score, and in a contest of the one that counts. Who just plays, a
+        drive for example, has missed nothing."""
         contest = self.referee.contest
         if contest is None and shot.scene.controls.scores:
-            self.call, self.left = (shot.verdict, shot.scored), LASTS
+            self.call, self.left = (shot.verdict, shot.scored or None), LASTS
         elif contest is not None and self.referee.pending is shot:
             self.call, self.left = contest.call(shot.run), LASTS
 
 
-def banner_forms(sheet: Canvas, text: str, good: bool) -> list[Form]:
+def banner_forms(sheet: Canvas, text: str, good: bool | None) -> list[Form]:
     """A verdict: the words up to its first comma or colon in large letters, and below them the others; then smaller."""
     first, *others = re.split(r"[,;:] ", text, maxsplit=1)
     other = others[0][0].upper() + others[0][1:] if others and others[0] else ""
     return [_form(sheet, first, other, good, size) for size in ("huge", "large", "medium")]
 
 
-def _form(sheet: Canvas, first: str, other: str, good: bool, size: str) -> Form:
+def _form(sheet: Canvas, first: str, other: str, good: bool | None, size: str) -> Form:
     """A verdict with its first words in one size."""
     letters, gap, room = sheet.lettering, sheet.gap, _WIDEST * sheet.size[0]
     below = "small" if size == "medium" else "medium"
     whole = letters.width(first, size, bold=True) <= room
     first, other = sheet.shortened(first, size, room, bold=True), sheet.shortened(other, below, room)
     wide = max(letters.width(first, size, bold=True), letters.width(other, below)) + 6 * gap
+    colour = _CARD["text" if good is None else "good" if good else "bad"]
     tall = letters.height(size) + (letters.height(below) + gap) * bool(other) + 2 * gap
 
     def draw(rect: pygame.Rect) -> None:
         sheet.painter.panel(rect, _CARD["background"], 0.9, 12 * sheet.unit)
-        at = sheet.write(first, size, (rect.centerx, rect.top + gap), _CARD["good" if good else "bad"], "midtop", True)
+        at = sheet.write(first, size, (rect.centerx, rect.top + gap), colour, "midtop", True)
         if other:
             sheet.write(other, below, (rect.centerx, at.bottom), _CARD["text"], "midtop")
 
