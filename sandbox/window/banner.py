@@ -2,22 +2,11 @@
 
 from __future__ import annotations
 
-import re
-
-import pygame
-
-from sandbox.picture.palette import palette
-from sandbox.window.canvas import Canvas
-from sandbox.window.layout import Form
 from sandbox.window.referee import Referee, known_at
 from sandbox.window.shots import Shot
 
-_CARD = palette("card")
-
 #: How long it stays, in s of the window's clock, however slowly the shot is watched.
 LASTS = 1.0
-#: The most of the picture's width that it takes.
-_WIDEST = 0.6
 
 
 class Banner:
@@ -65,29 +54,3 @@ class Banner:
             self.call, self.left = (shot.verdict, shot.scored or None), LASTS
         elif contest is not None and self.referee.pending is shot:
             self.call, self.left = contest.call(shot.run), LASTS
-
-
-def banner_forms(sheet: Canvas, text: str, good: bool | None) -> list[Form]:
-    """A verdict: the words up to its first comma or colon in large letters, and below them the others; then smaller."""
-    first, *others = re.split(r"[,;:] ", text, maxsplit=1)
-    other = others[0][0].upper() + others[0][1:] if others and others[0] else ""
-    return [_form(sheet, first, other, good, size) for size in ("huge", "large", "medium")]
-
-
-def _form(sheet: Canvas, first: str, other: str, good: bool | None, size: str) -> Form:
-    """A verdict with its first words in one size."""
-    letters, gap, room = sheet.lettering, sheet.gap, _WIDEST * sheet.size[0]
-    below = "small" if size == "medium" else "medium"
-    whole = letters.width(first, size, bold=True) <= room
-    first, other = sheet.shortened(first, size, room, bold=True), sheet.shortened(other, below, room)
-    wide = max(letters.width(first, size, bold=True), letters.width(other, below)) + 6 * gap
-    colour = _CARD["text" if good is None else "good" if good else "bad"]
-    tall = letters.height(size) + (letters.height(below) + gap) * bool(other) + 2 * gap
-
-    def draw(rect: pygame.Rect) -> None:
-        sheet.painter.panel(rect, _CARD["background"], 0.9, 12 * sheet.unit)
-        at = sheet.write(first, size, (rect.centerx, rect.top + gap), colour, "midtop", True)
-        if other:
-            sheet.write(other, below, (rect.centerx, at.bottom), _CARD["text"], "midtop")
-
-    return Form((wide, tall), draw, whole)

@@ -1,7 +1,8 @@
-"""Texts and cards over the picture of a shot: headline and numbers, fan, map, charts, cost, hints, and readings."""
+"""Texts and cards over the picture of a shot: headline, numbers, verdict, fan, map, charts, cost, hints, readings."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from typing import Any
 
@@ -16,7 +17,7 @@ from sandbox.window.charts import Charts
 from sandbox.window.fan_card import fan_forms
 from sandbox.window.fan_of_shot import FanOfShot
 from sandbox.window.game import Game
-from sandbox.window.layout import Layout
+from sandbox.window.layout import Form, Layout
 from sandbox.window.map_of_shot import MapOfShot
 from sandbox.window.measure import NEAR, draw_reading, reading
 from sandbox.window.messages import reason
@@ -30,6 +31,9 @@ from sandbox.window.targets import Targets
 from sandbox.window.viewpoint import Viewpoint
 
 _CARD = palette("card")
+
+#: The most of the picture's width that a banner takes.
+_WIDEST_BANNER = 0.6
 
 
 class Cards:
@@ -176,3 +180,29 @@ def _aim_keys(shot: Shot) -> tuple[str, str]:
 def _why_none(job: LatestJob[Any], what: str) -> str:
     """The reason why there is no such value."""
     return f"{what} ..." if job.error is None else reason(job.error)
+
+
+def banner_forms(sheet: Canvas, text: str, good: bool | None) -> list[Form]:
+    """A verdict: the words up to its first comma or colon in large letters, and below them the others; then smaller."""
+    first, *others = re.split(r"[,;:] ", text, maxsplit=1)
+    other = others[0][0].upper() + others[0][1:] if others and others[0] else ""
+    return [_form(sheet, first, other, good, size) for size in ("huge", "large", "medium")]
+
+
+def _form(sheet: Canvas, first: str, other: str, good: bool | None, size: str) -> Form:
+    """A verdict with its first words in one size."""
+    letters, gap, room = sheet.lettering, sheet.gap, _WIDEST_BANNER * sheet.size[0]
+    below = "small" if size == "medium" else "medium"
+    whole = letters.width(first, size, bold=True) <= room
+    first, other = sheet.shortened(first, size, room, bold=True), sheet.shortened(other, below, room)
+    wide = max(letters.width(first, size, bold=True), letters.width(other, below)) + 6 * gap
+    colour = _CARD["text" if good is None else "good" if good else "bad"]
+    tall = letters.height(size) + (letters.height(below) + gap) * bool(other) + 2 * gap
+
+    def draw(rect: pygame.Rect) -> None:
+        sheet.painter.panel(rect, _CARD["background"], 0.9, 12 * sheet.unit)
+        at = sheet.write(first, size, (rect.centerx, rect.top + gap), colour, "midtop", True)
+        if other:
+            sheet.write(other, below, (rect.centerx, at.bottom), _CARD["text"], "midtop")
+
+    return Form((wide, tall), draw, whole)

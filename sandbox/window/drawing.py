@@ -16,9 +16,8 @@ from sandbox.picture.sheet import Entry
 from sandbox.picture.vectors import Vectors
 from sandbox.window import hand, scoreboard
 from sandbox.window.background import KeyedCache
-from sandbox.window.banner import banner_forms
 from sandbox.window.canvas import Canvas
-from sandbox.window.cards import Cards
+from sandbox.window.cards import Cards, banner_forms
 from sandbox.window.fan_of_shot import FanOfShot
 from sandbox.window.game import Game
 from sandbox.window.layout import Form, Layout

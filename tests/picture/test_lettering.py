@@ -21,10 +21,10 @@ def test_all_figures_are_equally_wide(bold):
 
 
 @pytest.mark.parametrize("height", HEIGHTS)
-def test_three_sizes_that_can_be_read(height):
+def test_sizes_that_can_be_read(height):
     pixels = Lettering(height).pixels
-    assert set(pixels) == {"small", "medium", "large"}
-    assert 11 <= pixels["small"] < pixels["medium"] < pixels["large"]
+    assert set(pixels) == {"small", "medium", "large", "huge"}
+    assert 11 <= pixels["small"] < pixels["medium"] < pixels["large"] < pixels["huge"]
 
 
 @pytest.mark.parametrize("height", HEIGHTS)
