@@ -164,14 +164,13 @@ def document(found: _Misfit) -> dict[str, Any]:
     """The numbers by result, in the unit of each, with those of the groups, and every launch."""
     return {
         "scene": found.scene,
-        "shots": found.count,
+        "rows": found.count + len(found.left_out),
+        "used": found.count,
         "left_out": found.left_out,
-        "by": found.by or None,
         "results": {
             one.result: {
                 "unit": one.unit,
                 **_summary(one),
-                "groups": {name: _summary(one.of(kept)) for name, kept in found.groups.items()},
                 "rows": [
                     {"row": row, "measured": measured, "computed": computed}
                     for row, measured, computed in zip(
@@ -180,6 +179,9 @@ def document(found: _Misfit) -> dict[str, Any]:
                 ],
             }
             for one in found.results
+        },
+        "by": {
+            name: {one.result: _summary(one.of(kept)) for one in found.results} for name, kept in found.groups.items()
         },
         "notes": found.notes,
     }

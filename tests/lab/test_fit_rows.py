@@ -242,7 +242,9 @@ def test_launches_are_compared_without_tolerances(call: Call, tmp_path: Path, ca
     expected = np.mean(off), np.std(off, ddof=1), np.sqrt(np.mean(np.square(off))), 3.0
     assert (carry["bias"], carry["sd"], carry["rms"], carry["worst"]["off"]) == pytest.approx(expected, abs=1e-6)
     assert [each["why"][:9] for each in found["left_out"]] == ["Spin Rate"]
-    assert [(name, each["n"], each["low"]) for name, each in carry["groups"].items()] == [
+    assert (found["rows"], found["used"]) == (6, 5)
+    groups = {name: results["carry"] for name, results in found["by"].items()}
+    assert [(name, each["n"], each["low"]) for name, each in groups.items()] == [
         (f"{speed:g} m/s", 1, None) for speed in SPEEDS
     ]
     said = call(*args, "--all").out
