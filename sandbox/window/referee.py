@@ -7,11 +7,8 @@ from collections.abc import Callable
 from concurrent.futures import Future
 from typing import Any
 
-import numpy as np
-
-from sandbox.engine.model.setup import Touches
 from sandbox.errors import SandboxError
-from sandbox.scene import Scene
+from sandbox.scene import Scene, deciding
 from sandbox.window.aiming import Aiming
 from sandbox.window.background import Workers
 from sandbox.window.contest import Contest, source_of
@@ -24,8 +21,6 @@ from sandbox.window.worker import computed, unpacked
 _BEFORE, _SLOWER, AFTER = 0.5, 0.25, 0.2
 #: How long a success glows, in s, and how long the end of each of the best shots stays.
 GLOW, _PAUSE = 1.6, 1.2
-#: Among so many events the one that decides is looked for.
-_MOST = 100
 
 
 class Referee:
@@ -219,35 +214,11 @@ def deciding_ball(shot: Shot, decided: float) -> str:
 
 
 def decided_at(shot: Shot) -> float:
-    """The time in s at which a shot is decided: when its verdict is known. Where that is not known before the end it
-    is with the last ball that the one that is played meets, or the last impact."""
-    run, known = shot.run, _known_before_end(shot)
-    if known is not None:
-        return known
-    met = [event for event in run.events if event.kind == "impact" and shot.ball in (event.ball, event.partner)]
-    balls = {ball.name for ball in run.setup.balls}
-    among = [event for event in met if {event.ball, event.partner} <= balls]
-    return max([event.t for event in among or met], default=run.duration)
+    """The time in s at which a shot is decided."""
+    return deciding.decided_at(shot.run, shot.ball)
 
 
 def known_at(shot: Shot) -> float:
     """The time in s at which the verdict on a shot is known, which may be at its end."""
-    known = _known_before_end(shot)
+    known = deciding.known_before_end(shot.run, shot.ball)
     return shot.run.duration if known is None else known
-
-
-def _known_before_end(shot: Shot) -> float | None:
-    """The time in s at which the fact that a shot scored is final, or else a trap, such as a pocket or a cup, takes the
-    last body; None if neither happens."""
-    run, fact = shot.run, shot.scene.facts.get(shot.scene.controls.scores)
-    final = fact.final_when if fact is not None else "end"
-    found = []
-    if final not in ("start", "end"):
-        condition = Touches(final) if isinstance(final, str) else final(shot.scene.parameters)
-        times = np.linspace(0.0, run.duration, max(2, round(run.duration / STEP)))
-        states = [tuple(state) for state in run.states(shot.ball, times)]
-        found += [t for t, a, b in zip(times[1:], states, states[1:], strict=False) if condition.passed(a, b)][:1]
-        found += [e.t for i, e in enumerate(run.events[:_MOST], 1) if condition.over(run.events[:i])][:1]
-    if found:
-        return float(min(found))
-    return max((event.t for event in run.events if event.kind == "caught"), default=None)
