@@ -37,8 +37,11 @@ def tasks(as_json: bool) -> None:
     if as_json:
         say(json_text([vars(task) for task in found]))
         return
-    rows = [(task.name, f"{task.goal} ({task.scene}, {with_noun(task.attempts, 'attempt')})") for task in found]
-    say("\n".join(table(("", ""), rows, "ll", indent="")))
+    rows = [
+        (task.name, str(task.level), f"{task.goal} ({task.scene}, {with_noun(task.attempts, 'attempt')})")
+        for task in found
+    ]
+    say("\n".join(table(("", "level", ""), rows, "lll", indent="")))
 
 
 @dataclass(frozen=True)

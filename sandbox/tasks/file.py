@@ -15,6 +15,8 @@ from sandbox.parameters import Group, choice, group, groups
 from sandbox.tasks.scoring import KINDS
 from sandbox.toml import read_toml
 
+#: Levels of difficulty.
+LEVELS = 5
 #: Most attempts at a task, and most shots of one attempt.
 _MOST_ATTEMPTS = 100
 
@@ -62,7 +64,7 @@ class TaskFile(Group):
 
     scene: str = Field(description="scene or preset, or the path of a scene of your own")
     goal: str = Field(description="the goal, in one sentence", min_length=1, max_length=120)
-    level: int = Field(1, description="order among the tasks of its scene", ge=1, le=99, strict=True)
+    level: int = Field(1, description="1 for the easiest of its scene, to 5", ge=1, le=LEVELS, strict=True)
     attempts: int = Field(description="how often the player may try", ge=1, le=_MOST_ATTEMPTS, strict=True)
     shots: int = Field(1, description="most shots of one attempt", ge=1, le=_MOST_ATTEMPTS, strict=True)
     shown: _Shown = choice("all", "how much of the path is shown")

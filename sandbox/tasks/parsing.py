@@ -63,6 +63,7 @@ class _Reader:
         return Task(
             name=self.path.stem,
             goal=file.goal,
+            level=file.level,
             scene=self.scene,
             start=start,
             controls=controls,
@@ -230,6 +231,7 @@ class TaskListing:
 
     name: str
     scene: str
+    level: int
     goal: str
     attempts: int
     score: str
@@ -239,4 +241,4 @@ def listed() -> Iterator[TaskListing]:
     """Every installed task, scene by scene in rising order of difficulty."""
     for name in tasks():
         task = load(name)
-        yield TaskListing(name, task.scene.title, task.goal, task.attempts, task.score.summary)
+        yield TaskListing(name, task.scene.title, task.level, task.goal, task.attempts, task.score.summary)

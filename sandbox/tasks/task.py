@@ -92,6 +92,7 @@ class Task:
 
     name: str
     goal: str
+    level: int  # from 1, the easiest of its scene, to 5
     scene: Scene  # as it is before anything is drawn
     start: tuple[Start, ...]
     controls: tuple[Control, ...]

@@ -15,7 +15,7 @@ from sandbox.picture.palette import palette
 from sandbox.scene import load as load_scene
 from sandbox.scene.finding import docstring, installed_folders, listings_in
 from sandbox.tasks import Task, load
-from sandbox.tasks.file import read_task_file
+from sandbox.tasks.file import LEVELS, read_task_file
 from sandbox.tasks.games import game_names, game_of
 from sandbox.text import title_of
 from sandbox.toml import read_toml
@@ -45,6 +45,7 @@ class Entry(NamedTuple):
     game: str = ""
     title: str = ""
     about: str = ""
+    level: int = 0  # of a task
 
 
 class _Sport(NamedTuple):
@@ -52,7 +53,13 @@ class _Sport(NamedTuple):
 
     name: str  # or the path of a user's own, such as ./beachvolley
     folder: Path
-    tasks: Sequence[str]  # their names, or the paths of a user's own, in no order
+    files: Sequence[Path]  # of its tasks, in no order
+    own: bool  # a user's, whose tasks are known by their paths
+
+    @property
+    def tasks(self) -> list[str]:
+        """The names of its tasks, or the paths of a user's own."""
+        return [str(file) if self.own else file.stem for file in self.files]
 
     @property
     def title(self) -> str:
@@ -66,8 +73,7 @@ def first_task() -> Task:
 
 
 def _easiest(sport: _Sport) -> str:
-    tasks = zip(sport.tasks, _task_files(sport.folder), strict=True)
-    return min(tasks, key=lambda task: read_task_file(task[1]).level)[0]
+    return min(zip(sport.tasks, sport.files, strict=True), key=lambda task: read_task_file(task[1]).level)[0]
 
 
 def sports() -> list[_Sport]:
@@ -75,8 +81,8 @@ def sports() -> list[_Sport]:
     installed = sorted(installed_folders().items(), key=lambda item: (_place(item[1]), item[0]))
     own = [(item.name, Path(item.name).resolve()) for item in listings_in(Path()) if item.name.count("/") == 1]
     return [
-        *(_Sport(name, folder, [file.stem for file in _task_files(folder)]) for name, folder in installed),
-        *(_Sport(name, folder, [str(file) for file in _task_files(folder)]) for name, folder in own),
+        *(_Sport(name, folder, _task_files(folder), own=False) for name, folder in installed),
+        *(_Sport(name, folder, _task_files(folder), own=True) for name, folder in own),
     ]
 
 
@@ -96,13 +102,13 @@ def entries_of(sport: _Sport) -> list[Entry]:
     """All that can be played in a sport: its tasks in rising order, games for two, and the scene. A task or a game that
     is damaged says so instead of what it is about."""
     found = []
-    for name, path in zip(sport.tasks, _task_files(sport.folder), strict=True):
+    for name, path in zip(sport.tasks, sport.files, strict=True):
         try:
             file = read_task_file(path)
-            found.append((file.level, Entry("task", name, "", title_of(path.stem), file.goal)))
+            found.append(Entry("task", name, "", title_of(path.stem), file.goal, file.level))
         except RequestError as error:
-            found.append((99, Entry("task", name, "", title_of(path.stem), str(error))))
-    entries = [entry for _, entry in sorted(found)]
+            found.append(Entry("task", name, "", title_of(path.stem), str(error), LEVELS + 1))
+    entries = sorted(found, key=lambda entry: (entry.level, entry.source))
     for name in game_names(sport.folder):
         try:
             rules = game_of(sport.folder, name)

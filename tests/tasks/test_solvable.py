@@ -56,17 +56,22 @@ def _passed_shot_by_shot(task: Task, values: Mapping[str, float]) -> bool:
     return session.passed
 
 
-def test_sports_with_tasks_have_three_in_rising_order():
+#: Sports that have a task at each of the five levels.
+FIVE = {"basketball", "golf", "soccer", "soccer-curl", "billiards", "baseball", "tennis", "bowling", "minigolf"}
+
+
+def test_sports_with_tasks_have_one_at_each_level_from_the_first():
     scenes = {path.parent.parent.name for path in resources.folder("scenes").glob("*/tasks/*.toml")}
     assert len(scenes) >= 19
-    found = [(of_name(name).scene.name, of_name(name).file) for name in tasks()]
     for scene in sorted(scenes):
-        names = [name for name in tasks() if of_name(name).scene.name == scene]
-        assert len(names) >= 3, scene
-    assert [file.parent.parent.name for _, file in found] == [scene for scene, _ in found]
+        levels = [of_name(name).level for name in tasks() if of_name(name).file.parent.parent.name == scene]
+        assert levels == [1, 2, 3, 4, 5] if scene in FIVE else levels == [1, 2, 3], scene
+    assert all(of_name(name).file.parent.parent.name == of_name(name).scene.name for name in tasks())
 
 
 def test_a_practised_player_makes_a_quarter_of_the_shots():
-    """As docs/measure_tasks.py has measured it, with the noise of his aim; a random shot is seldom a success."""
+    """As docs/measure_tasks.py has measured it, with the noise of his aim; a random shot is seldom a success, but for
+    the first task of a sport."""
     assert [name for name in tasks() if SOLUTIONS[name]["practised"] < 0.25] == []
-    assert [name for name in tasks() if SOLUTIONS[name]["by_chance"] > 0.3] == []
+    most = {1: 0.75}
+    assert [name for name in tasks() if SOLUTIONS[name]["by_chance"] > most.get(of_name(name).level, 0.3)] == []

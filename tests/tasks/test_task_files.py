@@ -50,6 +50,7 @@ def test_the_list_says_what_a_task_is(call):
     assert listed["free-throw"] == {
         "name": "free-throw",
         "scene": "basketball/free-throw",
+        "level": 2,
         "goal": "Make three of five free throws",
         "attempts": 5,
         "score": "made",
