@@ -114,7 +114,7 @@ class TestTheFirstScreen:
         player.settle()
         assert player.view.shown.overlay is None
         assert player.game.referee.contest.name == first_task().name
-        assert GOAL in said(player)
+        assert first_task().goal in said(player)
 
     def test_it_is_used_by_keys_alone(self, player):
         player = player("golf", (900, 560))
@@ -152,8 +152,11 @@ class TestTheFirstScreen:
         (tmp_path / "tasks").mkdir()
         (tmp_path / "tasks" / "mine.toml").write_text("goal = 5\n", "utf-8")
         (tmp_path / "scene.py").write_text('"""A scene."""\n', "utf-8")
-        sport = sports()[0]._replace(folder=tmp_path, tasks=["mine"])
-        assert "mine.toml" in entries_of(sport)[0].about
+        file = tmp_path / "tasks" / "mine.toml"
+        sport = sports()[0]._replace(folder=tmp_path, files=[file])
+        file.with_name("added.toml").write_text(DROPPED, "utf-8")  # while the window is open: it stays as it was
+        assert [entry.about for entry in entries_of(sport) if "mine.toml" in entry.about]
+        assert [entry.source for entry in entries_of(sport) if entry.kind == "task"] == ["mine"]
 
     def test_scenes_and_tasks_of_ones_own_follow_the_others(self, tmp_path, monkeypatch):
         monkeypatch.chdir(tmp_path)
