@@ -166,6 +166,23 @@ class Task:
         """True if a session with this score passes."""
         return self.score.reaches(total, self.passing)
 
+    def points(self, total: float | None) -> int:
+        """The points of a session with this score in a decathlon: 400, 700 and 1000 for one, two and three stars, in
+        proportion between them, and less for less than one."""
+        if total is None:
+            return 0
+        sign = -1.0 if self.score.lower_is_better else 1.0
+        first, *others = zip((sign * stars for stars in self.stars), (400.0, 700.0, 1000.0), strict=True)
+        score, (x, y) = sign * total, first
+        if score < x:
+            share = x / score if self.score.lower_is_better else score / x if x > 0.0 else 0.0
+            return round(y * max(0.0, share))
+        for x1, y1 in others:
+            if score < x1:
+                return round(y + (y1 - y) * (score - x) / (x1 - x))
+            x, y = x1, y1
+        return round(y)
+
     def stars_for(self, total: float | None) -> int:
         """The stars for a session with this score: 0 to 3."""
         return sum(self.score.reaches(total, threshold) for threshold in self.stars)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from datetime import date
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -195,8 +196,9 @@ def _find_one(view: View, question: Question) -> None:
     game.jobs.ask(work, then, f"looking for shots at {question.name} with {ranges} ...; Esc stops it")
 
 
-def open_menu(view: View, by: float) -> None:
-    """All scenes as tiles; each with its presets, after those opened last and the user's own."""
+def open_menu(view: View, by: float, group: str = "") -> None:
+    """All scenes as tiles; each with its presets, after those opened last and the user's own: a ``group`` of them first
+    if one is named."""
     game = view.game
     groups: dict[str, list[Row]] = {}
     for item in listings():
@@ -209,12 +211,26 @@ def open_menu(view: View, by: float) -> None:
     groups = {**{name: rows for name, rows in firsts.items() if rows}, **groups}
 
     now = game.session.source.partition("/")[0]
-    toggle(view, "menu", lambda: Menu("Choose a scene", groups, game.opening.open, now, view.thumbnails.of, _SPORTS))
+
+    def made() -> Menu:
+        menu = Menu("Choose a scene", groups, game.opening.open, now, view.thumbnails.of, _SPORTS)
+        if group in groups:
+            menu.turn_to(group)
+        return menu
+
+    toggle(view, "menu", made)
 
 
 def open_front(view: View, by: float) -> None:
     """The tiles of all sports, each with its tasks and games."""
-    toggle(view, "front", lambda: Front(partial(begin, view.game), view.game.best))
+
+    def chosen(entry: Entry) -> None:
+        if entry.kind == "presets":
+            open_menu(view, 1, entry.source)
+        else:
+            begin(view.game, entry)
+
+    toggle(view, "front", lambda: Front(chosen, view.game.best, date.today()))
 
 
 def _open_chart(view: View, name: str, draw: Callable[[Shot, tuple[int, int]], pygame.Surface]) -> None:

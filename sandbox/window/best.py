@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager, suppress
 from datetime import date
 from math import isfinite
@@ -30,6 +30,7 @@ class Best(NamedTuple):
     score: float
     stars: int
     day: str
+    flight: Mapping[str, Any] | None = None  # the changes of the task's scene that make its best shot
 
 
 class BestList:
@@ -54,9 +55,11 @@ class BestList:
         """The most stars for a task."""
         return max((best.stars for best in self.of(task)), default=0)
 
-    def add(self, task: str, score: float, stars: int, lower_is_better: bool) -> int:
+    def add(
+        self, task: str, score: float, stars: int, lower_is_better: bool, flight: Mapping[str, Any] | None = None
+    ) -> int:
         """Add a score, and write the list; returns its place from 1, or 0 if it is not among the best."""
-        self._unsaved.append((task, Best(score, stars, date.today().isoformat()), lower_is_better))
+        self._unsaved.append((task, Best(score, stars, date.today().isoformat(), flight), lower_is_better))
         with self._alone():
             self._read()  # another window may have written meanwhile
             self.tasks = dict(self._saved)
@@ -144,7 +147,16 @@ def _tasks_in(kept: Any) -> dict[str, list[Best]]:
         raise ValueError("another format")
     found = {}
     for name, scores in kept["tasks"].items():
-        found[name] = [Best(float(each["score"]), int(each["stars"]), str(each["day"])) for each in scores]
+        found[name] = [
+            Best(float(each["score"]), int(each["stars"]), str(each["day"]), _flight_in(each.get("flight")))
+            for each in scores
+        ]
         if not all(isfinite(best.score) and 0 <= best.stars <= 3 for best in found[name]):
             raise ValueError("a score that is none")
     return found
+
+
+def _flight_in(kept: Any) -> Mapping[str, Any] | None:
+    if kept is not None and not isinstance(kept, dict):
+        raise ValueError("a shot that is none")
+    return kept

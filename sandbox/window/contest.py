@@ -9,7 +9,9 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from datetime import date
 from pathlib import Path
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -20,6 +22,7 @@ from sandbox.parameters import value_at, walk
 from sandbox.scene import Scene, load
 from sandbox.scene.finding import is_installed
 from sandbox.scene.scene_run import SceneRun
+from sandbox.tasks.daily import seed_of_day, task_of_day
 from sandbox.tasks.games import game_names, game_of
 from sandbox.tasks.match import PLAYERS, Match
 
@@ -32,6 +35,15 @@ Entries = list[tuple[str, str]]
 def source_of(scene: Scene) -> str:
     """The name by which a scene can be opened again: its own, or the folder it is in."""
     return scene.title if is_installed(scene.folder) else str(scene.folder)
+
+
+class Kept(NamedTuple):
+    """What the best list keeps of a contest."""
+
+    score: float
+    stars: int
+    lower_is_better: bool
+    flight: Mapping[str, Any] | None = None  # the changes of the scene that make its best shot
 
 
 class Contest:
@@ -157,6 +169,15 @@ class Contest:
         """The result at the end, in lines."""
         return [self.said]
 
+    @property
+    def kept(self) -> Kept | None:
+        """What the best list keeps at the end; None for nothing."""
+        return None
+
+    def score_text(self, score: float) -> str:
+        """A score of the best list, in words."""
+        return f"{score:g}"
+
 
 class AtTask(Contest):
     """A task, played alone, or by two who take turns at the same starts."""
@@ -170,6 +191,7 @@ class AtTask(Contest):
         self.name = task.name if installed else str(task.file.resolve())  # by which its best list is kept
         self.goal, self.shown = task.goal, task.shown
         self.worths: list[float | None] = []  # of each shot
+        self._flights: list[dict[str, Any]] = []  # the changes of the task's scene that make each
         self._set: dict[str, float] = {}  # by the player, for the shot that is on its way
 
     @property
@@ -199,6 +221,9 @@ class AtTask(Contest):
         session, attempt = self.session, self.session.attempt
         shot = session.record(self._set, run)
         self.worths.append(shot.worth)
+        keys = [*(start.key for start in self.task.start), *self.task.defaults]
+        first = len(attempt.shots) == 1  # a later one begins where the balls lie
+        self._flights.append({key: value_at(run.scene.parameters, key) for key in keys} if first else {})
         self.said, self.good, self.counts = shot.verdict, shot.made, self.task.score.shot_text(shot.worth)
         if self.players > 1:
             self.said = f"{PLAYERS[self.turn]}: {self.said}"
@@ -240,7 +265,7 @@ class AtTask(Contest):
             ("attempts left", str(session.left)),
             ("score", self.written(session.total)),
             ("to pass", self.written(self.task.passing)),
-            ("streak", str(session.streak)),
+            ("for 1, 2, 3 stars", ", ".join(map(self.written, self.task.stars))),
         ]
 
     @property
@@ -271,6 +296,33 @@ class AtTask(Contest):
                  first is None or (second is not None and score.reaches(second, first))]  # fmt: skip
         said = "A draw" if all(ahead) else f"{PLAYERS[ahead.index(True)]} wins"
         return [f"{said}: {self.written(first)} to {self.written(second)}"]
+
+    @property
+    def kept(self) -> Kept | None:
+        session = self.session
+        if self.players > 1 or session.total is None:
+            return None
+        best = next((self._flights[place] for place in self.best_shots if self._flights[place]), None)
+        return Kept(session.total, session.stars, self.task.score.lower_is_better, best)
+
+    def score_text(self, score: float) -> str:
+        return self.task.score.text(score)
+
+
+class AtTaskOfDay(AtTask):
+    """The task of a day, with the same starts for everybody."""
+
+    def __init__(self, day: date) -> None:
+        super().__init__(tasks.load(task_of_day(day)), seed=seed_of_day(day))
+        self.day, self.name = day, self.name_of(day)
+
+    @staticmethod
+    def name_of(day: date) -> str:
+        """The name by which its best list is kept."""
+        return f"{day.isoformat()} {task_of_day(day)}"
+
+    def anew(self) -> AtTaskOfDay:
+        return AtTaskOfDay(self.day)
 
 
 class AtMatch(Contest):

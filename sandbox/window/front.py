@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from datetime import date
 from functools import cache
 from math import inf
 from pathlib import Path
@@ -11,16 +12,18 @@ from typing import NamedTuple
 import pygame
 
 from sandbox.errors import RequestError
-from sandbox.picture.palette import palette
+from sandbox.picture.palette import mix, palette
 from sandbox.scene import load as load_scene
 from sandbox.scene.finding import docstring, installed_folders, listings_in
-from sandbox.tasks import Task, load
+from sandbox.tasks import Task, find_task, load
+from sandbox.tasks.daily import task_of_day
 from sandbox.tasks.file import LEVELS, read_task_file
 from sandbox.tasks.games import game_names, game_of
-from sandbox.text import title_of
+from sandbox.text import title_of, with_noun
 from sandbox.toml import read_toml
 from sandbox.window.best import BestList
-from sandbox.window.contest import AtMatch, AtTask, Contest
+from sandbox.window.contest import AtMatch, AtTask, AtTaskOfDay, Contest
+from sandbox.window.decathlon import EVENTS, Decathlon
 from sandbox.window.game import Game
 from sandbox.window.menu import tile_of
 from sandbox.window.overlay import HOVERED, Overlay
@@ -33,15 +36,15 @@ _CARD = palette("card")
 TILE = (320, 180)
 #: Width of a tile in px on 720 rows, at most.
 _WIDEST = 240
-START_HERE = "Start here"
+START_HERE, TODAY = "Start here", "Today"
 
 
 class Entry(NamedTuple):
-    """Something that can be played: a ``task``, ``two`` at a task, a ``game`` of a scene, to ``predict`` in a scene, or
-    the ``scene`` itself."""
+    """Something that can be played: a ``task``, ``two`` at a task, a ``game`` of a scene, to ``predict`` in a scene,
+    one of its ``presets``, or the ``scene`` itself; the task of a ``day``, or a ``decathlon``."""
 
     kind: str
-    source: str  # the task, or the scene
+    source: str  # the task, the scene, or the day (ISO)
     game: str = ""
     title: str = ""
     about: str = ""
@@ -116,8 +119,16 @@ def entries_of(sport: _Sport) -> list[Entry]:
         except RequestError as error:
             entries.append(Entry("game", sport.name, name, title_of(name), str(error)))
     entries.append(Entry("predict", sport.name, "", "Predict first", "Mark where it will land, then see"))
+    presets = [title_of(file.stem) for file in sorted((sport.folder / "presets").glob("*.toml"))]
+    if presets and not sport.own:
+        entries.append(Entry("presets", sport.name, "", with_noun(len(presets), "preset"), ", ".join(presets)))
     about = docstring(sport.folder / "scene.py")
     return [*entries, Entry("scene", sport.name, "", "Just play", about)]
+
+
+def events() -> list[str]:
+    """The tasks of a decathlon: the easiest of each of the first ten sports."""
+    return [_easiest(sport) for sport in sports() if sport.tasks][:EVENTS]
 
 
 def begin(game: Game, entry: Entry) -> None:
@@ -131,6 +142,10 @@ def begin(game: Game, entry: Entry) -> None:
             return AtMatch(installed_folders().get(entry.source, Path(entry.source)), entry.game)
         if entry.kind == "predict":
             return Prediction(load_scene(entry.source))
+        if entry.kind == "day":
+            return AtTaskOfDay(date.fromisoformat(entry.source))
+        if entry.kind == "decathlon":
+            return Decathlon(events())
         return AtTask(load(entry.source), 2 if entry.kind == "two" else 1)
 
     game.messages.reporting_errors(lambda: game.referee.begin(new_contest()))
@@ -139,21 +154,24 @@ def begin(game: Game, entry: Entry) -> None:
 class Front(Overlay):
     """The tiles, or once one was chosen what can be played in that sport."""
 
-    def __init__(self, begin: Callable[[Entry], object], best: BestList) -> None:
+    def __init__(self, begin: Callable[[Entry], object], best: BestList, day: date) -> None:
+        """The task of the day is that of ``day``."""
         super().__init__()
-        self.begin, self.best, self.all = begin, best, sports()
+        self.begin, self.best, self.all, self.day = begin, best, sports(), day
+        today = Entry("day", day.isoformat(), "", title_of(task_of_day(day)))
+        self.others = [today, Entry("decathlon", "", "", "Decathlon")]
         self.sport: _Sport | None = None
         self.entries: list[Entry] = []
         self.across = 1  # tiles in a row
         self.first_sport = next((sport for sport in self.all if sport.tasks), None)
         if self.first_sport is not None and self.best.of(_easiest(self.first_sport)):
             self.first_sport = None  # it was played
-        self.chosen = self.all[0]
+        self.chosen: _Sport | Entry = self.all[0]
         self._images: dict[tuple[str, tuple[int, int]], pygame.Surface | None] = {}
 
     @property
     def rows(self) -> Sequence[_Sport | Entry]:
-        return self.entries if self.sport is not None else self.all
+        return self.entries if self.sport is not None else [*self.all, *self.others]
 
     def do(self, what: _Sport | Entry | str) -> bool:
         if isinstance(what, _Sport):
@@ -170,15 +188,15 @@ class Front(Overlay):
         return True
 
     def _to_tiles(self) -> None:
-        self.chosen, self.sport, self.first = self.sport, None, 0
+        self.chosen, self.sport, self.first = self.sport or self.all[0], None, 0
 
     def key(self, key: int) -> bool | None:
         if self.sport is not None and key in (pygame.K_ESCAPE, pygame.K_LEFT, pygame.K_BACKSPACE):
             self._to_tiles()
             return True
         if self.sport is None and key in (pygame.K_UP, pygame.K_DOWN):
-            place = self.all.index(self.chosen) + (self.across if key == pygame.K_DOWN else -self.across)
-            self.chosen = self.all[min(max(place, 0), len(self.all) - 1)]
+            place = self.rows.index(self.chosen) + (self.across if key == pygame.K_DOWN else -self.across)
+            self.chosen = self.rows[min(max(place, 0), len(self.rows) - 1)]
             self.show(self.chosen)
             return True
         return super().key(key)
@@ -221,11 +239,11 @@ class Front(Overlay):
         self.seen = self.across * lines
         self.scroll(0)
         self.scroll_bar(room, lines * tall)
-        for i, sport in enumerate(self.all[self.first : self.first + self.seen]):
+        for i, row in enumerate(self.rows[self.first : self.first + self.seen]):
             place = pygame.Rect(
                 room.left + i % self.across * (size[0] + 2 * gap), room.top + i // self.across * tall, *size
             )
-            self._tile(sport, place, below)
+            self._tile(row, place, below)
 
     def _fitting(self, room: pygame.Rect, below: int) -> tuple[int, tuple[int, int]]:
         """The number of tiles in a row, and the size of their pictures in px."""
@@ -233,34 +251,61 @@ class Front(Overlay):
         for across in range(1, 12):
             wide = min((room.width - gap + 2 * gap) // across - 2 * gap, round(_WIDEST * self.sheet.unit))
             tall = wide * TILE[1] // TILE[0]
-            lines = -(-len(self.all) // across)
+            lines = -(-len(self.rows) // across)
             if lines * (tall + below + gap) <= room.height + gap or wide < 120:
                 break
         return across, (wide, tall)
 
-    def _tile(self, sport: _Sport, place: pygame.Rect, below: int) -> None:
+    def _tile(self, row: _Sport | Entry, place: pygame.Rect, below: int) -> None:
         sheet, gap, unit = self.sheet, self.sheet.gap, self.sheet.unit
         whole = pygame.Rect(place.left, place.top, place.width, place.height + below).inflate(gap, gap)
-        self.part(whole, sport)
-        self._picture(sport, place)
-        here = whole.collidepoint(self.mouse) or (sport == self.chosen and self.hovered is None)
+        self.part(whole, row)
+        if isinstance(row, _Sport):
+            self._picture(row, place)
+        else:
+            self._mosaic(row, place)
+        here = whole.collidepoint(self.mouse) or (row == self.chosen and self.hovered is None)
         if here:
             pygame.draw.rect(sheet.surface, _CARD["accent"], place.inflate(4, 4), 3, border_radius=round(5 * unit))
-        y = place.bottom + below // 2
-        got = sum(self.best.stars(task) for task in sport.tasks)
-        right = place.right
-        if sport.tasks:
-            text = f"{got} of {3 * len(sport.tasks)}"
+        y, right, (text, lit) = place.bottom + below // 2, place.right, self._got(row)
+        if text:
             written = sheet.write(text, "small", (right, y), _CARD["quiet"], "midright")
-            star(sheet, (written.left - 1.6 * SMALL_STAR * unit, y), SMALL_STAR * unit, got > 0)
-            right = written.left - round(3 * SMALL_STAR * unit)
-        name = sheet.lettering.cut(sport.title, "small", right - place.left, True)
+            right = written.left - gap
+        if lit is not None:
+            star(sheet, (right - 0.6 * SMALL_STAR * unit, y), SMALL_STAR * unit, lit)
+            right -= round(2 * SMALL_STAR * unit)
+        name = sheet.lettering.cut(row.title, "small", right - place.left, True)
         sheet.write(name, "small", (place.left, y), _CARD["text"], "midleft", bold=True)
-        if sport is self.first_sport:
-            wide = sheet.lettering.width(START_HERE, "small", True) + 4 * gap
+        said = START_HERE if row is self.first_sport else TODAY if row is self.others[0] else ""
+        if said:
+            wide = sheet.lettering.width(said, "small", True) + 4 * gap
             badge = pygame.Rect(place.left, place.top, wide, below + gap)
             sheet.painter.panel(badge, _CARD["accent"], 1.0, 5 * unit)
-            sheet.write(START_HERE, "small", badge.center, _CARD["background"], "center", bold=True)
+            sheet.write(said, "small", badge.center, _CARD["background"], "center", bold=True)
+
+    def _got(self, row: _Sport | Entry) -> tuple[str, bool | None]:
+        """What was reached in a sport, at the task of the day, or in a decathlon, in a few words; and whether there is
+        a lit star before them, None for no star."""
+        if isinstance(row, _Sport):
+            got = sum(self.best.stars(task) for task in row.tasks)
+            return (f"{got} of {3 * len(row.tasks)}", got > 0) if row.tasks else ("", None)
+        if row.kind == "day":
+            got = self.best.stars(AtTaskOfDay.name_of(self.day))
+            return f"{got} of 3", got > 0
+        best = self.best.of(Decathlon.name)
+        return (f"{best[0].score:,.0f}" if best else ""), None
+
+    def _mosaic(self, entry: Entry, place: pygame.Rect) -> None:
+        """The picture of the task of the day: that of its sport; and that of a decathlon: pictures of its sports."""
+        if entry.kind == "day":
+            folder = find_task(task_of_day(self.day)).parent.parent
+            self._picture(next(sport for sport in self.all if sport.folder == folder), place)
+            return
+        gap = max(1, self.sheet.gap // 4)
+        wide, tall = (place.width - 2 * gap) // 3, (place.height - 2 * gap) // 3
+        for i, sport in enumerate([sport for sport in self.all if sport.tasks][: min(9, EVENTS)]):
+            left, top = place.left + i % 3 * (wide + gap), place.top + i // 3 * (tall + gap)
+            self._picture(sport, pygame.Rect(left, top, wide, tall))
 
     def _picture(self, sport: _Sport, place: pygame.Rect) -> None:
         """The picture of a sport, or a pale panel where it has none."""
@@ -304,12 +349,24 @@ class Front(Overlay):
             self.part(two, entry._replace(kind="two"), label, "quiet", left=two.left + 2 * gap)
             right = two.left - gap
         main = pygame.Rect(row.left, row.top, right - row.left, row.height)
-        self.part(main, entry, lit=0.5 * HOVERED if entry.kind == "task" else 0.0)
+        self.part(main, entry, lit=0.5 * HOVERED)
         x, small = row.left + 2 * gap, letters.height("small")
         if entry.kind == "task":
             stars(sheet, (x + SMALL_STAR * unit, row.centery), SMALL_STAR * unit, self.best.stars(entry.source))
         x += round(8 * SMALL_STAR * unit)
+        if entry.level:
+            right = min(right, self._level(entry.level, right, row.centery) - gap)
         y = row.centery - small - gap // 4
         sheet.write(letters.cut(entry.title, "small", right - x, True), "small", (x, y), _CARD["text"], bold=True)
         about = letters.cut(entry.about, "small", right - x - gap)
         sheet.write(about, "small", (x, row.centery + gap // 4), _CARD["quiet"])
+
+    def _level(self, level: int, right: float, y: float) -> int:
+        """How hard a task is, as one to five bars that grow; returns where they begin, in px."""
+        wide, gap, unit = round(4 * self.sheet.unit), round(2 * self.sheet.unit), self.sheet.unit
+        left = round(right - 2 * self.sheet.gap - LEVELS * (wide + gap))
+        for place in range(LEVELS):
+            tall = round((5 + 3 * place) * unit)
+            lit = _CARD["accent"] if place < level else mix(_CARD["background"], _CARD["quiet"], 0.35)
+            self.sheet.surface.fill(lit, (left + place * (wide + gap), round(y + 8 * unit) - tall, wide, tall))
+        return left

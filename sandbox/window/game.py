@@ -6,8 +6,11 @@ is watched, paused, or replayed from a recording. ``advance`` passes time and ne
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import Any
 
+from sandbox.errors import RequestError
+from sandbox.scene import Scene
 from sandbox.window.aiming import Aiming
 from sandbox.window.background import PATIENCE, Workers
 from sandbox.window.banner import Banner
@@ -23,7 +26,7 @@ from sandbox.window.referee import Referee
 from sandbox.window.session import Session
 from sandbox.window.shots import SHOWN, Shot, Shots
 from sandbox.window.watching import Watching
-from sandbox.window.worker import warm_up
+from sandbox.window.worker import Packed, computed, unpacked, warm_up
 from sandbox.workers import Processes
 
 
@@ -55,6 +58,8 @@ class Game:
         self.referee = Referee(self.aiming, self.workers, self.messages)
         self.referee.ended = self._contest_ended
         self.banner = Banner(self.referee)
+        self.record: Shot | None = None  # the player's best shot at the task that is played, from earlier sessions
+        self._recorded: Contest | None = None  # the contest that it is of
         self.place = 0  # of the last score at a task in the best list; 0 for none
         self.running = True
         self.still = 0.0  # s since the shot changed
@@ -100,7 +105,8 @@ class Game:
             if playback is None and self.referee.contest.takes_marks:
                 return []  # they would tell
             place = self.session.place if playback is None else playback.shot.place
-            return [shot for shot in self.referee.shots if shot is not self.shot and shot.place == place][-SHOWN:]
+            found = [shot for shot in self.referee.shots if shot is not self.shot and shot.place == place][-SHOWN:]
+            return [*found, *([self.record] if playback is not None and self.record is not None else [])]
         if playback is not None:
             return shots.earlier(playback.shot.start, but=playback.shot)
         earlier = shots.earlier((self.session.base.folder, *self.session.changes.start))
@@ -146,6 +152,7 @@ class Game:
             self.opening.reload(files)
         self.opening.take(0.0)
         self._compute(self.workers.patience)
+        self._recall()
         self.jobs.advance()
         self.still, self._last = self.still + dt if self.shot is self._last else 0.0, self.shot
         played = (0.0, 0.0) if hold else self.watching.advance(dt)
@@ -169,6 +176,24 @@ class Game:
         if patience is None or self.path.is_quick:
             self.aiming.take_path(patience)
 
+    def _recall(self) -> None:
+        """Have the best shot at a task computed again once the task begins."""
+        contest = self.referee.contest
+        if contest is self._recorded:
+            return
+        self._recorded, self.record = contest, None
+        best = self.best.of(contest.name)[:1] if isinstance(contest, AtTask) else []
+        if not best or not best[0].flight or not isinstance(contest, AtTask):
+            return
+        with suppress(RequestError):  # the task has changed since
+            scene = contest.task.scene.changed(best[0].flight)
+            work = self.workers.helper.submit(computed, scene)
+            self.jobs.ask(work, lambda found: self._take_record(contest, scene, found[0]))
+
+    def _take_record(self, contest: Contest, scene: Scene, packed: Packed) -> None:
+        if contest is self._recorded:
+            self.record = Shot(scene, unpacked(scene, packed), called="your best")
+
     def stop(self) -> bool:
         """Stop loading a scene or a long run; returns whether there was one."""
         if self.opening.stop():
@@ -179,11 +204,9 @@ class Game:
         return stopped
 
     def _contest_ended(self, contest: Contest) -> None:
-        """Keep the score at a task."""
-        self.place = 0
-        if isinstance(contest, AtTask) and contest.players == 1 and contest.session.total is not None:
-            session, lower = contest.session, contest.task.score.lower_is_better
-            self.place = self.best.add(contest.name, contest.session.total, session.stars, lower)
+        """Keep the score."""
+        kept = contest.kept
+        self.place = self.best.add(contest.name, *kept) if kept is not None else 0
         self._tell_problem()
 
     def _tell_problem(self) -> None:

@@ -10,7 +10,7 @@ import pygame
 
 from sandbox.picture.palette import Colour, mix, palette
 from sandbox.text import title_of
-from sandbox.window.best import BestList
+from sandbox.window.best import Best, BestList
 from sandbox.window.canvas import Canvas
 from sandbox.window.contest import AtTask, Contest
 from sandbox.window.layout import Form
@@ -26,7 +26,13 @@ _STAR, SMALL_STAR = 30.0, 8.0
 _RADIUS, _RAYS = 110.0, 12
 
 #: What can be done at the end, by the command that does it: its key and what it is called.
-CHOICES = {"again": ("Enter", "play again"), "next_preset": ("PgDn", "next: "), "front": ("1", "all tasks and games")}
+CHOICES = {
+    "again": ("Enter", "play again"),
+    "next_preset": ("PgDn", "next: "),
+    "page": ("F8", "share"),
+    "save_replay": ("F5", "share"),
+    "front": ("1", "all tasks and games"),
+}
 
 
 def headline_of(referee: Referee, contest: Contest) -> tuple[str, list[str], Colour]:
@@ -94,59 +100,94 @@ def draw_mark(sheet: Canvas, spots: Sequence[tuple[float, float]], upright: bool
 def end_forms(
     sheet: Canvas, contest: Contest, best: BestList, place: int, mouse: tuple[int, int], found: _Buttons
 ) -> list[Form]:
-    """The card at the end of a contest: its choices side by side, or one below the other. ``place`` is that in the best
-    list, 0 for none; the places of its buttons, by command, go into ``found`` once it is drawn."""
-    lines = [(line, "medium" if i == 0 else "small", "text" if i == 0 else "quiet")
-             for i, line in enumerate(contest.outcome)]  # fmt: skip
-    lines += [(line, "small", "quiet") for line in _best_lines(contest, best, place)]
-    choices = {name: f"{key}  {what}{title_of(contest.following) if name == 'next_preset' else ''}"
-               for name, (key, what) in CHOICES.items() if name != "next_preset" or contest.following}  # fmt: skip
-    return [_end_form(sheet, contest.stars, lines, choices, mouse, found, across) for across in (True, False)]
+    """The card at the end of a contest: its choices side by side, or one below the other, and as much of the best list
+    as there is room for. ``place`` is that in the best list, 0 for none; the places of its buttons, by command, go into
+    ``found`` once it is drawn."""
+    offered = {name: f"{key}  {what}{title_of(contest.following) if name == 'next_preset' else ''}"
+               for name, (key, what) in CHOICES.items()}  # fmt: skip
+    without = {"next_preset"} if not contest.following else set()
+    without |= {"save_replay"} if isinstance(contest, AtTask) else {"page"}
+    choices = {name: text for name, text in offered.items() if name not in without}
+    rows = best.of(contest.name) if contest.kept is not None else []
+    shown = [rows, rows[:1], []] if rows else [[]]
+    return [
+        _EndCard(sheet, contest, some, place, choices, mouse, found, across).form
+        for some in shown for across in (True, False)
+    ]  # fmt: skip
 
 
-def _end_form(
-    sheet: Canvas,
-    lit: int | None,
-    lines: Sequence[tuple[str, str, str]],
-    choices: Mapping[str, str],
-    mouse: tuple[int, int],
-    found: _Buttons,
-    across: bool,
-) -> Form:
-    """The card with ``lit`` stars, lines of text with their size and colour, and choices side by side if ``across``."""
-    letters, gap, radius = sheet.lettering, sheet.gap, _STAR * sheet.unit
-    row, count = letters.height("small") + 2 * gap, len(choices)
-    widths = {name: letters.width(text, "small") + 4 * gap for name, text in choices.items()}
-    side = sum(widths.values()) + (count - 1) * gap if across else max(widths.values())
-    head = round(2.6 * radius) if lit is not None else 0
-    texts = max(letters.width(text, size, bold=size == "medium") for text, size, _ in lines)
-    wide = min(max(texts, side, round(7.5 * radius)) + 4 * gap, sheet.frame.width)
-    tall = head + sum(letters.height(size) + gap for _, size, _ in lines) + 5 * gap
-    tall += row if across else count * (row + gap) - gap
+class _EndCard:
+    """The card at the end: stars, result, best list, and choices side by side if ``across``."""
 
-    def draw(rect: pygame.Rect) -> None:
+    def __init__(
+        self,
+        sheet: Canvas,
+        contest: Contest,
+        rows: Sequence[Best],
+        place: int,
+        choices: Mapping[str, str],
+        mouse: tuple[int, int],
+        found: _Buttons,
+        across: bool,
+    ) -> None:
+        self.sheet, self.contest, self.rows, self.place = sheet, contest, rows, place
+        self.choices, self.mouse, self.found, self.across = choices, mouse, found, across
+        letters, gap, self.radius = sheet.lettering, sheet.gap, _STAR * sheet.unit
+        self.row = letters.height("small") + 2 * gap
+        self.widths = {name: letters.width(text, "small") + 4 * gap for name, text in choices.items()}
+        count, widths = len(choices), self.widths.values()
+        self.side = sum(widths) + (count - 1) * gap if across else max(widths)
+        self.head = round(2.6 * self.radius) if contest.stars is not None else 0
+        self.lines = [(line, "medium" if i == 0 else "small") for i, line in enumerate(contest.outcome)]
+        texts = max(letters.width(text, size, bold=size == "medium") for text, size in self.lines)
+        self.scores = [contest.score_text(row.score) for row in rows]
+        self.listed = max((letters.width(text, "small", True) for text in self.scores), default=0) + round(
+            3 * self.row + 10 * SMALL_STAR * sheet.unit + letters.width("2000-00-00", "small")
+        )
+        wide = min(max(texts, self.side, round(7.5 * self.radius), self.listed) + 4 * gap, sheet.frame.width)
+        tall = self.head + sum(letters.height(size) + gap for _, size in self.lines) + 5 * gap
+        tall += (self._tall_row * len(rows) + gap) * bool(rows)
+        tall += self.row if across else count * (self.row + gap) - gap
+        self.form = Form((wide, tall), self._draw)
+
+    @property
+    def _tall_row(self) -> int:
+        """The height of a row of the best list, in px."""
+        return self.sheet.lettering.height("small") + self.sheet.gap
+
+    def _draw(self, rect: pygame.Rect) -> None:
+        sheet, gap, letters = self.sheet, self.sheet.gap, self.sheet.lettering
         sheet.painter.panel(rect, _CARD["background"], 0.94, 12 * sheet.unit)
-        if lit is not None:
-            stars(sheet, (rect.centerx - 2.4 * radius, rect.top + 2 * gap + 1.2 * radius), radius, lit)
-        y = rect.top + 2 * gap + head
-        for text, size, colour in lines:
+        if self.contest.stars is not None:
+            at = rect.centerx - 2.4 * self.radius, rect.top + 2 * gap + 1.2 * self.radius
+            stars(sheet, at, self.radius, self.contest.stars)
+        y = rect.top + 2 * gap + self.head
+        for text, size in self.lines:
             text = letters.cut(text, size, rect.width - 4 * gap, size == "medium")
-            sheet.write(text, size, (rect.centerx, y), _CARD[colour], "midtop", bold=size == "medium")
+            colour = _CARD["text" if size == "medium" else "quiet"]
+            sheet.write(text, size, (rect.centerx, y), colour, "midtop", bold=size == "medium")
             y += letters.height(size) + gap
-        left, y = rect.centerx - side // 2, y + gap
-        for name, text in choices.items():
-            button = found[name] = pygame.Rect(left, y, widths[name] if across else side, row)
-            shade = 0.35 if button.collidepoint(mouse) else 0.16
+        left, wide = rect.centerx - self.listed // 2, self.listed
+        for number, (row, score) in enumerate(zip(self.rows, self.scores, strict=True), 1):
+            self._draw_row(pygame.Rect(left, y, wide, self._tall_row), number, row, score)
+            y += self._tall_row
+        left, y = rect.centerx - self.side // 2, y + gap * (1 + bool(self.rows))
+        for name, text in self.choices.items():
+            button = self.found[name] = pygame.Rect(left, y, self.widths[name] if self.across else self.side, self.row)
+            shade = 0.35 if button.collidepoint(self.mouse) else 0.16
             sheet.item(button, text, _CARD["accent"], shade, left=button.left + 2 * gap, right=button.right)
-            left, y = (left + widths[name] + gap, y) if across else (left, y + row + gap)
+            left, y = (left + self.widths[name] + gap, y) if self.across else (left, y + self.row + gap)
 
-    return Form((wide, tall), draw)
-
-
-def _best_lines(contest: Contest, best: BestList, place: int) -> list[str]:
-    """The best scores at a task, with the place of this one."""
-    if not isinstance(contest, AtTask) or contest.players > 1:
-        return []
-    scores = ", ".join(contest.task.score.text(each.score) for each in best.of(contest.name))
-    mine = "" if place == 0 or len(best.of(contest.name)) == 1 else f", of which this is number {place}"
-    return [f"your best: {scores}{mine}"] if scores else []
+    def _draw_row(self, rect: pygame.Rect, number: int, row: Best, score: str) -> None:
+        """A row of the best list: its place, stars, score and day; that of this time is lit."""
+        sheet, gap, mine = self.sheet, self.sheet.gap, number == self.place
+        colour = _CARD["accent" if mine else "text"]
+        if mine:
+            sheet.painter.panel(rect, _CARD["accent"], 0.14, 5 * sheet.unit)
+        sheet.write(str(number), "small", (rect.left + gap, rect.centery), colour, "midleft", bold=mine)
+        left = rect.left + self.row
+        if self.contest.stars is not None:
+            stars(sheet, (left + SMALL_STAR * sheet.unit, rect.centery), SMALL_STAR * sheet.unit, row.stars)
+            left += round(8 * SMALL_STAR * sheet.unit)
+        sheet.write(score, "small", (left, rect.centery), colour, "midleft", bold=mine)
+        sheet.write(row.day, "small", (rect.right - gap, rect.centery), _CARD["quiet"], "midright")

@@ -73,6 +73,7 @@ class Shot:
     changes: Changes = Changes("", {})
     number: int = 0  # from 1 in the order of shooting; 0 while aiming
     recorded: bool = False  # read from a replay
+    called: str = "before saving"  # what it is labelled as, without a number
 
     @cached_property
     def start(self) -> tuple[Any, ...]:

@@ -147,7 +147,7 @@ class Stage:
         labels.labels.taken += layout.occupied
         labels.labels.take_path(self.line(around).tolist(), 5 * sheet.unit)
         for shot in shown:
-            name = str(shot.number) if shot.number else "before saving"
+            name = str(shot.number) if shot.number else shot.called
             text = sheet.shortened(f"{name}:  {shot.verdict}", "small", 0.3 * sheet.size[0])
             line = self.line(shot)
             places = line[np.linspace(len(line) - 1, 0, _PLACES).round().astype(int)]

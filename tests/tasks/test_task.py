@@ -142,3 +142,11 @@ def test_names_of_tasks_are_no_names_of_scenes(tmp_path: Path):
     scene.write_text('scene = "soccer"\n[goal]\ndistance = 20\n')
     assert not is_task(scene)
     assert "free-throw" in tasks()
+
+
+def test_points_of_a_decathlon_follow_the_stars():
+    made, near = load("free-throw"), load("closest-to-the-pin")
+    assert made.stars == (3.0, 4.0, 5.0)
+    assert [made.points(score) for score in (0.0, 1.5, 3.0, 4.0, 5.0)] == [0, 200, 400, 700, 1000]
+    assert near.stars == (5.0, 3.0, 1.5)  # m
+    assert [near.points(score) for score in (None, 10.0, 5.0, 4.0, 3.0, 0.0)] == [0, 200, 400, 550, 700, 1000]

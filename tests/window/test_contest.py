@@ -6,6 +6,7 @@ import json
 from collections.abc import Callable
 from concurrent.futures import wait
 from dataclasses import replace
+from datetime import date, timedelta
 from pathlib import Path
 from threading import Thread
 from types import SimpleNamespace
@@ -15,13 +16,15 @@ import pytest
 
 from sandbox import tasks
 from sandbox.errors import RequestError
+from sandbox.scene import simulate
 from sandbox.scene.finding import installed_folder, installed_folders
 from sandbox.window import commands, keeping
 from sandbox.window.app import play
 from sandbox.window.banner import LASTS
 from sandbox.window.best import MOST, Best, BestList, usual_file
-from sandbox.window.contest import AtMatch, AtTask
-from sandbox.window.front import START_HERE, TILE, Front, entries_of, first_task, sports
+from sandbox.window.contest import AtMatch, AtTask, AtTaskOfDay
+from sandbox.window.decathlon import EVENTS, Decathlon
+from sandbox.window.front import START_HERE, TILE, Front, entries_of, events, first_task, sports
 from sandbox.window.menu import TILE_FILE
 from sandbox.window.panel import SLIDER_OF
 from sandbox.window.prediction import Prediction
@@ -272,9 +275,10 @@ class TestATask:
             shoot(thrower, **({**IN, "launch__speed": 5.0} if number == 4 else IN))
         contest = referee.contest
         assert (contest.over, contest.stars, contest.session.total) == (True, 2, 4.0)
-        assert {"4 of 5 made: passed", "your best: 4 made"} <= said(thrower)
+        assert {"4 of 5 made: passed", "4 made"} <= said(thrower)
         kept = json.loads(game.best.file.read_text("utf-8"))["tasks"]["free-throw"]
         assert [(each["score"], each["stars"]) for each in kept] == [(4.0, 2)]
+        assert kept[0]["flight"] == {key.replace("__", "."): value for key, value in IN.items()}
         shown = []
 
         def three() -> bool:
@@ -287,13 +291,39 @@ class TestATask:
         assert shown == [3, 2, 1]  # all went in; of equal ones the first is the best
         thrower.frames()
         buttons = thrower.view.targets.cards
-        assert buttons.keys() >= {"again", "next_preset", "front"}
+        assert buttons.keys() >= {"again", "next_preset", "page", "front"}
         thrower.click(buttons["again"].center)
         thrower.settle()
+        assert (game.record.called, game.record.scored, game.ghosts) == ("your best", True, [])  # it would tell
+        game.watching.watch(game.record)
+        assert game.ghosts == [game.record]
+        game.watching.stop()
         assert (referee.contest is contest, referee.contest.session.left, referee.shots) == (False, 5, [])
         assert referee.contest.seed != contest.seed
         thrower.key(pygame.K_PAGEDOWN)
         assert referee.contest.name == contest.following != contest.name
+
+    def test_the_task_of_a_day_is_the_same_for_everybody(self):
+        day = date(2026, 11, 28)
+        one, other = AtTaskOfDay(day), AtTaskOfDay(day).anew()
+        assert (one.name, one.seed, one.scene) == (other.name, other.seed, other.scene)
+        days = [AtTaskOfDay.name_of(day + timedelta(each)) for each in range(len(tasks.tasks()))]
+        assert {name[11:] for name in days} == set(tasks.tasks())  # each once, and then again
+        assert one.following == ""
+
+    def test_a_decathlon_is_one_number_at_the_end(self):
+        assert len(events()) == EVENTS == len({tasks.load(name).scene.name for name in events()})
+        contest = Decathlon(["close-up", "short-putt"], seed=SEED)
+        for number in range(6):
+            run = simulate(
+                contest.scene if number else contest.scene.changed({"launch.speed": 4.6, "launch.angle": 65})
+            )
+            contest.aimed(run.scene)
+            contest.record(run)
+        assert run.scene.name == "minigolf"
+        assert (contest.over, contest.points, contest.outcome[0]) == (True, [400, 0], "400 points")
+        assert contest.kept[:2] == (400.0, 0)
+        assert (contest.anew().total, contest.anew().place) == (0, 0)
 
     def test_where_a_distance_counts_it_is_said(self, thrower):
         score = tasks.load("stop-dead").score

@@ -16,7 +16,7 @@ WINDOW = Path(sandbox.window.__file__).parent
 ROWS = (
     {"background", "best", "contest", "history", "layout", "memory", "messages", "sound"},
     {"canvas", "jobs", "shots"},
-    {"bar", "charts", "fan_card", "prediction"},
+    {"bar", "charts", "decathlon", "fan_card", "prediction"},
     {"fan", "live", "measure", "session", "stage"},
     {"aim", "export", "handles", "overlay", "pad", "replay", "score_map"},
     {"hand", "menu", "table", "worker"},
