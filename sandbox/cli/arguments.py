@@ -41,25 +41,44 @@ def prints_to_stderr(context: click.Context, parameter: object = None, wanted: b
 json_option = click.option(
     "--json", "as_json", is_flag=True, help="Print JSON instead of text.", callback=prints_to_stderr
 )
-map_option = click.option(
-    "--map",
-    "mapping",
-    metavar='"COLUMN=KEY UNIT"',
-    multiple=True,
-    help='What a column is: "Ball Speed=launch.speed mph", "Zeit=t ms"; repeatable.  [default: known names]',
-)
-where_option = click.option(
-    "--where",
-    metavar="COLUMN=TEXT",
-    multiple=True,
-    help='Only rows with this: "Club=Driver", "launch.angle=15:50", also with !=, <, <=, >, >=; repeatable.',
-)
-without_option = click.option(
-    "--without", metavar="KEY", multiple=True, help="Do not use this column of a known table: air.density; repeatable."
-)
-strict_option = click.option(
-    "--strict", is_flag=True, help="Refuse a table with a bad row.  [default: leave it out, and say why]"
-)
+
+
+def table_options(command: Command) -> Command:
+    """``--map``, ``--where``, ``--without`` and ``--strict``, given to the command as ``choices``."""
+
+    @click.option(
+        "--map",
+        "mapping",
+        metavar='"KEY=EXPRESSION [UNIT]"',
+        multiple=True,
+        help='What a parameter or result is: "launch.speed=Ball Speed [mph]", "launch.spin=Spin*cos(radians(Axis))", '
+        '"t=Zeit [ms]"; repeatable.  [default: known names]',
+    )
+    @click.option(
+        "--where",
+        metavar="COLUMN=TEXT",
+        multiple=True,
+        help='Only rows with this: "Club=Driver", "launch.angle=15:50", also with !=, <, <=, >, >=; repeatable.',
+    )
+    @click.option(
+        "--without",
+        metavar="KEY",
+        multiple=True,
+        help="Do not use this column of a known table: air.density; repeatable.",
+    )
+    @click.option("--strict", is_flag=True, help="Refuse a table with a bad row.  [default: leave it out, and say why]")
+    @wraps(command)
+    def chosen(
+        *, mapping: tuple[str, ...], where: tuple[str, ...], without: tuple[str, ...], strict: bool, **arguments: Any
+    ) -> None:
+        from sandbox.lab.formats import parse_entry
+        from sandbox.lab.mapped import Choices
+        from sandbox.lab.where import parse_condition
+
+        entries, conditions = tuple(map(parse_entry, mapping)), tuple(map(parse_condition, where))
+        command(choices=Choices(entries, conditions, without, strict), **arguments)
+
+    return chosen
 
 
 def changes_options(command: Command) -> Command:

@@ -3,30 +3,23 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from sandbox.cli.arguments import (
-    changes_options,
-    map_option,
-    optional_scene,
-    pairs,
-    strict_option,
-    where_option,
-    without_option,
-)
+from sandbox.cli.arguments import changes_options, optional_scene, pairs, table_options
 from sandbox.cli.reports import Outputs, report_options
 from sandbox.errors import RequestError
 from sandbox.text import printable
+
+if TYPE_CHECKING:
+    from sandbox.lab.mapped import Choices
 
 
 @click.command()
 @optional_scene
 @click.option("--against", metavar="F.csv", type=Path, help="A table of your own in place of the published ones.")
-@map_option
-@where_option
-@without_option
+@table_options
 @click.option(
     "--within",
     metavar="NAME=WIDTH",
@@ -36,20 +29,16 @@ from sandbox.text import printable
 @click.option("--by", metavar="COLUMN", help="Compare by the words of a column too, or by bins of its numbers.")
 @click.option("--all", "everything", is_flag=True, help="List the launches one by one.")
 @changes_options
-@strict_option
 @click.option("--teeth", is_flag=True, help="Switch off, or change by 20 %, what each row tests: does it fall?")
 @report_options
 def validate(
     scene: str | None,
     against: Path | None,
-    mapping: tuple[str, ...],
-    where: tuple[str, ...],
-    without: tuple[str, ...],
+    choices: Choices,
     within: tuple[str, ...],
     by: str | None,
     everything: bool,
     changes: dict[str, Any],
-    strict: bool,
     teeth: bool,
     outputs: Outputs,
 ) -> None:
@@ -79,17 +68,14 @@ def validate(
     if against is not None:
         from sandbox.lab import misfit
         from sandbox.lab.against import Shots, cases_of_shots, read_against
-        from sandbox.lab.formats import parse_entry
-        from sandbox.lab.where import parse_condition
 
         if teeth:
             raise RequestError("--teeth: says what the published numbers test; it cannot be combined with --against")
-        entries = [parse_entry(text) for text in mapping]
-        given = read_against(against, scene, entries, tuple(map(parse_condition, where)), strict, without)
+        given = read_against(against, scene, choices)
         tolerances = pairs("--within", within)
         if isinstance(given, Shots) and not tolerances:
             with bar("validate") as progress:
-                found = misfit.misfit(given, changes, by, strict, progress)
+                found = misfit.misfit(given, changes, by, choices.strict, progress)
             outputs.write(misfit.report_of(found), everything)
             return
         if by is not None or everything:
@@ -103,7 +89,7 @@ def validate(
             raise RequestError(f"--within: the table has its own tolerances: {against}")
         else:
             own = given
-    elif mapping or where or without or within or strict or by is not None or everything:
+    elif choices or within or by is not None or everything:
         raise RequestError("--map, --where, --without, --within, --by, --all and --strict require --against F.csv")
     with bar("validate") as progress:
         rows = lab.validate(scene, changes, progress, own)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
@@ -10,12 +10,10 @@ from typing import NamedTuple
 from sandbox import units
 from sandbox.errors import RequestError
 from sandbox.files import from_here
-from sandbox.lab.formats import Entry, recognized, stated, without
-from sandbox.lab.mapped import Mapped, Quantity, mapped
+from sandbox.lab.mapped import EVERYTHING, Choices, Mapped, Quantity, read_shots
 from sandbox.lab.published import KINDS, Case, assignments, cases_by_form, form_of, tables_of, with_preset
 from sandbox.lab.selection import used
 from sandbox.lab.table_file import Table, read_table
-from sandbox.lab.where import Condition
 from sandbox.scene import Scene, load
 from sandbox.scene.finding import is_path
 from sandbox.text import argument, no_such_result, shortened
@@ -40,7 +38,6 @@ class Shots:
 
     scene: Scene
     path: Path
-    table: Table
     found: Mapped
 
     @property
@@ -50,33 +47,26 @@ class Shots:
         return tuple(filter(None, (*self.found.notes, unused)))
 
 
-def read_against(
-    path: Path,
-    source: str | None,
-    entries: Sequence[Entry],
-    where: Sequence[Condition],
-    strict: bool = False,
-    unused: Sequence[str] = (),
-) -> list[Case] | Shots:
+def read_against(path: Path, source: str | None, choices: Choices = EVERYTHING) -> list[Case] | Shots:
     """The numbers of a user's table. Raises RequestError.
 
-    Without ``entries`` it has the columns of the published tables; ``source`` is the scene of rows that name none, or
-    of which only those of this scene are wanted. With them, or with columns that are known, each row is a launch and
-    its results, but for ``unused`` columns. A row with a fault is left out; with ``strict`` it is refused.
+    Without columns that are named it has those of the published tables; ``source`` is the scene of rows that name none,
+    or of which only those of this scene are wanted. With them, or with columns that are known, each row is a launch and
+    its results.
     """
     table = read_table("--against", path)
-    if not entries and all(name in table.names for name in _NEEDED):
-        if where or unused:
+    if not choices.entries and any(name in table.names for name in _NEEDED[1:]):
+        if choices.where or choices.without:
             raise RequestError("--where and --without are for tables of launches")
+        if (missing := next((name for name in _NEEDED if name not in table.names), None)) is not None:
+            raise RequestError(f"{table.where}: has no column {missing}")
         return _published(table, path, source)
     if source is None:
         raise RequestError(f"--against {path}: name the scene that its launches are for")
     scene = load(source)
-    form = stated(entries, table, scene) if entries else recognized(table, scene)
-    if form is None:
-        missing = next(name for name in _NEEDED if name not in table.names)
-        raise RequestError(f"{table.where}: has no column {missing}, and no known ones; name them by --map")
-    return Shots(scene, path, table, mapped(scene, table, without(form, unused, table), where, strict))
+    found = read_shots(scene, table, choices)
+    found.check_both()
+    return Shots(scene, path, found)
 
 
 def cases_of_shots(shots: Shots, within: Mapping[str, str]) -> Given:

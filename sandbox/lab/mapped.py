@@ -3,37 +3,42 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from math import cos, radians
+from dataclasses import dataclass
 
 import numpy as np
 
 from sandbox import units
 from sandbox.errors import RequestError
 from sandbox.lab.axes import checked
-from sandbox.lab.formats import Entry, Form, declared_units
-from sandbox.lab.selection import LeftOut, Selection
+from sandbox.lab.formats import (
+    SIDEWAYS,
+    ColumnMap,
+    Entry,
+    Source,
+    advice,
+    declared_units,
+    device,
+    parse_entry,
+    recognized,
+    stated,
+)
+from sandbox.lab.selection import LeftOut, Selection, rows_text
 from sandbox.lab.table_file import Column, Table, split_unit
-from sandbox.lab.where import Condition
+from sandbox.lab.where import Condition, conditions
 from sandbox.scene import Scene
 from sandbox.text import nearest, shortened
 
-#: By how much a drive comes out too long that is computed in one plane with the backspin alone, in % of its carry, by
-#: the tilt of its spin axis in deg: the error grows with the square. A test integrates the path in space.
-TILTED = {10: 0.5, 20: 2.1, 30: 4.7}
-
 #: No result of a shot is as large as this in any unit: some monitors write -21474836480 for what they did not measure.
 _NO_VALUE = 1e8
-
-#: A spin axis that is tilted by more deg is none.
-_MOST_TILT = 90.0
 
 #: Two shots that agree by chance in every cell do not have so many columns of measured numbers.
 _TOLD_APART = 4
 
 #: Cells of what was not measured, and of rows that sum others up.
-_MISSING = {"", "-", "--", "–", "n/a", "null", "none"}
-_SUMMARIES = {"avg", "avg.", "average", "averages", "dev", "dev.", "std dev", "std. dev.", "deviation", "mean", "total"}
+_MISSING = {"", "-", "--", "–", "n/a", "na", "null", "none"}
+_SUMMARIES = {"avg", "avg.", "average", "averages", "dev", "dev.", "std dev", "std. dev.", "std dev.", "deviation",
+              "mean", "total", "consistency", "durchschnitt", "mittelwert", "promedio", "moyenne",
+              "gemiddelde"}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -52,71 +57,124 @@ class Quantity:
 
 
 @dataclass(frozen=True)
+class Choices:
+    """The rows and columns that are chosen of a table of shots."""
+
+    entries: tuple[Entry, ...] = ()  # its columns; the known ones if there are none
+    where: tuple[Condition, ...] = ()  # only rows for which these hold
+    without: tuple[str, ...] = ()  # columns that are not used
+    strict: bool = False  # refuse a row with a fault, which is otherwise left out
+    beside: bool = False  # read results too that a monitor has of its own, such as the roll
+
+    def __bool__(self) -> bool:
+        """True if anything is chosen."""
+        return bool(self.entries or self.where or self.without or self.strict)
+
+
+#: All rows and known columns.
+EVERYTHING = Choices()
+
+
+def choices_of(
+    columns: Mapping[str, str] | None, where: Mapping[str, str] | Sequence[str], without: Sequence[str], strict: bool
+) -> Choices:
+    """Choices as Python gives them. Raises RequestError."""
+    entries = tuple(parse_entry(f"{key}={text}") for key, text in (columns or {}).items())
+    unused = (without,) if isinstance(without, str) else tuple(without)
+    return Choices(entries, conditions(where), unused, strict)
+
+
+@dataclass(frozen=True)
 class Mapped:
     """The quantities of each row of a table."""
 
+    table: Table
     given: Mapping[str, Quantity]  # by parameter
     measured: Mapping[str, Quantity]  # by fact
     rows: tuple[int, ...]  # of the table, the first is 1
-    notes: tuple[str, ...]  # on how it was read, and which columns are not used
+    notes: tuple[str, ...]  # on how it was read
     left_out: tuple[LeftOut, ...]
     unused: tuple[str, ...]  # the names of columns that are not used
-    columns: Mapping[str, str]  # the column of each parameter and fact
+    columns: Mapping[str, str]  # the column of each parameter and fact that is one
+
+    def check_both(self) -> None:
+        """Raise RequestError if it has nothing of the launch, or no result."""
+        if not self.measured or not self.given:
+            missing = "no result" if not self.measured else "nothing of the launch"
+            used = ", ".join([*self.given, *self.measured]) or "none"
+            raise RequestError(f"{self.table.where}: {missing} among the columns that are used: {used}")
 
 
-def mapped(scene: Scene, table: Table, form: Form, where: Sequence[Condition], strict: bool = False) -> Mapped:
-    """The columns of a form in those rows that are asked for and have them all, within the bounds of the scene's
+def read_shots(scene: Scene, table: Table, choices: Choices = EVERYTHING) -> Mapped:
+    """The parameters and results of each row of a table, by its known columns or those that are named. Raises
+    RequestError; for a table that is not known it has the ``--map`` options to complete."""
+    if choices.entries:
+        return mapped(scene, table, stated(choices.entries, table, scene, choices.without), choices)
+    found = recognized(table, scene, choices.without, choices.beside)
+    if found is None:
+        known, meant = device(table), advice(table, scene)
+        about = "its columns are not known"
+        if known is not None and known.scene != scene.name:
+            about = f"looks like {known.title}, whose columns are known for {known.scene}"
+        meant = meant or f'name them, such as --map "{next(iter(scene.facts))}=COLUMN"; it has ' + shortened(
+            ", ".join(table.names), 200
+        )
+        raise RequestError(f"{table.where}: {about}; for {scene.title} {meant}")
+    return mapped(scene, table, found, choices)
+
+
+def mapped(scene: Scene, table: Table, column_map: ColumnMap, choices: Choices = EVERYTHING) -> Mapped:
+    """The quantities of a table in those rows that are asked for and have them all, within the bounds of the scene's
     parameters. Raises RequestError; with ``strict`` also for a row with a fault."""
-    selection = _rows(table, form, where, strict)
-    declared, notes = declared_units(scene), list[str]()
+    where, strict = choices.where, choices.strict
+    selection = _rows(table, column_map, where, strict)
+    declared, notes = declared_units(scene), list(column_map.notes)
     found = {
-        entry.key: _quantity(table, form, entry, selection.rows, declared[entry.key], notes) for entry in form.entries
+        source.key: _quantity(table, column_map, source, selection.rows, declared[source.key], notes)
+        for source in column_map.sources
     }
     found = _by_values(table, found, where, selection)
     measured = {key: one for key, one in found.items() if key in scene.facts}
     given = {key: one for key, one in found.items() if key not in scene.facts}
-    if not measured or not given:
-        missing = "no result" if not measured else "nothing of the launch"
-        raise RequestError(f"{table.where}: {missing} among the columns that are used: {', '.join(found) or 'none'}")
-    notes += _in_one_plane(table, form, selection.rows)
-    if form.title:
-        notes.insert(0, f"read as {form.title}: {', '.join(f'{one.column} as {one.key}' for one in form.entries)}")
+    if column_map.form is not None:
+        named = (f"{source.column or source.expression.text} as {source.key}" for source in column_map.sources)
+        notes.insert(0, f"read as {column_map.form.title}: {', '.join(named)}")
     if where:
         asked = " and ".join(map(str, where))
         notes.insert(0, f"only rows with {asked}: {len(selection.rows)} of {len(table)}")
     before = list(selection.rows)
-    _check_bounds(scene, form, selection, given, measured)
-    if len(form.entries) >= _TOLD_APART:
+    _check_values(scene, column_map, selection, given, measured)
+    if len(found) >= _TOLD_APART:
         _leave_out_repeated(table, selection)
     kept = np.isin(before, selection.rows)
     given, measured = ({key: one.of(kept) for key, one in some.items()} for some in (given, measured))
-    taken = {name.lower() for name in (*(one.column for one in form.entries), *form.spin_axis, form.length_unit)}
-    taken |= {rule.column.lower() for rule in form.leave_out} | {one.name.lower() for one in where}
-    unused = table.others(taken)
+    unused = table.others({name.lower() for name in (*column_map.used, *(one.name for one in where))})
     rows = tuple(row + 1 for row in selection.rows)
-    columns = {one.key: one.column for one in form.entries}
-    return Mapped(given, measured, rows, tuple(notes), selection.left_out, unused, columns)
+    return Mapped(table, given, measured, rows, tuple(notes), selection.left_out, unused, column_map.columns)
 
 
-def _check_bounds(
+def _check_values(
     scene: Scene,
-    form: Form,
+    column_map: ColumnMap,
     selection: Selection,
     given: Mapping[str, Quantity],
     measured: Mapping[str, Quantity],
 ) -> None:
-    """Leave out rows whose values the parameters cannot have, and those in which a result is a number that stands for
-    none. Raises RequestError if no row is left."""
-    columns = {entry.key: entry.column for entry in form.entries}
-    outside = {key: _outside(scene, key, one.values) for key, one in given.items()}
+    """Leave out rows whose values the parameters cannot have, those in which a result is a number that stands for none,
+    and those in which arithmetic has no result. Raises RequestError if no row is left."""
+    text = {source.key: source.column or source.expression.text for source in column_map.sources}
+    outside = {key: _outside(scene, key, one.values[np.isfinite(one.values)]) for key, one in given.items()}
     for place, row in enumerate(list(selection.rows)):
         for key, one in [*given.items(), *measured.items()]:
+            if not np.isfinite(one.values[place]):
+                selection.leave_out(row, f"{text[key]} has no value")
+                break
             if key in given:
                 why = outside[key].get(float(one.values[place]), "")
             else:
                 why = f"{key}: stands for no value" if abs(one.written[place]) >= _NO_VALUE else ""
             if why:
-                written = f"{columns[key]} = {one.written[place]:.12g} {one.units[place]}".rstrip()
+                written = f"{text[key]} = {one.written[place]:.12g} {one.units[place]}".rstrip()
                 selection.leave_out(row, f"{written} is out of range ({why})")
                 break
     selection.check_some()
@@ -151,33 +209,40 @@ def _column(table: Table, name: str) -> Column | None:
     return next((one for one in table.columns if one.name.lower() == name.lower()), None)
 
 
-def _rows(table: Table, form: Form, where: Sequence[Condition], strict: bool) -> Selection:
+def _rows(table: Table, column_map: ColumnMap, where: Sequence[Condition], strict: bool) -> Selection:
     """The rows that have all values that are used and that the scene describes. Raises RequestError if none is left."""
     selection = Selection(table, strict)
     for condition in where:
-        _select(table, form, condition, selection)
-    columns = [column for entry in form.entries if (column := _column(table, entry.column)) is not None]
-    missing = _MISSING | {"0", "0.0"} if form.zeros else _MISSING
+        _select(table, column_map, condition, selection)
+    needed = [table.column(name) for name in dict.fromkeys(
+        name for source in column_map.sources if source.key not in SIDEWAYS for name in source.expression.columns
+    )]  # fmt: skip
+    zeros, rules = (False, ()) if column_map.form is None else (column_map.form.zeros, column_map.form.leave_out)
+    missing = _MISSING | {"0", "0.0"} if zeros else _MISSING
     for row in list(selection.rows):
-        cells = {one.name: one.cells[row].strip().lower() for one in columns}
+        cells = {one.name: one.cells[row].strip().lower() for one in needed}
         if any(one.cells[row].strip().lower() in _SUMMARIES for one in table.columns):
             selection.leave_out(row, "sums other rows up", fault=False)
         elif lacking := next((name for name, cell in cells.items() if cell in missing), None):
             selection.leave_out(row, f"{lacking} is missing", fault=False)
-    selection.need_numbers(columns)
-    axis = _axis(table, form)
-    if axis is not None and any(entry.column in form.total_spin for entry in form.entries):
-        selection.need_numbers([axis])
-        for row in list(selection.rows):
-            if abs(table.number(axis, row)) > _MOST_TILT:
-                selection.leave_out(row, f"{axis.name} = {axis.cells[row]} deg is beyond {_MOST_TILT:g} deg")
-    for rule in form.leave_out:
+    selection.need_numbers(needed)
+    for source in column_map.sources:
+        if source.key in SIDEWAYS:
+            columns = [table.column(name) for name in source.expression.columns]
+            some = [row for row in selection.rows if not _are_missing(columns, row)]
+            selection.need_numbers(columns, some)
+    for rule in rules:
         column = _column(table, rule.column)
         for row in list(selection.rows):
             if column is not None and rule.holds(table, column, row):
                 selection.leave_out(row, rule.why, fault=False)
     selection.check_some()
     return selection
+
+
+def _are_missing(columns: Sequence[Column], row: int) -> bool:
+    """True for a row in which any of the columns has no cell."""
+    return any(column.cells[row].strip().lower() in {*_MISSING, "nan"} for column in columns)
 
 
 def _leave_out_repeated(table: Table, selection: Selection) -> None:
@@ -189,14 +254,14 @@ def _leave_out_repeated(table: Table, selection: Selection) -> None:
             selection.leave_out(row, f"repeats row {first + 1}", fault=False)
 
 
-def _select(table: Table, form: Form, condition: Condition, selection: Selection) -> None:
+def _select(table: Table, column_map: ColumnMap, condition: Condition, selection: Selection) -> None:
     """Keep the rows for whose cells a condition holds; one on a parameter or result waits for its values. Where numbers
     are compared, a row without one is left out. Raises RequestError if none is left."""
-    columns = {entry.key: entry.column for entry in form.entries}
-    if condition.name in columns and _column(table, condition.name) is None:
+    keys, columns = {source.key for source in column_map.sources}, column_map.columns
+    if condition.name in keys and _column(table, condition.name) is None:
         return
     column = column_of(table, columns, condition.name, "--where")
-    unit = column.unit or next((one.unit for one in form.entries if one.column.lower() == column.name.lower()), "")
+    unit = column.unit or next((one.unit for one in column_map.sources if one.column == column.name), "")
     unit = unit if unit in units.KIND_OF else ""
     compares, kept = condition.compares_numbers(unit), []
     for row in list(selection.rows):
@@ -232,49 +297,54 @@ def _by_values(
     return {key: one.of(kept) for key, one in found.items()}
 
 
-def _quantity(table: Table, form: Form, entry: Entry, rows: Sequence[int], unit: str, notes: list[str]) -> Quantity:
-    """The numbers of a column, in the scene's unit too. Raises RequestError."""
-    column = _column(table, entry.column)
-    assert column is not None
-    if column.unit and entry.unit and column.unit != entry.unit and not form.title:
-        raise RequestError(
-            f"{table.where}: units are mixed: {column.name} is in {column.unit}, but --map says {entry.unit}"
-        )
-    values = table.numbers(column, rows)
-    own = [column.unit or entry.unit] * len(rows)
-    if form.length_unit and units.KIND_OF.get(unit) == "length" and (named := _column(table, form.length_unit)):
-        own = [units.suggestion(named.cells[row].strip()) or own[0] for row in rows]
-    if not own[0] and unit:
-        notes.append(f"{column.name} has no unit: taken as {unit}")
+def _quantity(
+    table: Table, column_map: ColumnMap, source: Source, rows: Sequence[int], unit: str, notes: list[str]
+) -> Quantity:
+    """The numbers of a source as they are written, and in the scene's unit. Raises RequestError."""
+    columns = [table.column(name) for name in source.expression.columns]
+    own = _own_unit(column_map, source, columns, unit)
+    if source.column and own and source.unit and own != source.unit and column_map.form is None:
+        raise RequestError(f"{table.where}: units are mixed: {source.column} is in {own}, but --map says {source.unit}")
+    numbers = [_numbers(table, source, column, rows, notes) for column in columns]
+    if column_map.form is None or source.column:
+        values = source.expression.values(numbers)
+    else:  # a device's arithmetic is in its own unit
+        mixed = [_in_unit(some, column.unit, source.unit) for some, column in zip(numbers, columns, strict=True)]
+        values = _in_unit(source.expression.values(mixed), source.unit, own or source.unit)
+    units_of = [own or source.unit] * len(rows)
+    lengths = None if column_map.form is None else _column(table, column_map.form.length_unit)
+    if lengths is not None and units.KIND_OF.get(unit) == "length":
+        units_of = [units.suggestion(lengths.cells[row].strip()) or units_of[0] for row in rows]
+    if not units_of[0] and unit:
+        notes.append(f"{source.expression.text} has no unit: taken as {unit}")
     try:
-        found = [units.convert(v, u, unit) if u else v for v, u in zip(values.tolist(), own, strict=True)]
+        found = [units.convert(v, u, unit) if u else v for v, u in zip(values.tolist(), units_of, strict=True)]
     except ValueError as error:
-        raise RequestError(f"{table.where}: {column.name} for {entry.key}: {error}") from None
-    return Quantity(values, tuple(own), np.array(found) * _share_of_spin(table, form, entry, rows), unit)
+        raise RequestError(f"{table.where}: {source.expression.text} for {source.key}: {error}") from None
+    return Quantity(values, tuple(units_of), np.array(found), unit)
 
 
-def _share_of_spin(table: Table, form: Form, entry: Entry, rows: Sequence[int]) -> np.ndarray | float:
-    """The share of a total spin that is backspin: the cosine of the axis's tilt. 1 for all else."""
-    axis = _axis(table, form)
-    if axis is None or entry.column not in form.total_spin:
-        return 1.0
-    return np.array([cos(radians(table.number(axis, row))) for row in rows])
+def _own_unit(column_map: ColumnMap, source: Source, columns: Sequence[Column], unit: str) -> str:
+    """The unit in the file: of a column, or for arithmetic the one of all its columns that measure the same as the
+    result, unless the user says another."""
+    if source.column:
+        return columns[0].unit
+    alike = {one.unit for one in columns if unit and units.KIND_OF.get(one.unit) == units.KIND_OF[unit]}
+    return alike.pop() if len(alike) == 1 and (column_map.form is not None or not source.unit) else ""
 
 
-def _axis(table: Table, form: Form) -> Column | None:
-    """The column with the tilt of the spin axis, ``11.4 L`` as 11.4 and nothing as 0; None without one."""
-    found = next((column for name in form.spin_axis if (column := _column(table, name)) is not None), None)
-    return found and replace(found, cells=tuple(cell.strip().rstrip(" LRlr") or "0" for cell in found.cells))
+def _in_unit(values: np.ndarray, given: str, unit: str) -> np.ndarray:
+    """Numbers in a unit, where theirs is of the same kind."""
+    if given == unit or units.KIND_OF.get(given) != units.KIND_OF.get(unit):
+        return values
+    return np.array([units.convert(value, given, unit) for value in values.tolist()])
 
 
-def _in_one_plane(table: Table, form: Form, rows: Sequence[int]) -> list[str]:
-    """Say what it costs that a path with a tilted spin axis is taken as in one plane."""
-    axis = _axis(table, form)
-    if axis is None or not form.title:
-        return []
-    tilts = np.abs([table.number(axis, row) for row in rows if not table.fault(axis, row)])
-    costs = ", ".join(f"{share:g} % at {tilt} deg" for tilt, share in TILTED.items())
-    return [
-        f"{axis.name}: only its cosine counts, and the path is taken as in one plane; a tour player's drive then comes "
-        f"out too long by {costs}. Here it is {np.median(tilts):.2g} deg at the median, {tilts.max():.2g} at most"
-    ]
+def _numbers(table: Table, source: Source, column: Column, rows: Sequence[int], notes: list[str]) -> np.ndarray:
+    """The numbers of a column in some rows; 0 for a missing one of what takes a shot out of the plane."""
+    if source.key not in SIDEWAYS:
+        return table.numbers(column, rows)
+    lacking = [row for row in rows if _are_missing([column], row)]
+    if lacking:
+        notes.append(f"{column.name} is missing in {rows_text([row + 1 for row in lacking])}: taken as 0")
+    return np.array([0.0 if row in set(lacking) else table.number(column, row) for row in rows])

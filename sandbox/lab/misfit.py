@@ -80,16 +80,16 @@ def misfit(
     A launch that has no such result in the scene is left out. Raises RequestError; with ``strict`` also for such a
     launch.
     """
-    changes, found = changes or {}, shots.found
+    changes, found, table = changes or {}, shots.found, shots.found.table
     scene = shots.scene.changed(changes, "--set")
     points = {key: one.values for key, one in found.given.items() if key not in changes}
     if not points:
-        raise RequestError(f"--set: gives all that {shots.table.where} has of the launch: {', '.join(found.given)}")
-    column = None if by is None else column_of(shots.table, found.columns, by, "--by")
+        raise RequestError(f"--set: gives all that {table.where} has of the launch: {', '.join(found.given)}")
+    column = None if by is None else column_of(table, found.columns, by, "--by")
     runs = simulate_many(scene, points, tuple(found.measured), progress=progress)
     words_in = next((name for name in found.measured if runs[name].dtype == object), None)
     if words_in is not None:
-        raise RequestError(f"{shots.table.where}: {words_in} is no number in {scene.title}")
+        raise RequestError(f"{table.where}: {words_in} is no number in {scene.title}")
     computed = {name: np.asarray(runs[name], dtype=float) for name in found.measured}
     faults = [
         LeftOut(row, runs.errors.get(place) or f"{scene.title} has no {lacking[0]} for this launch")
@@ -98,9 +98,9 @@ def misfit(
     ]
     left_out = tuple(sorted((*found.left_out, *faults), key=lambda each: each.row))
     if faults and strict:
-        raise RequestError(f"{shots.table.where}: row {faults[0].row}, {faults[0].why}")
+        raise RequestError(f"{table.where}: row {faults[0].row}, {faults[0].why}")
     if len(faults) == len(found.rows):
-        raise RequestError(f"{shots.table.where}: no row can be used: {reasons(left_out)}")
+        raise RequestError(f"{table.where}: no row can be used: {reasons(left_out)}")
     kept = ~np.isin(found.rows, [fault.row for fault in faults])
     rows = np.array(found.rows)
     results = tuple(_compared(name, one, rows, computed[name]).of(kept) for name, one in found.measured.items())
@@ -122,7 +122,7 @@ def _compared(name: str, one: Quantity, rows: np.ndarray, computed: np.ndarray) 
 
 def _groups(shots: Shots, column: TableColumn, rows: np.ndarray) -> dict[str, np.ndarray]:
     """The launches of each word or number in these rows; of many numbers, those in each of some bins."""
-    table, places = shots.table, (rows - 1).tolist()
+    table, places = shots.found.table, (rows - 1).tolist()
     if any(table.fault(column, place) for place in places):
         cells = np.array([column.cells[place].strip() for place in places])
         return {word or "(empty)": cells == word for word in dict.fromkeys(cells.tolist())}

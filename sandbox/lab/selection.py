@@ -49,9 +49,9 @@ class Selection:
         self._left_out[row] = why
         self.rows.remove(row)
 
-    def need_numbers(self, columns: Sequence[Column]) -> None:
-        """Leave out rows without a number in one of these columns."""
-        for row in list(self.rows):
+    def need_numbers(self, columns: Sequence[Column], rows: Sequence[int] | None = None) -> None:
+        """Leave out rows, all or of some, without a number in one of these columns."""
+        for row in list(self.rows if rows is None else rows):
             fault = next((why for column in columns if (why := self.table.fault(column, row))), "")
             if fault:
                 self.leave_out(row, fault)
@@ -67,7 +67,7 @@ def reasons(left_out: Sequence[LeftOut]) -> str:
     by_why: dict[str, list[int]] = {}
     for each in left_out:
         by_why.setdefault(each.why, []).append(each.row)
-    parts = [f"{_rows(rows)}, {why}" for why, rows in by_why.items()]
+    parts = [f"{rows_text(rows)}, {why}" for why, rows in by_why.items()]
     more = f"; and {with_noun(len(parts) - _REASONS, 'other reason')}" if len(parts) > _REASONS else ""
     return "; ".join(parts[:_REASONS]) + more
 
@@ -77,7 +77,8 @@ def used(total: int, left_out: Sequence[LeftOut], what: str = "row") -> str:
     return f"used {total - len(left_out)} of {with_noun(total, what)}: {reasons(left_out)}" if left_out else ""
 
 
-def _rows(rows: Sequence[int]) -> str:
+def rows_text(rows: Sequence[int]) -> str:
+    """``rows 3, 7 and 9``, ``row 41``."""
     if len(rows) > _ROWS:
         return f"rows {', '.join(map(str, rows[:_ROWS]))} and {len(rows) - _ROWS} more"
     *most, last = map(str, rows)

@@ -39,7 +39,12 @@ _UNIT_CELL = re.compile(r"(?:\[[^\]]*\]|\([^)]*\))?")
 
 _NUMBER = re.compile(rf"\s*{units.NUMBER}\s*")
 _THOUSANDS = re.compile(r"\s*[+-]?\d{1,3}(,\d{3})+(\.\d*)?\s*")
+#: ``12.4 R``: to the left is negative.
+_SIDE = re.compile(r"([+-]?[\d.,]+)\s*([LRlr])")
 _COMMA = re.compile(r"\s*[+-]?\d*,\d+(?:[eE][+-]?\d+)?\s*")
+
+#: Units as devices spell them, in other languages too.
+_SPELLED = {"°": "deg", "º": "deg", "yds": "yd", "g/L": "kg/m^3", "ms^-1": "m/s", "km/u": "km/h"}
 
 #: The unit of positions in a picture. It is no unit of ``sandbox.units``, since it stands for no length.
 PIXEL = "px"
@@ -72,6 +77,10 @@ class Table:
     def names(self) -> list[str]:
         return [column.name for column in self.columns]
 
+    def column(self, name: str) -> Column:
+        """The first column of this name, whatever its case."""
+        return next(column for column in self.columns if column.name.lower() == name.lower())
+
     def others(self, taken: Collection[str]) -> tuple[str, ...]:
         """The names of columns with any content that are not among those taken, which are in lower case."""
         some = (column for column in self.columns if any(cell.strip() for cell in column.cells))
@@ -94,6 +103,9 @@ class Table:
             return f"{column.name} {what}"
 
     def _parsed(self, text: str) -> float:
+        side = _SIDE.fullmatch(text)
+        if side is not None:
+            return (-1.0 if side[2] in "Ll" else 1.0) * self._parsed(side[1])
         thousands = not self.comma and _THOUSANDS.fullmatch(text)
         return float(text.replace(",", "") if thousands else text.replace(",", ".") if self.comma else text)
 
@@ -269,10 +281,9 @@ def _known_unit(text: str) -> str:
     plain = text.strip()
     if plain.lower() in ("px", "pixel", "pixels", "pix"):
         return PIXEL
-    plain = {"°": "deg", "º": "deg", "yds": "yd", "rpm": "rpm", "g/L": "kg/m^3", "sec": "s", "ms^-1": "m/s"}.get(
-        plain, plain
-    )
-    return units.suggestion(plain.replace("²", "^2").replace("³", "^3")) or plain
+    plain = _SPELLED.get(plain, plain)
+    spelled = plain.replace("²", "^2").replace("³", "^3")
+    return units.suggestion(spelled) or units.suggestion(spelled.partition(" ")[0]) or plain  # "rpm l-/r+"
 
 
 def _of_json(where: str, text: str) -> Table:

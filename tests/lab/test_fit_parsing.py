@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +17,8 @@ from sandbox.lab.fit.data import Reading, data_of, read_data, table_of
 from sandbox.lab.fit.launches import Launches
 from sandbox.lab.fit.outline import distances
 from sandbox.lab.fit.parsing import Film, measurements, parse_scale
-from sandbox.lab.formats import forms, parse_entry, recognized
+from sandbox.lab.formats import forms, recognized
+from sandbox.lab.mapped import choices_of
 from sandbox.lab.report import as_text
 from sandbox.lab.selection import LeftOut
 from sandbox.lab.table_file import read_table
@@ -68,13 +70,13 @@ def test_pixels_have_y_downwards_and_frames_have_no_times(tmp_path):
 
 def test_names_of_columns_can_be_given():
     track = {"Zeit": [0, 100, 200], "rechts (cm)": [0, 50, 100], "hoch": [210, 260, 290]}
-    columns = {"Zeit": "t ms", "rechts (cm)": "x", "hoch": "y cm"}
-    entries = tuple(parse_entry(f"{column}={target}") for column, target in columns.items())
-    found = data_of(sandbox.load("throws"), [("", table_of(track))], Reading(entries=entries))
+    columns = {"t": "Zeit [ms]", "x": "rechts (cm)", "y": "hoch+0.5-1/2 [cm]"}
+    choices = choices_of(columns, (), (), strict=False)
+    found = data_of(sandbox.load("throws"), [("", table_of(track))], Reading(choices=choices))
     assert found.times == pytest.approx([0.0, 0.0, 0.1, 0.1, 0.2, 0.2])
     assert found.positions == pytest.approx(np.array([[0.0, 2.1], [0.5, 2.6], [1.0, 2.9]]))
-    with pytest.raises(RequestError, match="has no column 'weit', which --map names"):
-        sandbox.fit("throws", track, {"launch.speed": (2, 20)}, columns={"weit": "x", "hoch": "y"})
+    with pytest.raises(RequestError, match=r"--map x=weit: has no column 'weit'; did you mean Zeit\? Write it as"):
+        sandbox.fit("throws", track, {"launch.speed": (2, 20)}, columns={"x": "weit", "y": "hoch"})
 
 
 def test_several_balls_come_side_by_side_or_in_files(tmp_path):
@@ -141,11 +143,19 @@ def test_what_is_no_track_is_one_line(tmp_path, capsys, text):
         (["--fps", "30"], "has no column frame"),
         (["--ball", "ball=egg"], "no ball 'egg'"),
         (["--ball", "egg=ball"], "has no ball 'egg'; it has ball"),
-        (["--map", "x=launch.speeed m/s"], "no such parameter or result in throws; did you mean launch.speed?"),
-        (["--map", "z=launch.speed m/s"], "has no column 'z', which --map names"),
-        (["--map", "x=launch.speed parsec"], "parsec is not a known unit"),
-        (["--map", "x=launch.speed kg", "--map", "y=apex m"], "x for launch.speed: kg is a unit of mass"),
-        (["--map", "x=apex m"], "nothing of the launch among the columns that are used"),
+        (["--map", "launch.speeed=x"], "no such parameter or result in throws; did you mean launch.speed?"),
+        (
+            ["--map", "launch.speed=z [m/s]"],
+            "--map launch.speed=z [m/s]: has no column 'z'; it has t, x, y, ball",
+        ),
+        (["--map", "launch.speed=x [parsec]"], "parsec is not a known unit"),
+        (["--map", "launch.speed=x [kg]", "--map", "apex=y [m]"], "x for launch.speed: kg is a unit of mass"),
+        (["--map", "apex=x [m]"], "nothing of the launch among the columns that are used"),
+        (["--map", "x=launch.speed m/s"], 'the key comes first: --map "launch.speed=x [m/s]"'),
+        (["--map", "apex"], '--map apex: write it as "KEY=EXPRESSION [UNIT]", for example'),
+        (["--map", "apex=2*(x+y"], "at '(x+y' (character 3): does not parse"),
+        (["--map", "apex=x.__class__"], "has no column '__class__'"),
+        (["--map", "apex=open(x)"], "open is no function; there are sin, cos,"),
     ],
 )
 def test_options_that_do_not_fit_are_one_line(tmp_path, capsys, options, wrong):
@@ -236,7 +246,7 @@ def devices(carries: tuple[list[float], list[float]]) -> dict[str, str]:
     rows = list(zip(*SHOTS.values(), *carries, strict=True))
     trackman = "sep=,\nClub,Ball Speed,Launch Angle,Spin Rate,Spin Axis,Carry Flat - Length,Max Height - Height\n"
     trackman += ",[mph],[deg],[rpm],[deg],[yds],[ft]\n"
-    trackman += "".join(f"D,{v / 0.44704},{a},{s / 0.8},{np.degrees(np.arccos(0.8))},{c / 0.9144},{h / 0.3048}\n"
+    trackman += "".join(f"D,{v / 0.44704},{a},{s},0,{c / 0.9144},{h / 0.3048}\n"
                         for v, a, s, c, h in rows)  # fmt: skip
     garmin = "Club Type,Ball Speed,Launch Angle,Backspin,Spin Rate,Apex Height,Carry Distance\n"
     garmin += ",[km/h],[deg],[rpm],[rpm],[m],[Meters]\n"
@@ -258,15 +268,14 @@ def test_the_columns_of_a_device_are_known(tmp_path, carries, device):
     file = tmp_path / "shots.csv"
     file.write_text(devices(carries)[device], "utf-8")
     found = read_data(sandbox.load("golf"), [file], Reading())
-    assert {key: values.tolist() for key, values in found.given.items()} == {
-        key: pytest.approx(values) for key, values in SHOTS.items()
-    }
+    given = {key: values.tolist() for key, values in found.given.items()}
+    assert given.pop("launch.axis", [0.0] * 4) == [0.0] * 4
+    assert given == {key: pytest.approx(values) for key, values in SHOTS.items()}
     assert found.measured["carry"] == pytest.approx(carries[0])
     assert device == "gspro" or found.measured["apex"] == pytest.approx(carries[1])
     assert forms()[device].title in " ".join(found.notes)
-    assert found.residuals(sandbox.load("golf"), ["air.density"], np.array([[1.1]]), 0.0) == pytest.approx(
-        0.0, abs=1e-6
-    )
+    left = found.residuals(sandbox.load("golf"), ["air.density"], np.array([[1.1]]), 0.0)
+    assert left == pytest.approx(0.0, abs=1e-6)
 
 
 def test_a_device_has_units_where_the_file_has_none(tmp_path, carries):
@@ -290,7 +299,7 @@ def test_statcast_and_columns_by_hand(tmp_path):
     known = read_data(baseball, [tmp_path / "statcast.csv"], Reading())
     assert known.measured["distance"] == pytest.approx(far["distance"])
     assert known.left_out == (LeftOut(4, "launch_speed is missing"),)
-    columns = {"Exit": "launch.speed mph", "Up": "launch.angle", "Far": "distance ft"}
+    columns = {"launch.speed": "Exit [mph]", "launch.angle": "Up", "distance": "Far [ft]"}
     noise = [0.4, -0.3, 0.1]
     table = {
         "Exit": [v / 0.44704 for v in speeds],
@@ -308,7 +317,7 @@ def test_statcast_and_columns_by_hand(tmp_path):
 def test_results_that_a_run_meets_exactly_are_no_error():
     speeds = {"launch.speed": [10.0, 12.0, 14.0]}
     apexes = sandbox.simulate_many("throws", speeds, facts=("apex",))["apex"]
-    columns = {"launch.speed": "launch.speed m/s", "apex": "apex m"}
+    columns = {"launch.speed": "launch.speed [m/s]", "apex": "apex [m]"}
     found = sandbox.fit("throws", {**speeds, "apex": apexes}, {"gravity": (8, 12)}, columns=columns)
     assert found.values["gravity"].value == pytest.approx(9.81, abs=1e-9)
     assert as_text(found.report())
@@ -319,13 +328,15 @@ def test_known_columns_are_listed_without_a_scene():
     assert shown.exit_code == 0
     for form in forms().values():
         assert form.title in shown.output
-        assert all(f'--map "{entry.column}={entry.key} {entry.unit}"' in shown.output for entry in form.entries)
+        assert all(f'--map "{entry}"' in shown.output for group in form.columns for entry in group)
 
 
 def test_a_table_that_is_not_known_says_so(tmp_path):
     (tmp_path / "x.csv").write_text("speed,far\n1,2\n")
     assert recognized(read_table("track", tmp_path / "x.csv"), sandbox.load("golf")) is None
-    with pytest.raises(RequestError, match=r"needs one column x .* a table of launches needs --map, see --formats"):
+    with pytest.raises(
+        RequestError, match=re.escape('speed seem known; complete and give --map "launch.speed=speed [m/s]"')
+    ):
         sandbox.fit("golf", tmp_path / "x.csv", {"air.density": (1, 2)})
 
 
@@ -387,7 +398,7 @@ def test_a_long_table_takes_fewer_starts(monkeypatch):
 
     monkeypatch.setattr(Launches, "residuals", counted)
     table = {"a (deg)": np.repeat(angles[::25], 25), "d (m)": distances}
-    columns = {"a (deg)": "launch.angle", "d (m)": "distance"}
+    columns = {"launch.angle": "a (deg)", "distance": "d (m)"}
     found = sandbox.fit("throws", table, {"launch.speed": (10, 20)}, columns=columns)
     assert found.values["launch.speed"].value == pytest.approx(14.0)
     assert tried[0] == 1 + 1000 // 100
@@ -401,7 +412,8 @@ def test_a_long_table_takes_fewer_starts(monkeypatch):
         ("result,value,tolerance,unit\ncarry,x,1,m\n", "row 1, value = 'x' is not a number"),
         ("result,value,tolerance,unit,kind\ncarry,1,1,m,guess\n", "row 1, kind = 'guess' is none of exact"),
         ("result,value,tolerance,units\ncarry,1,1,m\n", "column 'units' is none of"),
-        ("a,b\n1,2\n", "has no column result"),
+        ("a,b\n1,2\n", 'its columns are not known; for golf name them, such as --map "carry=COLUMN"; it has a, b'),
+        ("value,tolerance\n1,2\n", "has no column result"),
         ("result,set,value,tolerance\ncarry,launch.sped=3,1,1\n", "row 1, set launch.sped: unknown key"),
         ("result,value,tolerance,unit\ncarry,1,-1,m\n", "row 1, tolerance = -1: must be 0 or more"),
         ("result,value,tolerance,unit\ncarry,1,-2%,m\n", "row 1, tolerance = -2%: must be 0 or more"),

@@ -3,22 +3,16 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from sandbox.cli.arguments import (
-    changes_options,
-    load,
-    map_option,
-    say,
-    scene_argument,
-    strict_option,
-    where_option,
-    without_option,
-)
+from sandbox.cli.arguments import changes_options, load, say, scene_argument, table_options
 from sandbox.cli.reports import Outputs, report_options
 from sandbox.files import writing
+
+if TYPE_CHECKING:
+    from sandbox.lab.mapped import Choices
 
 
 def _print_formats(context: click.Context, option: click.Parameter, value: bool) -> None:
@@ -54,9 +48,7 @@ def _print_formats(context: click.Context, option: click.Parameter, value: bool)
 @click.option(
     "--ball", "balls", metavar="[NAME=]BALL", multiple=True, help="The scene's ball that a track is of; repeatable."
 )
-@map_option
-@where_option
-@without_option
+@table_options
 @click.option(
     "--formats",
     is_flag=True,
@@ -70,7 +62,6 @@ def _print_formats(context: click.Context, option: click.Parameter, value: bool)
     metavar="KEY[=A,B]",
     help="Fit each of these models, such as ball.drag.model=constant,none, and compare.",
 )
-@strict_option
 @click.option("--robust", is_flag=True, help="Count points with gross errors less or not at all (Tukey's biweight).")
 @click.option("--save", metavar="F.toml", type=Path, help="The fitted scene; its pictures show the points (F.csv).")
 @changes_options
@@ -84,11 +75,8 @@ def fit(
     origin: str | None,
     fps: float | None,
     balls: tuple[str, ...],
-    mapping: tuple[str, ...],
-    where: tuple[str, ...],
-    without: tuple[str, ...],
+    choices: Choices,
     models: str | None,
-    strict: bool,
     robust: bool,
     save: Path | None,
     changes: dict[str, Any],
@@ -106,7 +94,7 @@ def fit(
       sandbox fit throws film.txt --vary launch.speed=5:20 --vary launch.angle=20:60 --free time,origin
       sandbox fit basketball clicks.csv --scale "96 px = 1 m" --origin 212,655 --vary launch.speed=6:9
       sandbox fit golf shots.csv --where Club=Driver --vary air.density=1:1.3
-      sandbox fit golf shots.csv --map "Speed=launch.speed mph" --map "Carry=carry yd" --vary launch.angle=5:20
+      sandbox fit golf shots.csv --map "launch.speed=Speed [mph]" --map "carry=Carry [yd]" --vary launch.angle=5:20
     """
     from sandbox.lab.fit.data import Reading
     from sandbox.lab.fit.fitting import fit_track, parse_varied, read_data
@@ -117,8 +105,6 @@ def fit(
     from sandbox.lab.fit.report import report_of
     from sandbox.lab.fit.saving import check_saving
     from sandbox.lab.fit.saving import save as saved
-    from sandbox.lab.formats import parse_entry
-    from sandbox.lab.where import parse_condition
 
     chosen = load(scene, changes)
     spans = [parse_varied(chosen, text) for text in vary]
@@ -128,9 +114,7 @@ def fit(
         fps,
         dict(map(parse_ball, balls)),
     )
-    entries = tuple(map(parse_entry, mapping))
-    how = Reading(film, parse_free("--free", free), entries, tuple(map(parse_condition, where)), without, strict)
-    data = read_data(chosen, tracks, how)
+    data = read_data(chosen, tracks, Reading(film, parse_free("--free", free), choices))
     if save is not None:
         check_saving("--save", save, has_points=not isinstance(data, Launches))
         outputs.check({"--save": save})

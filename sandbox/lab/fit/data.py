@@ -12,11 +12,19 @@ from sandbox.lab.fit.frame import frame_of
 from sandbox.lab.fit.launches import launches
 from sandbox.lab.fit.measured import Measured
 from sandbox.lab.fit.outline import Outline
-from sandbox.lab.fit.parsing import NAMES, Film, flattened, has_positions, measurements, unknown_columns
+from sandbox.lab.fit.parsing import (
+    NAMES,
+    Film,
+    flattened,
+    has_positions,
+    has_some_position,
+    measurements,
+    unknown_columns,
+)
 from sandbox.lab.fit.track import Track
-from sandbox.lab.formats import Entry, device, in_table, recognized, stated, without
+from sandbox.lab.formats import Source, declared_units, in_table, recognized
+from sandbox.lab.mapped import EVERYTHING, Choices, read_shots
 from sandbox.lab.table_file import Column, Table, read_table, split_unit
-from sandbox.lab.where import Condition
 from sandbox.physics.forces import Gravity
 from sandbox.scene import Scene, simulate
 from sandbox.text import shortened
@@ -31,42 +39,31 @@ class Reading:
 
     film: Film = Film()
     free: tuple[str, ...] = ()  # of the film: origin, time, tilt
-    entries: tuple[Entry, ...] = ()  # columns of launches and results; known ones if there are none
-    where: tuple[Condition, ...] = ()  # only rows for which these hold
-    without: tuple[str, ...] = ()  # columns of launches that are not used
-    strict: bool = False  # refuse a row with a fault, which is otherwise left out
+    choices: Choices = EVERYTHING  # of the columns and rows
 
 
 def data_of(scene: Scene, tables: Sequence[tuple[str, Table]], how: Reading) -> Measured:
     """The data of tables, each with the name of its ball. Raises RequestError."""
-    if how.entries and all(entry.key in NAMES for entry in how.entries):
-        tables = [(name, renamed(table, how.entries)) for name, table in tables]
-        how = replace(how, entries=())
+    choices = how.choices
+    swapped = any(entry.text.partition(" ")[0] in declared_units(scene) for entry in choices.entries)
+    if choices.entries and not swapped and all(entry.key in NAMES for entry in choices.entries):
+        tables = [(name, renamed(table, in_table(choices.entries, table))) for name, table in tables]
+        choices = replace(choices, entries=())
     else:
         _check_named(tables[0][1])
     first = tables[0][1]
-    if not how.entries and all(has_positions(table) for _, table in tables):
-        if how.where:
-            raise RequestError("--where is for tables of launches")
-        if how.without:
-            raise RequestError("--without is for tables of launches")
+    if not choices.entries and all(has_positions(table) for _, table in tables):
+        for option, given in (("--where", choices.where), ("--without", choices.without)):
+            if given:
+                raise RequestError(f"{option} is for tables of launches")
         return _track(scene, tables, how)
-    form = stated(how.entries, first, scene) if how.entries else recognized(first, scene)
-    if form is None and (known := device(first)) is not None:
-        about = f"looks like {known.title}, whose columns are known for {known.scene}"
-        raise RequestError(f"{first.where}: {about}; for {scene.title} name them by --map")
-    if form is None:
-        _check_positions(first)
-        try:
-            measurements(tables, how.film)  # says which column is missing
-        except RequestError as error:
-            raise RequestError(f"{error}; a table of launches needs --map, see --formats") from None
-        raise AssertionError("a table with x and y is a track")
+    if not choices.entries and recognized(first, scene) is None:
+        _check_track(first)
     if len(tables) > 1 or how.free or how.film != Film():
         raise RequestError(
             f"{first.where}: is a table of launches; options for films and several tracks do not apply to it"
         )
-    return launches(scene, first, without(form, how.without, first), how.where, how.strict)
+    return launches(scene, read_shots(scene, first, choices), choices.strict)
 
 
 def _track(scene: Scene, tables: Sequence[tuple[str, Table]], how: Reading) -> Track | Outline:
@@ -74,7 +71,7 @@ def _track(scene: Scene, tables: Sequence[tuple[str, Table]], how: Reading) -> T
     setup = scene.build()
     gravity = next((float(force.gravity) for force in setup.balls[0].forces if isinstance(force, Gravity)), 9.81)
     flat = [(name, *flattened(table, setup.plane is not None, gravity)) for name, table in tables]
-    found = measurements([(name, table) for name, table, _ in flat], how.film, how.strict)
+    found = measurements([(name, table) for name, table, _ in flat], how.film, how.choices.strict)
     places = found.positions, found.balls, found.rows, frame_of(scene, found, how.free), found.where
     about: Any = {
         "left_out": found.left_out,
@@ -91,15 +88,17 @@ def _check_named(table: Table) -> None:
     if not table.is_named:
         begins = shortened(", ".join(column.cells[0] for column in table.columns), 40)
         meant = ("t", "x", "y") if len(table.columns) > 2 else ("x", "y")[: len(table.columns)]
-        maps = " ".join(f"--map {place}={name}" for place, name in enumerate(meant, start=1))
+        maps = " ".join(f"--map {name}={place}" for place, name in enumerate(meant, start=1))
         raise RequestError(
             f"{table.where}: begins with numbers ({begins}); its first line must name the columns, or name them by "
             f"their places: {maps}"
         )
 
 
-def _check_positions(table: Table) -> None:
-    """Raise RequestError for a table that has accelerations in place of positions."""
+def _check_track(table: Table) -> None:
+    """Raise RequestError for a table of a track that lacks what one needs, such as one of accelerations."""
+    if has_some_position(table) and not has_positions(table):
+        measurements([("", table)], Film())  # says which column is missing
     named = [one.name for one in table.columns if "accel" in one.name.lower() or one.unit == "m/s^2"]
     if named and not has_positions(table):
         raise RequestError(
@@ -108,18 +107,24 @@ def _check_positions(table: Table) -> None:
         )
 
 
-def renamed(table: Table, entries: Sequence[Entry]) -> Table:
-    """The table of a track with the names, and units, that entries such as ``Zeit=t ms`` give. Raises RequestError."""
-    named = {entry.column.lower(): entry for entry in in_table(entries, table)}
-    taken = {name for entry in named.values() for name in NAMES[entry.key]}
-    columns = [
-        replace(one, name=named[one.name.lower()].key, unit=named[one.name.lower()].unit or one.unit)
-        if one.name.lower() in named
-        else one
-        for one in table.columns
-        if one.name.lower() in named or one.name.lower() not in taken  # another "Y" is none any more
-    ]
-    return replace(table, columns=tuple(columns))
+def renamed(table: Table, sources: Sequence[Source]) -> Table:
+    """The table of a track with the names, and units, of sources such as ``t=Zeit [ms]``."""
+    taken = {name for source in sources for name in (*NAMES[source.key], *map(str.lower, source.expression.columns))}
+    others = (one for one in table.columns if one.name.lower() not in taken)  # another "Y" is none any more
+    return replace(table, columns=(*(_computed(table, source) for source in sources), *others), groups=())
+
+
+def _computed(table: Table, source: Source) -> Column:
+    """The column of a source: one of the table as it is, or arithmetic, with the first fault in place of a number."""
+    columns = [table.column(name) for name in source.expression.columns]
+    if source.column:
+        return replace(columns[0], name=source.key, unit=source.unit or columns[0].unit)
+    rows = range(len(table))
+    faults = [next((one.cells[row] for one in columns if table.fault(one, row)), None) for row in rows]
+    good = [row for row in rows if faults[row] is None]
+    values = dict(zip(good, source.expression.values([table.numbers(one, good) for one in columns]), strict=True))
+    cells = (repr(float(values[row])) if row in values else faults[row] or "" for row in rows)
+    return Column(source.key, source.unit, tuple(cells))
 
 
 def read_data(scene: Scene, paths: Sequence[Path], how: Reading) -> Measured:

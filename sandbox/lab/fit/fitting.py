@@ -20,8 +20,7 @@ from sandbox.lab.fit.models import chosen_models, compare
 from sandbox.lab.fit.parsing import Film, parse_scale
 from sandbox.lab.fit.problem import Declared
 from sandbox.lab.fit.squares import Fit, solve
-from sandbox.lab.formats import parse_entry
-from sandbox.lab.where import conditions
+from sandbox.lab.mapped import choices_of
 from sandbox.parameters import value_at, walk
 from sandbox.scene import Scene, as_scene
 from sandbox.text import check_mapping
@@ -55,7 +54,7 @@ def fit(
     downwards; ``origin`` is the scene's, in the numbers of the table; ``fps`` goes with a column frame; ``balls`` are
     the scene's by the names in the table.
 
-    A table of launches has ``columns``: ``{"Ball Speed": "launch.speed mph", "Carry": "carry yd"}``, or those of a
+    A table of launches has ``columns``: ``{"launch.speed": "Ball Speed [mph]", "carry": "Carry [yd]"}``, or those of a
     known device ``without`` some of them; only rows for which ``where`` holds are used: ``("Club=Driver",
     "launch.angle=10:20", "Spin<4000")``. A row with a fault is left out, and listed with its reason in
     ``measured.left_out``; with ``strict`` it raises RequestError.
@@ -70,10 +69,8 @@ def fit(
     chosen = as_scene(scene)
     check_mapping("vary", vary, '{"launch.speed": (5, 15)}')
     film = Film(None if scale is None else parse_scale(scale), (float(origin[0]), float(origin[1])), fps, balls or {})
-    entries = tuple(parse_entry(f"{column}={target}") for column, target in (columns or {}).items())
     frees = parse_free("free", [free] if isinstance(free, str) else free)
-    left_out = (without,) if isinstance(without, str) else tuple(without)
-    how = Reading(film, frees, entries, conditions(where), left_out, strict)
+    how = Reading(film, frees, choices_of(columns, where, without, strict))
     if isinstance(track, Mapping):
         measured = data_of(chosen, [("", table_of(track))], how)
     else:

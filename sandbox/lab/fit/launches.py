@@ -11,12 +11,9 @@ import numpy as np
 
 from sandbox.errors import RequestError
 from sandbox.lab.fit.measured import Free
-from sandbox.lab.formats import Form
-from sandbox.lab.mapped import mapped
+from sandbox.lab.mapped import Mapped
 from sandbox.lab.runs import outcomes
 from sandbox.lab.selection import LeftOut, reasons
-from sandbox.lab.table_file import Table
-from sandbox.lab.where import Condition
 from sandbox.scene import Scene
 from sandbox.scene.points import Points
 
@@ -118,17 +115,17 @@ class Launches:
         return (*self.notes, f"the launches are taken as measured: {', '.join(self.given)}")
 
 
-def launches(scene: Scene, table: Table, form: Form, where: Sequence[Condition], strict: bool = False) -> Launches:
+def launches(scene: Scene, found: Mapped, strict: bool = False) -> Launches:
     """The launches of a table, without those that have no such result in the scene. Raises RequestError; with
-    ``strict`` also for a row with a fault."""
-    found = mapped(scene, table, form, where, strict)
+    ``strict`` also for a launch without one."""
+    found.check_both()
     every = Launches(
         {key: one.values for key, one in found.given.items()},
         {key: one.values for key, one in found.measured.items()},
         np.array(found.rows),
         tuple(one.unit for one in found.measured.values()),
         found.notes,
-        table.where,
+        found.table.where,
         found.left_out,
         found.unused,
     )

@@ -101,6 +101,11 @@ def has_positions(table: Table) -> bool:
     return bool(_places(table, "x") and _places(table, "y"))
 
 
+def has_some_position(table: Table) -> bool:
+    """True if the table has a column x or y."""
+    return bool(_places(table, "x") or _places(table, "y"))
+
+
 def measurements(tables: Sequence[tuple[str, Table]], film: Film, strict: bool = False) -> Measurements:
     """The points of one table, or of several, each with the name of its ball. Raises RequestError; with ``strict`` also
     for a row with a fault."""
@@ -168,7 +173,7 @@ def flattened(table: Table, above: bool, gravity: float) -> tuple[Table, str]:
         for column in table.columns
         if column is not side
     ]
-    named = f'; to choose others: --map "{along.name}=x" --map "{up.name}=y"'
+    named = f'; to choose others: --map "x={along.name}" --map "y={up.name}"'
     return replace(table, columns=tuple(kept)), f"{said}it spans {spans[side.name]:.3g}{unit}{costs}{named}"
 
 
