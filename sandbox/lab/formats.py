@@ -55,6 +55,11 @@ class Source:
         """The column that it is, "" for arithmetic."""
         return self.expression.columns[0] if self.expression.is_column else ""
 
+    @property
+    def name(self) -> str:
+        """The column, or the arithmetic, for messages."""
+        return self.column or shortened(self.expression.text, 40)
+
 
 @dataclass(frozen=True)
 class Rule:
@@ -259,11 +264,10 @@ def _sources(
     if not set(map(_letters, form.needs)) <= set(map(_letters, table.names)):
         return ()
     taken: dict[str, Source] = {}
-    for group in form.columns:
-        keys = {entry.key for entry in group}
-        if keys & set(form.beside) and not beside:
-            continue
-        if not keys <= known.keys() or keys & taken.keys() or keys & set(without):
+    for choice in form.columns:
+        group = [entry for entry in choice if entry.key not in without]
+        keys = {entry.key for entry in choice}
+        if not group or (keys & set(form.beside) and not beside) or not keys <= known.keys() or keys & taken.keys():
             continue
         try:
             taken |= {entry.key: Source(entry.key, parse(entry.text, names), entry.unit) for entry in group}
@@ -285,10 +289,11 @@ def _is_without(source: Source, names: Collection[str]) -> bool:
 
 
 def _check_without(table: Table, sources: Sequence[Source], without: Sequence[str]) -> None:
+    columns = {name.lower() for name in table.names}
     for name in without:
-        if not any(_is_without(source, {name.lower()}) for source in sources):
-            used = ", ".join(f"{source.expression.text} ({source.key})" for source in sources) or "none"
-            raise RequestError(f"--without {name}: {table.where} is read by other columns: {shortened(used, 200)}")
+        if name.lower() not in columns and not any(_is_without(source, {name.lower()}) for source in sources):
+            used = ", ".join(f"{source.name} ({source.key})" for source in sources) or "none"
+            raise RequestError(f"--without {name}: {table.where} is read by other columns: {shortened(used, 300)}")
 
 
 def _without_notes(scene: Scene, before: Sequence[Source], after: Sequence[Source]) -> Iterator[str]:
@@ -297,13 +302,13 @@ def _without_notes(scene: Scene, before: Sequence[Source], after: Sequence[Sourc
     for source in before:
         key, other = source.key, now.get(source.key)
         if other is not None and other.expression != source.expression:
-            yield f"{key} is {other.expression.text} in place of {source.expression.text}"
+            yield f"{key} is {other.name} in place of {source.name}"
         elif other is None and key in scene.facts:
-            yield f"{key} is not compared, without {source.expression.text}"
+            yield f"{key} ({source.name}) is not compared"
         elif other is None:
             value = value_at(scene.parameters, key)
-            own = "not given" if value is None else f"{value:g} {declared_units(scene)[key]}".rstrip()
-            yield f"{key} is that of the scene for all rows, {own}, without {source.expression.text}"
+            own = "which it does not set" if value is None else f"{value:g} {declared_units(scene)[key]}".rstrip()
+            yield f"{key} is not read from {source.name}: it is the scene's, {own}, or what is fitted"
 
 
 def _unknown_key(entry: Entry, scene: Scene, known: Mapping[str, str]) -> str:
@@ -346,14 +351,10 @@ def advice(table: Table, scene: Scene) -> str:
         return ""
     wanted = [key for key in ("launch.speed", "launch.angle") if key in known and key not in meant]
     wanted += [] if any(key in scene.facts for key in meant) else [next(iter(scene.facts))]
-    maps = [f'--map "{key}={name}{_unit(table.column(name), known[key])}"' for key, name in meant.items()]
-    maps += [f'--map "{key}=...{f" [{known[key]}]" if known[key] else ""}"' for key in wanted]
+    maps = [f'--map "{key}={name}{"" if table.column(name).unit or not known[key] else " [UNIT]"}"'
+            for key, name in meant.items()]  # fmt: skip
+    maps += [f'--map "{key}=COLUMN{" [UNIT]" if known[key] else ""}"' for key in wanted]
     return f"{', '.join(meant.values())} seem known; complete and give {' '.join(maps)}"
-
-
-def _unit(column: Column, declared: str) -> str:
-    """A unit for the user to check, where the file has none."""
-    return f" [{declared}]" if declared and not column.unit else ""
 
 
 def _alike(key: str, scene: Scene, table: Table) -> str:

@@ -112,15 +112,19 @@ def read_shots(scene: Scene, table: Table, choices: Choices = EVERYTHING) -> Map
         return mapped(scene, table, stated(choices.entries, table, scene, choices.without), choices)
     found = recognized(table, scene, choices.without, choices.beside)
     if found is None:
-        known, meant = device(table), advice(table, scene)
-        about = "its columns are not known"
-        if known is not None and known.scene != scene.name:
-            about = f"looks like {known.title}, whose columns are known for {known.scene}"
-        meant = meant or f'name them, such as --map "{next(iter(scene.facts))}=COLUMN"; it has ' + shortened(
-            ", ".join(table.names), 200
-        )
-        raise RequestError(f"{table.where}: {about}; for {scene.title} {meant}")
+        raise RequestError(f"{table.where}: {_unknown(table, scene)}")
     return mapped(scene, table, found, choices)
+
+
+def _unknown(table: Table, scene: Scene) -> str:
+    """Say of a table that is not known for a scene what it may be."""
+    known = device(table)
+    if known is not None and known.scene != scene.name:
+        return (
+            f"looks like {known.title}, whose columns are known for {known.scene}; for {scene.title} name them by --map"
+        )
+    meant = advice(table, scene) or f'name them, such as --map "{next(iter(scene.facts))}=COLUMN"'
+    return f"its columns are not known; for {scene.title} {meant}; it has {shortened(', '.join(table.names), 200)}"
 
 
 def mapped(scene: Scene, table: Table, column_map: ColumnMap, choices: Choices = EVERYTHING) -> Mapped:
@@ -137,7 +141,9 @@ def mapped(scene: Scene, table: Table, column_map: ColumnMap, choices: Choices =
     measured = {key: one for key, one in found.items() if key in scene.facts}
     given = {key: one for key, one in found.items() if key not in scene.facts}
     if column_map.form is not None:
-        named = (f"{source.column or source.expression.text} as {source.key}" for source in column_map.sources)
+        named = [f"{source.column} as {source.key}" for source in column_map.sources if source.column]
+        computed = ", ".join(source.key for source in column_map.sources if not source.column)
+        named += [f"{computed} by arithmetic (sandbox fit --formats)"] if computed else []
         notes.insert(0, f"read as {column_map.form.title}: {', '.join(named)}")
     if where:
         asked = " and ".join(map(str, where))
@@ -162,7 +168,7 @@ def _check_values(
 ) -> None:
     """Leave out rows whose values the parameters cannot have, those in which a result is a number that stands for none,
     and those in which arithmetic has no result. Raises RequestError if no row is left."""
-    text = {source.key: source.column or source.expression.text for source in column_map.sources}
+    text = {source.key: source.name for source in column_map.sources}
     outside = {key: _outside(scene, key, one.values[np.isfinite(one.values)]) for key, one in given.items()}
     for place, row in enumerate(list(selection.rows)):
         for key, one in [*given.items(), *measured.items()]:

@@ -41,6 +41,8 @@ _NUMBER = re.compile(rf"\s*{units.NUMBER}\s*")
 _THOUSANDS = re.compile(r"\s*[+-]?\d{1,3}(,\d{3})+(\.\d*)?\s*")
 #: ``12.4 R``: to the left is negative.
 _SIDE = re.compile(r"([+-]?[\d.,]+)\s*([LRlr])")
+#: ``0:00:01:04`` and ``1:02.25``: hours, minutes, seconds and decimals, as on the clock of a film.
+_CLOCK = re.compile(r"(?:(\d+):)??(?:(\d+):)(\d{1,2})(?:[:.,](\d{1,3}))?")
 _COMMA = re.compile(r"\s*[+-]?\d*,\d+(?:[eE][+-]?\d+)?\s*")
 
 #: Units as devices spell them, in other languages too.
@@ -106,6 +108,10 @@ class Table:
         side = _SIDE.fullmatch(text)
         if side is not None:
             return (-1.0 if side[2] in "Ll" else 1.0) * self._parsed(side[1])
+        clock = _CLOCK.fullmatch(text) if ":" in text else None
+        if clock is not None:
+            hours, minutes, seconds = (int(part or 0) for part in clock.groups()[:3])
+            return 3600.0 * hours + 60.0 * minutes + float(f"{seconds}.{clock[4] or 0}")
         thousands = not self.comma and _THOUSANDS.fullmatch(text)
         return float(text.replace(",", "") if thousands else text.replace(",", ".") if self.comma else text)
 
@@ -196,7 +202,7 @@ def _of_rows(where: str, rows: list[list[str]], separator: str) -> Table:
     data = [row for row in data if not row[0].startswith("#")]
     head = [[row[0].removeprefix("#").strip(), *row[1:]] for row in head]
     given = head.pop() if len(head) > 1 and _are_units(head[-1]) else []
-    place = max(range(len(head)), key=lambda place: sum(map(bool, head[place])))  # the first of the longest
+    place = _place_of_names(head, data, separator)
     names = _without_tail(head[place])
     if len(names) < 2 and is_named:
         found = shortened(one_line(" ".join(names)), 50)
@@ -222,10 +228,18 @@ def _of_rows(where: str, rows: list[list[str]], separator: str) -> Table:
     return Table(where, tuple(columns), groups, comma, broken, is_named)
 
 
+def _place_of_names(head: Sequence[Sequence[str]], data: Sequence[Sequence[str]], separator: str) -> int:
+    """The place of the line with the names of columns: the first of the longest; where blanks separate, a title has as
+    many as it has words, and the last that is as long as most rows comes before it."""
+    width = _usual_width(data) if separator == " " else 0
+    fitting = [place for place in range(len(head)) if len(_without_tail(head[place])) == width]
+    return fitting[-1] if fitting else max(range(len(head)), key=lambda place: sum(map(bool, head[place])))
+
+
 def _are_units(row: Sequence[str]) -> bool:
-    """True for a row of units such as ``[mph]``, some empty, and perhaps with one title among them."""
+    """True for a row of units such as ``[mph]`` or ``m``, some empty, and perhaps with one title among them."""
     filled = [cell for cell in row if cell]
-    units_in = sum(_UNIT_CELL.fullmatch(cell) is not None for cell in filled)
+    units_in = sum(_UNIT_CELL.fullmatch(cell) is not None or bool(units.suggestion(cell)) for cell in filled)
     return units_in >= max(len(filled) - 1, 1) and (units_in == len(filled) or units_in > 1)
 
 

@@ -37,6 +37,12 @@ WRITTEN = {
     "Vernier": "Latest: Time (s),Latest: X (m),Latest: Y (m)\n0,1,2\n0.1,1.5,2.25\n0.2,2,2\n",
     "JSON by columns": '{"t": [0, 0.1, 0.2], "x": [1, 1.5, 2], "y": [2, 2.25, 2]}',
     "JSON by rows": '[{"t": 0, "x": 1, "y": 2}, {"t": 0.1, "x": 1.5, "y": 2.25}, {"t": 0.2, "x": 2, "y": 2}]',
+    "Kinovea": "#Kinovea Trajectory data export\n#T X Y\n0:00:00:00 1.00 2.00\n0:00:00:10 1.50 2.25\n0:00:00:20 2 2\n",
+    "Kinovea's next": "#Kinovea Trajectory data export\n#T X Y\n\n# ball\n0.00 1 2\n0.10 1.5 2.25\n0.20 2 2\n",
+    "Logger Pro": "Vernier Format 2\nthrow.cmbl\n.\nVideo Analysis\nTime\tX\tY\nt\tx\ty\ns\tcm\tcm\n"
+    "0\t100\t200\n0.1\t150\t225\n0.2\t200\t200\n",
+    "phyphox": '"Time (s)","Position x (m)","Position y (m)"\n0,1,2\n1e-1,1.5,2.25\n2E-1,2,2\n',
+    "all cells": "mass_A\t\t\t\t\nt\tx\ty\tv_{x}\ta\t\n0\t1\t2\t\t\t\n0.1\t1.5\t2.25\t5\t\t\n0.2\t2\t2\t\t\t\n",
     "our own": "t,ball,x,y,vx,vy,spin\n0,,1,2,5,1,0\n0.1,,1.5,2.25,5,0,0\n0.2,,2,2,5,-1,0\n",
 }
 
@@ -107,7 +113,7 @@ WRONG = {
     "t,x,y\n0,0,3 ft\n": "row 1, y = '3 ft' is not a number",
     "t,x,y\n0,1\n": "row 1 has 2 values, but there are 3 columns",
     "t,x,y\n0,1,2,3\n": "row 1 has 4 values, but there are 3 columns",
-    "0,1,2\n0.1,2,3\n": "begins with numbers",
+    "0,1,2\n0,2,3\n": "begins with numbers",
     "t,x,y\n": "has no points",
     "\n \n": "is empty",
     "Dear teacher,\nhere is my track\n": "is no table",

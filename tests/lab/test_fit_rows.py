@@ -332,15 +332,18 @@ def test_accelerations_alone_are_nothing_to_fit(call: Call, tmp_path: Path):
     assert_refused(refused, "no positions: there is nothing to fit. Such a file tells when something was hit")
 
 
-def test_columns_without_names_are_named_by_their_places(call: Call, tmp_path: Path):
+def test_columns_without_names_are_taken_as_a_track(call: Call, tmp_path: Path):
     rows = "".join(f"{t};{x};{y}\n" for t, x, y in THROW)
     file = written(tmp_path, "\ufeff" + rows)
     args = ("fit", "throws", file, "--vary", "launch.speed=2:9", "--vary", "launch.angle=10:60", "--free", "origin")
-    refused = call(*args)
-    assert_refused(refused, "begins with numbers (0.0, 1.0, 2.0)")
-    maps = refused.err.rpartition("by their places: ")[2].split()
+    found = json.loads(call(*args, "--json").out)
+    assert found["points"] == 12
+    note = next(each for each in found["said"] if each.startswith("columns without names, taken as t in s, x and y in"))
+    maps = note.rpartition("to choose others: ")[2].split()
     assert maps == ["--map", "t=1", "--map", "x=2", "--map", "y=3"]
-    assert json.loads(call(*args, *maps, "--json").out)["points"] == 12
+    assert json.loads(call(*args, *maps, "--json").out)["values"] == found["values"]
+    written(tmp_path, "".join(f"{x};{y}\n" for _, x, y in THROW))
+    assert_refused(call(*args), "begins with numbers (1.0, 2.0)")
 
 
 # Columns that are not used ------------------------------------------------------------------------------------------

@@ -7,6 +7,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from sandbox.errors import RequestError
 from sandbox.lab.fit.frame import frame_of
 from sandbox.lab.fit.launches import launches
@@ -45,18 +47,19 @@ class Reading:
 def data_of(scene: Scene, tables: Sequence[tuple[str, Table]], how: Reading) -> Measured:
     """The data of tables, each with the name of its ball. Raises RequestError."""
     choices = how.choices
+    notes: list[str] = []
     swapped = any(entry.text.partition(" ")[0] in declared_units(scene) for entry in choices.entries)
     if choices.entries and not swapped and all(entry.key in NAMES for entry in choices.entries):
         tables = [(name, renamed(table, in_table(choices.entries, table))) for name, table in tables]
         choices = replace(choices, entries=())
-    else:
-        _check_named(tables[0][1])
+    elif not choices.entries:
+        tables = [(name, _with_names(table, notes)) for name, table in tables]
     first = tables[0][1]
     if not choices.entries and all(has_positions(table) for _, table in tables):
         for option, given in (("--where", choices.where), ("--without", choices.without)):
             if given:
                 raise RequestError(f"{option} is for tables of launches")
-        return _track(scene, tables, how)
+        return _track(scene, tables, how, notes)
     if not choices.entries and recognized(first, scene) is None:
         _check_track(first)
     if len(tables) > 1 or how.free or how.film != Film():
@@ -66,7 +69,7 @@ def data_of(scene: Scene, tables: Sequence[tuple[str, Table]], how: Reading) -> 
     return launches(scene, read_shots(scene, first, choices), choices.strict)
 
 
-def _track(scene: Scene, tables: Sequence[tuple[str, Table]], how: Reading) -> Track | Outline:
+def _track(scene: Scene, tables: Sequence[tuple[str, Table]], how: Reading, notes: list[str]) -> Track | Outline:
     """The points of tracks. Raises RequestError."""
     setup = scene.build()
     gravity = next((float(force.gravity) for force in setup.balls[0].forces if isinstance(force, Gravity)), 9.81)
@@ -76,23 +79,30 @@ def _track(scene: Scene, tables: Sequence[tuple[str, Table]], how: Reading) -> T
     about: Any = {
         "left_out": found.left_out,
         "unused": tuple(dict.fromkeys(name for _, table, _ in flat for name in unknown_columns(table))),
-        "notes": tuple(dict.fromkeys(note for *_, note in flat if note)),
+        "notes": tuple(dict.fromkeys([*notes, *(note for *_, note in flat if note)])),
     }
     if found.t is None:
         return Outline(*places, LONGER * simulate(scene).duration, **about)
     return Track(*places, found.t, **about)
 
 
-def _check_named(table: Table) -> None:
-    """Raise RequestError for a table without names of its columns, with the names that three columns may have."""
-    if not table.is_named:
+def _with_names(table: Table, notes: list[str]) -> Table:
+    """The table with names of its columns. Of three without a name the first is the time, if it always grows, and the
+    others are x and y; notes say so. Raises RequestError for others without names."""
+    if table.is_named:
+        return table
+    meant = ("t", "x", "y") if len(table.columns) > 2 else ("x", "y")[: len(table.columns)]
+    maps = " ".join(f"--map {name}={place}" for place, name in enumerate(meant, start=1))
+    faults = any(table.fault(column, row) for column in table.columns for row in range(len(table)))
+    if len(table.columns) != 3 or faults or (np.diff(table.numbers(table.columns[0])) <= 0.0).any():
         begins = shortened(", ".join(column.cells[0] for column in table.columns), 40)
-        meant = ("t", "x", "y") if len(table.columns) > 2 else ("x", "y")[: len(table.columns)]
-        maps = " ".join(f"--map {name}={place}" for place, name in enumerate(meant, start=1))
         raise RequestError(
             f"{table.where}: begins with numbers ({begins}); its first line must name the columns, or name them by "
             f"their places: {maps}"
         )
+    notes.append(f"columns without names, taken as t in s, x and y in m; to choose others: {maps}")
+    columns = (replace(column, name=name) for column, name in zip(table.columns, meant, strict=True))
+    return replace(table, columns=tuple(columns), is_named=True)
 
 
 def _check_track(table: Table) -> None:

@@ -15,14 +15,14 @@ from sandbox.lab.selection import LeftOut, Selection
 from sandbox.lab.table_file import PIXEL, Column, Table
 from sandbox.text import shortened
 
-#: The columns of a track, by how programs name them; lower case.
+#: The columns of a track, by how programs name them: lower case, without what stands between words.
 NAMES = {
-    "t": ("t", "time", "timestamp", "time stamp"),
-    "x": ("x", "position x", "x position", "x_pos", "pos_x"),
-    "y": ("y", "position y", "y position", "y_pos", "pos_y"),
+    "t": ("t", "time", "timestamp", "zeit", "temps", "tiempo"),
+    "x": ("x", "positionx", "xposition", "xpos", "posx", "xcoordinate"),
+    "y": ("y", "positiony", "yposition", "ypos", "posy", "ycoordinate"),
     "ball": ("ball",),
-    "frame": ("frame", "frame number"),
-    "z": ("z", "position z", "z position", "z_pos", "pos_z"),
+    "frame": ("frame", "framenumber"),
+    "z": ("z", "positionz", "zposition", "zpos", "posz", "zcoordinate"),
 }
 
 #: A coordinate is that of a falling ball if its acceleration is that of gravity within this share; it is taken from
@@ -132,7 +132,8 @@ def measurements(tables: Sequence[tuple[str, Table]], film: Film, strict: bool =
 
 
 def _plain(name: str) -> str:
-    return name.lower().rpartition(": ")[2]  # Vernier writes "Latest: Time (s)"
+    """A name as in ``NAMES``: Vernier writes "Latest: Time (s)"."""
+    return re.sub(r"[\s_.-]", "", name.lower().rpartition(": ")[2])
 
 
 def _places(table: Table, what: str) -> list[int]:
