@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
-from math import inf
 from typing import ClassVar
 
 import numpy as np
@@ -12,7 +11,6 @@ import pygame
 
 from sandbox.picture.ball import Flat
 from sandbox.picture.camera import Area, Camera
-from sandbox.picture.chase import Chase
 from sandbox.picture.moving import NOT_WORTH_NOTING
 from sandbox.picture.painter import Painter, Point
 from sandbox.picture.palette import Colour, palette
@@ -27,16 +25,12 @@ _CARD = palette("card")
 _SHADOW = (0.4, 0.5)
 #: The picture shows at least so many radii of the ball.
 _LEAST = 10
-#: The camera of frames keeps the ball in so much of the picture's middle.
-_MIDDLE = 0.72
 
 
 class AboveView(View[P]):
     """One run seen from above; a scene declares its ``plan``."""
 
     SPIN_NAMES = ("right", "left")
-    #: The width of the world in frames, in m, where the poster shows more: they follow the ball. None shows all of it.
-    FRAME_WIDTH: ClassVar[float | None] = None
     #: The colour of the darkness at the picture's edges.
     DUSK: ClassVar[Colour | None] = None
 
@@ -64,18 +58,6 @@ class AboveView(View[P]):
         scale = min((area.right - area.left) / wide, (area.bottom - area.top) / tall)
         x, y = (low + high) / 2
         return Camera((float(x), float(y)), area.middle, float(scale))
-
-    @cached_property
-    def chase(self) -> Chase:
-        """Goes with the ball, near enough to see it."""
-        home, width, area = self.camera, self.size[0], self.area
-        x, y = (float(round(middle)) for middle in area.middle)
-        aside, up = _MIDDLE / 2 * width, _MIDDLE / 2 * (area.bottom - area.top)
-        near = Camera(home.at, (x, y), max(home.scale, width / (self.FRAME_WIDTH or inf)))
-        return Chase(self.run, self.ball, near, Area(x - aside, y - up, x + aside, y + up))
-
-    def view(self, t: float) -> Camera:
-        return self.camera if self.FRAME_WIDTH is None else self.chase.camera(t)
 
     def backdrop(self, painter: Painter, camera: Camera) -> None:
         """The place, darker to the edges."""

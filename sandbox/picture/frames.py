@@ -22,6 +22,7 @@ from PIL import GifImagePlugin, Image
 from sandbox.engine.paths.run import Run
 from sandbox.errors import RequestError
 from sandbox.files import atomic_write, backup_of, check_replaced, folder_of_parts, is_stream, put_output
+from sandbox.picture.story import frame_times
 
 if TYPE_CHECKING:
     from sandbox.picture.view import View
@@ -164,11 +165,12 @@ def save_gif(picture: View[Any], run: Run, path: Path | str, fps: float, progres
     frame only what differs from the frame before is kept; Pillow alone would hold all frames in memory.
     Raises OSError where it cannot be written.
     """
-    times, before = _moments(picture, run, min(fps, FASTEST_GIF)), None
+    fps = min(fps, FASTEST_GIF)
+    times, before = _moments(picture, fps), None
     colours = shared_palette(picture, times)
     palette = bytes(colours.getpalette("RGB") or []).ljust(3 * 256, b"\0")
     parts = []
-    for image, stay in zip(_film(picture, times, progress), _durations(times, 10, picture.slower), strict=True):
+    for image, stay in zip(_film(picture, times, progress), _durations(times, 10, fps), strict=True):
         shown = np.asarray(image.quantize(palette=colours, dither=Image.Dither.NONE))
         changed = shown if before is None else np.where(shown == before, _SEE_THROUGH, shown).astype(np.uint8)
         part, before = Image.frombytes("P", image.size, changed.tobytes()), shown
@@ -203,9 +205,9 @@ def save_webp(picture: View[Any], run: Run, path: Path | str, fps: float, progre
     """Write the run as an animated WebP that repeats, in all colours; returns the number of frames, of which equal ones
     are written as one. Raises OSError where it cannot be written.
     """
-    times, data = _moments(picture, run, fps), io.BytesIO()
+    times, data = _moments(picture, fps), io.BytesIO()
     film = _Film(picture, times, progress)
-    film.save(data, "WEBP", save_all=True, duration=_durations(times, 1, picture.slower), loop=0, **_WEBP)
+    film.save(data, "WEBP", save_all=True, duration=_durations(times, 1, fps), loop=0, **_WEBP)
     _write(Path(path), data.getvalue())
     return len(times)
 
@@ -217,7 +219,7 @@ def save_video(picture: View[Any], run: Run, path: Path | str, fps: float, progr
     """
     import imageio_ffmpeg
 
-    times = _moments(picture, run, fps)
+    times = _moments(picture, fps)
     times += [times[-1]] * round(PAUSE * fps)
     path = Path(path)
     if is_stream(path):
@@ -243,24 +245,16 @@ def save_video(picture: View[Any], run: Run, path: Path | str, fps: float, progr
     return len(times)
 
 
-def _moments(picture: View[Any], run: Run, fps: float) -> list[float]:
-    """The times in s of the frames of an animation; what is over too soon is in slow motion, which the frames say."""
-    picture.slower = picture.slow_motion
-    return frame_times(run.duration, fps * picture.slower)
+def _moments(picture: View[Any], fps: float) -> list[float]:
+    """The times in s of the frames of an animation, at the pace of the picture's story, which the frames say."""
+    picture.filmed = True
+    return picture.film(fps)
 
 
-def _durations(times: list[float], tick: int, slower: int) -> list[int]:
+def _durations(times: list[float], tick: int, fps: float) -> list[int]:
     """The time that each frame stays, in ms, where a format knows ticks of so many ms."""
-    ends = [round(1000 / tick * slower * t) for t in times]
+    ends = [round(1000 / tick / fps * i) for i in range(len(times))]
     return [tick * (b - a) for a, b in pairwise(ends)] + [round(1000 * PAUSE)]
-
-
-def frame_times(duration: float, fps: float) -> list[float]:
-    """Times of the frames in s: ``fps`` of them per second from 0, and the end."""
-    count = int(duration * fps * (1 + 1e-12)) + 1
-    times = [i / fps for i in range(count)]
-    # The end replaces a frame that is nearer to it than a tenth of a frame's time.
-    return [t for t in times if t < duration - 0.1 / fps] + [duration] if duration > 0 else [0.0]
 
 
 def shared_palette(picture: View[Any], times: list[float]) -> Image.Image:

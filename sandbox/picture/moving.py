@@ -300,7 +300,7 @@ class BallDrawing(SceneOptions[P]):
     @cached_property
     def _tracks(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         """Times (s) and places (m) along each ball's path that can be told apart where frames begin."""
-        camera, found = self.view(0.0), {}
+        camera, found = self.closest, {}
         for name, path in self.paths.items():
             some = apart(camera.pixels(path.points), 4.0)
             found[name] = path.samples[some, 0], path.points[some]
@@ -312,7 +312,3 @@ class BallDrawing(SceneOptions[P]):
     def camera(self) -> Camera:
         """The poster's camera."""
         raise NotImplementedError
-
-    def view(self, t: float) -> Camera:
-        """The camera of ``frame(t)``."""
-        return self.camera

@@ -24,6 +24,8 @@ from sandbox.picture.camera import Box, Camera
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.sheet import Entry, Sheet
+from sandbox.picture.story import Story
+from sandbox.scene.deciding import decided_at
 from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.amounts import amount, metres, signed
 from sandbox.text import shortened
@@ -158,6 +160,39 @@ class SceneOptions(Generic[P]):
             return min(Outline.of(surface.at(t).shape, 0.0).near(x, y).gap for surface in driven)
 
         return min(np.linspace(0.0, self.story_end, _NEAREST).tolist(), key=gap)
+
+    @cached_property
+    def decided(self) -> float:
+        """The time in s at which the run is decided."""
+        return decided_at(self.run, self.ball)
+
+    @property
+    def closest(self) -> Camera:
+        """The camera of frames where it is nearest."""
+        raise NotImplementedError
+
+    @property
+    def story(self) -> Story | None:
+        """What the camera of frames goes to; None if it stays where it is."""
+        return None
+
+    def meeting(self, *places: Box, share: float = 0.35, spot: float, at: float | None = None) -> Story:
+        """The story of a ball that comes to one of some places (m) at a time in s, by default when that decides: to the
+        nearest, or where none is near to a spot of its own, so many m wide."""
+        at = self.decided if at is None else at
+        x, y = self.run.state(self.ball, at)[:2]
+
+        def away(box: Box) -> float:
+            return hypot(max(box.left - x, 0.0, x - box.right), max(box.bottom - y, 0.0, y - box.top))
+
+        half = 0.5 * spot
+        near = [box for box in places if away(box) <= max(spot, box.right - box.left, box.top - box.bottom)]
+        return Story(min(near, key=away, default=Box(x - half, y - half, x + half, y + half)), at, share)
+
+    @property
+    def floor(self) -> float | None:
+        """The height in m under which a camera that goes in shows nothing; None where any is as good."""
+        return None
 
     @property
     def datum(self) -> tuple[tuple[float, float], str]:

@@ -11,15 +11,15 @@ import pygame
 
 from sandbox.picture.ball import mark_radius
 from sandbox.picture.camera import Area, Box, Camera, Eye
-from sandbox.picture.chase import Chase
 from sandbox.picture.closeup import CloseUp, arranged
 from sandbox.picture.lettering import LabelPlace, Labels
 from sandbox.picture.marks import draw_mark, draw_trace, label_mark, mark_impacts
 from sandbox.picture.painter import Painter, Point, around_corners
-from sandbox.picture.path import FINEST, ImpactMark, apart
+from sandbox.picture.path import ImpactMark
 from sandbox.picture.places import Person
 from sandbox.picture.sheet import CARD, Entry, Sheet, SideRows
 from sandbox.picture.side_options import SideOptions
+from sandbox.picture.story import Story
 from sandbox.picture.track import draw_track
 from sandbox.picture.view import P, View
 from sandbox.sport.amounts import metres, roughly
@@ -29,10 +29,6 @@ _LEAST_WIDTH = 60
 #: A flight that rises at least so much, in px on 720 rows, and at most over this share of the room is drawn
 #: higher, where the ball is drawn at least so many times its size.
 _LEAST_RISE, _LOW_FLIGHT, _LARGE_BALL = 24, 0.45, 3
-#: Columns, as shares of the width, between which frames keep the ball: where all is in sight, and on its way.
-_AT_HOME, _ON_ITS_WAY = (0.1, 0.9), (0.25, 0.45)
-#: Width and height of the map of frames, as shares of the picture's width and rows.
-_MAP = 0.24, 0.15
 #: Labels keep off so many points along the sides of a thing, and from there to its middle.
 _ALONG, _ACROSS = 9, 4
 #: A shadow is half as dark where the ball is so high over the ground, in px on 720 rows.
@@ -101,12 +97,16 @@ class SideView(SideOptions[P], View[P]):
         return Eye(camera, self.EYE_COLUMN * self.size[0], level, self.size[0] / camera.scale, self.unit)
 
     def seen_from(self, camera: Camera) -> Eye:
-        """Sees what the camera shows; a close-up from where the whole is seen."""
-        if not any(camera == near.camera for near in self.closeups):
-            return self.eye(camera)
-        eye = self.eye(self.camera)
-        centre, level = camera.pixel(*self.camera.world(eye.centre, eye.level))
-        return replace(eye, camera=camera, centre=centre, level=level)
+        """Sees what the camera shows: a close-up of the poster from where the whole is seen, and what frames go in to
+        also from nearer by, or the sky would be lost."""
+        eye, closer = self.eye(self.camera), camera.scale / self.camera.scale
+        if camera == self.camera:
+            return eye
+        if self.GOES_IN == 0.0 or any(camera == near.camera for near in self.closeups):
+            centre, level = camera.pixel(*self.camera.world(eye.centre, eye.level))
+            return replace(eye, camera=camera, centre=centre, level=level)
+        up = (eye.base - eye.level) * closer ** (1.0 - self.GOES_IN)
+        return replace(eye, camera=camera, level=camera.anchor[1] - up, distance=eye.distance / closer**self.GOES_IN)
 
     def backdrop(self, painter: Painter, camera: Camera) -> None:
         eye, place = self.seen_from(camera), self.place
@@ -125,63 +125,10 @@ class SideView(SideOptions[P], View[P]):
             if thing.near == near:
                 thing.draw(painter, eye)
 
-    @cached_property
-    def home(self) -> Camera:
-        """The first camera of the frames: the poster's, or nearer."""
-        width, scale = self.size[0], self.size[0] / self.frame_width
-        if self.camera.scale >= scale:
-            return self.camera
-        (x, *_), base = self.path.points[0], self.base(self.sheet.side_rows(len(self.ghosts), 0), scale)
-        behind, _ = self._way
-        return Camera((float(x), self._under(x)), (behind * width, base), scale)
-
-    @property
-    def _way(self) -> tuple[float, float]:
-        """Between which shares of the width a ball on its way is, that behind it first."""
-        forward = self.run.state(self.ball, 0.0)[2] >= 0.0
-        return _ON_ITS_WAY if forward else (1 - _ON_ITS_WAY[0], 1 - _ON_ITS_WAY[1])
-
-    @cached_property
-    def columns(self) -> tuple[float, float]:
-        """The columns between which frames keep the ball, in px."""
-        low, high = sorted(_AT_HOME if self.home == self.camera else self._way)
-        return low * self.size[0], high * self.size[0]
-
     def inset(self, sheet: Sheet, camera: Camera, t: float | None) -> pygame.Rect | None:
-        """In frames from nearer than the poster a map of the whole path, and where on it the ball is; on the poster the
-        track from above of a ball that leaves the plane."""
-        if t is None:
-            return draw_track(sheet, track, self.datum[0][0], self.TRACE) if (track := self.track) else None
-        if self.camera in (self.home, camera):
-            return None
-        painter, unit, (rect, seen, kept, ground) = sheet.painter, self.unit, self._map
-        painter.panel(rect, CARD["background"], CARD["opacity"], 8 * unit)
-        painter.thread(ground, max(1, round(1.6 * unit)), self.turf)
-        for ghost in self.ghosts:
-            points = seen.pixels(ghost.points)
-            painter.thread(points[apart(points, FINEST)], 1, ghost.light)
-        path, past = seen.pixels(self.path.points[kept]), self.path.samples[kept, 0] <= t
-        at = seen.pixel(*self.run.state(self.ball, t)[:2])
-        painter.line(path, 1.0, CARD["quiet"])  # it is kept: in every frame the same
-        painter.thread([*path[past], at], max(1, round(1.6 * unit)) + 1, self.TRACE)
-        self.on_map(painter, seen)
-        painter.disc(at, max(2.5, 4 * unit), CARD["accent"])
-        return rect
-
-    @cached_property
-    def _map(self) -> tuple[pygame.Rect, Camera, np.ndarray, np.ndarray]:
-        """Its rectangle in px, its camera, which points of the path can be told apart on it, and the ground in px."""
-        gap, (goal, _), rect = self.sheet.gap, self.datum[0], pygame.Rect(self.sheet.frame)
-        rect.size = round(_MAP[0] * self.size[0]), round(_MAP[1] * self.rows)
-        rect.right = self.sheet.frame.right
-        (left, _), (right, top) = self.points.min(axis=0), self.points.max(axis=0)
-        left, right = min(left, goal), max(right, goal, left + _LEAST_WIDTH * self.radius)
-        heights, inset = self.profile(left, right)[:, 1], 2.4 * gap
-        area = Area(rect.left + inset, rect.top + inset, rect.right - 2 * inset, rect.bottom - inset)
-        camera = Camera.fit(Box(left, heights.min(), right, max(top, heights.max())), area, self.camera.stretch)
-        low, high = (camera.world(px, 0)[0] for px in (rect.left + gap, rect.right - gap))
-        kept = apart(camera.pixels(self.path.points), FINEST)
-        return rect, camera, kept, camera.pixels(self.profile(low, high))
+        """On the poster the track from above of a ball that leaves the plane."""
+        track = self.track if t is None else ()
+        return draw_track(sheet, track, self.datum[0][0], self.TRACE) if track else None
 
     def remarks(self, camera: Camera) -> list[str]:
         """The distance of what is aimed at, where that is not in sight; nothing of a start, which is at 0."""
@@ -189,18 +136,13 @@ class SideView(SideOptions[P], View[P]):
         seen = x == 0.0 or 0 <= camera.pixel(x, 0.0)[0] <= self.size[0]
         return [] if seen else [f"{what} is {roughly(abs(x))} away"]
 
-    @cached_property
-    def chase(self) -> Chase:
-        low, high = self.columns
-        room = Area(low, self.rows_at.top, high, self.home.anchor[1])
-        return Chase(self.run, self.ball, self.home, room, self.ground)
-
-    def view(self, t: float) -> Camera:
-        return self.camera if isinf(self.MAX_STRETCH) else self.chase.camera(t)
+    @property
+    def floor(self) -> float:
+        return self.camera.at[1]
 
     def moved(self, camera: Camera) -> float:
         """The way that the eye has gone to the right from where it was at first, in px of that distance."""
-        return 0.0 if camera == self.camera else (camera.at[0] - self.home.at[0]) * self.home.scale
+        return (camera.at[0] - self.camera.at[0]) * self.camera.scale
 
     def position(self, t: float) -> list[Entry]:
         x, y, *_ = self.run.state(self.ball, t)
@@ -365,6 +307,12 @@ class SideView(SideOptions[P], View[P]):
 
 class NetView(SideView[P]):
     """The view of a ball that is played over a net: a game whose facts are ``sandbox.sport.net_game.FACTS``."""
+
+    @property
+    def story(self) -> Story:
+        """The net, or where the ball comes down."""
+        middle, high = 0.5 * self.parameters.court.length, self.parameters.net.height  # type: ignore[attr-defined]
+        return self.meeting(Box(middle - 0.1, 0.0, middle + 0.1, high), share=0.3, spot=20 * self.radius)
 
     def closeup_boxes(self) -> list[Box]:
         """The net as the ball passes it, and the bounce."""

@@ -9,9 +9,8 @@ from typing import ClassVar, NamedTuple
 
 import numpy as np
 
-from sandbox.picture.camera import Box, Camera
+from sandbox.picture.camera import Box
 from sandbox.picture.options import P, SceneOptions
-from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour
 from sandbox.picture.places import Ground, Hall, Scenery, Thing
 from sandbox.picture.sheet import CARD
@@ -56,6 +55,8 @@ class SideOptions(SceneOptions[P]):
     #: The eye of the perspective: its height over the ground in px on 720 rows, its column as a share of the width.
     EYE_HEIGHT: ClassVar[float] = 150
     EYE_COLUMN: ClassVar[float] = 0.25
+    #: How much of a closer look in frames is because the eye comes nearer, and not because it sees things larger.
+    GOES_IN: ClassVar[float] = 0.5
 
     @property
     def must_be_visible(self) -> Box | None:
@@ -66,11 +67,6 @@ class SideOptions(SceneOptions[P]):
     def preferred_view(self) -> Box | None:
         """The part of the world, in m, that is visible unless the path would then be too small."""
         return None
-
-    @property
-    def frame_width(self) -> float:
-        """The width of the world in frames, in m, where the poster shows more."""
-        return 36.0
 
     def ground(self, x: np.ndarray) -> np.ndarray:
         """Height of the ground in m, at places in m."""
@@ -89,15 +85,6 @@ class SideOptions(SceneOptions[P]):
     def standing(self) -> Sequence[Thing]:
         """The things that stand on the ground."""
         return self.place.things
-
-    @property
-    def turf(self) -> Colour:
-        """The colour of the ground on the map of frames."""
-        ground = self.place.ground
-        return next((colour for colour, _ in ground.edges), ground.surface.colours[0])
-
-    def on_map(self, painter: Painter, camera: Camera) -> None:
-        """Draw the target on the map of frames."""
 
     @property
     def track(self) -> Sequence[GroundPlace]:

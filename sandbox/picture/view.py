@@ -21,6 +21,7 @@ from sandbox.picture.moving import NOT_WORTH_NOTING, BallDrawing
 from sandbox.picture.options import P
 from sandbox.picture.painter import Painter, blank
 from sandbox.picture.sheet import Entry, Sheet
+from sandbox.picture.story import Camerawork, frame_times
 from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.amounts import times
 from sandbox.text import with_noun
@@ -29,6 +30,8 @@ from sandbox.text import with_noun
 _NEAR = 12.0
 #: The reach of a surface that moves is judged at so many times.
 _POSES = 48
+#: What frames show has at least so much of the picture's height: in small ones it is also behind the headline.
+_LEAST_AREA = 0.35
 #: Text is dark on a place at least this light, in levels of 255: between the darkest sky by day and the lightest hall.
 _LIGHT = 150
 
@@ -61,7 +64,8 @@ class View(BallDrawing[P]):
         self.radius = self.radii[self.ball]
         self.ghosts = [self._ghost(i, *other) for i, other in enumerate((ghosts or {}).items())]
         self.ahead = 0.0  # s; until then paths are shown that balls are still to go
-        self.slower = 1  # so many times slower its frames are shown, which they say
+        self.still = False  # True keeps the camera where it is, and time even
+        self.filmed = False  # True if frames are shown at the pace of the story, which they say
         self._standing: tuple[Camera, pygame.Surface] | None = None
 
     def _ghost(self, i: int, label: str, run: SceneRun) -> Ghost:
@@ -106,6 +110,40 @@ class View(BallDrawing[P]):
 
     def enlarge(self, sheet: Sheet) -> None:
         """Draw on the poster what is enlarged besides."""
+
+    # The camera of frames
+
+    @cached_property
+    def camerawork(self) -> Camerawork | None:
+        """The camera that goes with the story of the run; None if it stays where it is."""
+        return self.camerawork_from(self.camera)
+
+    def camerawork_from(self, first: Camera, last: Camera | None = None) -> Camerawork | None:
+        """The same, where another camera shows the start, or another the end."""
+        if self.story is None or self.still:
+            return None
+        slower, height, area = self.slow_motion, self.size[1], self.area
+        area = area._replace(top=min(area.top, area.bottom - _LEAST_AREA * height))
+        return Camerawork(self.run, self.story, self.ball, area, height, first, slower, self.floor, last)
+
+    def view(self, t: float) -> Camera:
+        """The camera of the frame at time t in s."""
+        return self.camera if self.camerawork is None else self.camerawork.camera(t)
+
+    @property
+    def closest(self) -> Camera:
+        """The camera of frames where it is nearest."""
+        return self.view(self.decided)
+
+    def slower(self, t: float) -> float:
+        """The factor by which time is slower in a film, at time t in s of the run."""
+        return float(self.slow_motion) if self.camerawork is None else self.camerawork.slower(t)
+
+    def film(self, fps: float) -> list[float]:
+        """The times in s of the frames of a film, so many for each s of who sees it."""
+        if self.camerawork is None:
+            return frame_times(self.run.duration, fps * self.slow_motion)
+        return self.camerawork.film(fps)
 
     # What must be seen
 
@@ -198,9 +236,8 @@ class View(BallDrawing[P]):
         self.heading = _Heading(self.run.scene.verdict(self.run), notes, room)
 
     def frame(self, t: float) -> pygame.Surface:
-        """The scene at time t in s."""
-        t = min(max(t, 0.0), self.run.duration)
-        camera = self.view(t)
+        """The scene at time t in s of the run, after whose end only the camera goes on."""
+        camera, t = self.view(t), min(max(t, 0.0), self.run.duration)
         sheet = self.sheet = Sheet(self.size, self.on_dark, self._still(camera).copy())
         painter = sheet.painter
         placed = self._ball_places(camera, t, in_frame=True)
@@ -224,7 +261,8 @@ class View(BallDrawing[P]):
         others = " and ".join(ghost.label for ghost in self.ghosts)
         compared = [f"compared with {others}"] if others else []
         larger = self._larger(camera, in_frame=True)
-        slow = f"slow motion, {self.slower} times slower" if self.slower > 1 else ""
+        slower = self.slower(t) if self.filmed else 1.0
+        slow = f"slow motion, {slower:g} times slower" if slower > 1.0 and slower.is_integer() else ""
         notes = [slow, note, *compared, *self.aligned, *self._stretched(camera), *self._caveat, *larger]
         sheet.headline(headline, [note for note in notes if note], room)
         rows = [(ghost.light, ghost.view.live(min(t, ghost.run.duration))) for ghost in self.ghosts]
@@ -267,7 +305,11 @@ class View(BallDrawing[P]):
 
     def stage(self) -> pygame.Surface:
         """The place alone, as the poster's camera sees it."""
-        return self._still(self.camera).copy()
+        return self.backdrop_of(self.camera)
+
+    def backdrop_of(self, camera: Camera) -> pygame.Surface:
+        """The place alone, as a camera sees it."""
+        return self._still(camera).copy()
 
     def draw_balls(self, painter: Painter, camera: Camera, t: float, ahead: float = 0.0) -> None:
         """All that moves, at time t in s, on the stage that the camera sees; paths in a lens until ``ahead`` in s."""

@@ -39,6 +39,7 @@ from sandbox.picture.places import (
 from sandbox.picture.sheet import Entry, Sheet, SideRows
 from sandbox.picture.side import NetView, SideView
 from sandbox.picture.side_options import Length, Place
+from sandbox.picture.story import Story
 from sandbox.picture.view import View
 from sandbox.sport.amounts import round_number_above
 
@@ -75,6 +76,7 @@ __all__ = [
     "SideView",
     "Silhouette",
     "Stands",
+    "Story",
     "Stripes",
     "Thing",
     "View",

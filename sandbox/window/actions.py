@@ -308,6 +308,13 @@ def back(view: View, by: float) -> None:
             game.aiming.again()
 
 
+def switch_camera(view: View, by: float) -> None:
+    """Have the camera go with the shots that are watched, or stand still; now and next time."""
+    view.shown.on ^= {"view"}
+    view.game.memory.still = "view" not in view.shown.on
+    view.game.memory.save()
+
+
 def switch_sound(view: View, by: float) -> None:
     """Switch sound on or off."""
     if view.sound is None or not view.sound.there:

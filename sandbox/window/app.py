@@ -229,6 +229,8 @@ def play(
                 played.referee.begin(contest)
             elif source is None:
                 commands.do(app.view, "front")
+            if not played.memory.still:
+                app.view.shown.on.add("view")
             if played.memory.look != (1.0, False):
                 app.view.set_look(*played.memory.look)
             app.run()

@@ -107,7 +107,7 @@ class Cards:
             return [names if playback.playing else "paused, Space goes on"]
         notes = [f"{'replay' if shot.recorded else 'shot'} {shot.number}"]
         if playback.slowed:
-            notes.append(f"slow motion, {round(1 / playback.rate)} times slower (+ for faster)")
+            notes.append(f"slow motion, {1 / playback.pace:.0f} times slower (+ for faster)")
         if playback.over:
             again = "continue" if game.session.controls.next_start is not None else "aim again"
             if game.session.controls.held:
@@ -162,7 +162,7 @@ class Cards:
         if shown.tape is not None:
             shown.tape.draw(sheet, layout, camera, shot.upright)
         reads = self.targets.on_picture and not pygame.mouse.get_pressed()[2]
-        if not reads or shown.follows or shown.overlay is not None or self.game.grasp.holds:
+        if not reads or shown.overlay is not None or self.game.grasp.holds:
             return
         read = reading(shot, stage.pixels, mouse, NEAR * sheet.unit, shown.until(shot))
         if read is not None:

@@ -123,7 +123,7 @@ TABLE: tuple[_Command, ...] = (
             lambda view, by: view.game.watching.watch_other(int(by))),
     _Command("shots", ("q",), "table of shots: sort, pin, delete, CSV, statistics", "See", actions.open_shots),
     _Command("find", ("/",), "find a shot: at the rim, a pocket, the pin ...", "See", actions.find_shots),
-    _Command("view", ("v",), "follow the ball", "See"),
+    _Command("view", ("v",), "the camera goes with the shot", "See", actions.switch_camera),
     _Command("predict", ("y",), "path while aiming: all, to the first contact, a metre, nothing", "See",
             actions.show_ahead),
     _Command("ghosts", ("g",), "earlier shots", "See"),

@@ -95,14 +95,14 @@ class Drawing:
         if shot is None or self.stages.undrawable is not None:
             return None
         same = game.watching.playback is not None or shot.place == game.session.place
-        return self.stages.of(shot) if same or self._no_path else None
+        stage = self.stages.of(shot) if same or self._no_path else None
+        return stage if stage is None else self.viewpoint.seen(stage)
 
     def _draw_all(self, sheet: Canvas, stage: Stage, shot: Shot) -> None:
         """The shot, and what lies over it."""
         self.layout = self._layout(sheet, stage, shot)
         forces = self._draw_shot(sheet, stage, shot)
-        if not self.shown.follows:
-            self.cards.draw_words(sheet, self.layout, stage, shot, forces)
+        self.cards.draw_words(sheet, self.layout, stage, shot, forces)
         self._keep(sheet)
         self._draw_messages(sheet)
         self._draw_hand(sheet, shot)
@@ -110,7 +110,7 @@ class Drawing:
         self.cards.draw_cards(sheet, self.layout, stage, shot)
         self._draw_banner(sheet, shot)
         self._draw_contest(sheet, stage, shot)
-        if "ghosts" in self.shown.on and self.game.grasp.pull is None and not self.shown.follows:
+        if "ghosts" in self.shown.on and self.game.grasp.pull is None:
             stage.label_ghosts(sheet, self.game.ghosts, shot, self.layout)
 
     def _draw_banner(self, sheet: Canvas, shot: Shot) -> None:
@@ -125,11 +125,11 @@ class Drawing:
     def _draw_contest(self, sheet: Canvas, stage: Stage, shot: Shot) -> None:
         """The light of a success, and the card at the end of a contest."""
         referee, contest = self.game.referee, self.game.referee.contest
-        if contest is not None and contest.mark is not None and not self.shown.follows:
+        if contest is not None and contest.mark is not None:
             landed = contest.landed if referee.tells else None
             spots = [contest.mark, *([landed] if landed is not None else [])]
             scoreboard.draw_mark(sheet, stage.pixels(np.array(spots)).tolist(), shot.upright)
-        if referee.glow and not self.shown.follows:
+        if referee.glow:
             at = stage.ball_at(shot, min(self.shown.time, referee.decided), deciding_ball(shot, referee.decided))
             scoreboard.draw_glow(sheet, at, referee.glow)
         if contest is not None and referee.is_over and referee.tells and referee.again != "slow":
@@ -179,15 +179,13 @@ class Drawing:
         """The room between the top and the numbers, and what of it a stage and a shot need for themselves."""
         frame, unit, overlay, t = sheet.frame, sheet.unit, self.shown.overlay, self.shown.time
         room = pygame.Rect(frame.left, frame.top, frame.width, sheet.card_row() - sheet.gap - frame.top)
-        if overlay is not None and stage is not None and shot is not None and not self.shown.follows:
+        if overlay is not None and stage is not None and shot is not None:
             overlay.kept = stage.clear_of(shot, t)
         kept = [] if overlay is None else [overlay.place(self.screen.whole)]
         if stage is None or shot is None:
             return Layout(room, sheet.gap, kept)
-        if self.shown.follows:
-            picture = self.viewpoint.near(shot)
-            clear = [*picture.kept_clear(picture.view(t), t), *picture.sheet.labels.taken]
-            return Layout(room, sheet.gap, [*kept, *clear])
+        if self.shown.follows and stage.camerawork is not None:  # the camera moves, and what is written stays
+            return Layout(room, sheet.gap, kept)
         handles = [pygame.Rect(round(x - 9 * unit), round(y - 9 * unit), round(18 * unit), round(18 * unit))
                    for grip, (x, y), *_ in self.targets.visible_grips if not grip.in_list]  # fmt: skip
         path = [] if self.shown.hides_path else stage.along(shot)
@@ -196,7 +194,7 @@ class Drawing:
     def _draw_hand(self, sheet: Canvas, shot: Shot | None) -> None:
         """The rubber band, the handles, and the ball to set spin on."""
         game, targets, pull = self.game, self.targets, self.game.grasp.pull
-        if pull is not None and pull.shoots and shot is not None and not self.shown.follows:
+        if pull is not None and pull.shoots and shot is not None:
             hand.draw_pull(sheet, self.layout, pull.start, pull.drawn, shot.aimed)
         if self.shown.overlay is not None:
             return
@@ -219,9 +217,6 @@ class Drawing:
         """The shot with what is drawn around it, as it is aimed, or at the time to which it has been watched; returns
         the forces on the ball if their arrows are drawn."""
         shown, t = self.shown, self.shown.time
-        if shown.follows:
-            sheet.surface.blit(self.viewpoint.near(shot).frame(t), (0, 0))
-            return ()
         sheet.surface.blit(stage.backdrop, (0, 0))
         sheet.surface.set_clip(stage.picture.opening)
         if "ghosts" in shown.on:

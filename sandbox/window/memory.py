@@ -33,11 +33,13 @@ class Memory:
         self.recent: list[str] = []
         self.followed: list[str] = []
         self.look = 1.0, False  # how much larger letters are, and whether the contrast is high
+        self.still = False  # the camera stands still
         with suppress(OSError, ValueError, TypeError, AttributeError, RequestError):
             kept = json.loads(file.read_text("utf-8")) if file is not None and is_given(file) else {}
             self.recent = [source for source in kept.get("recent", []) if isinstance(source, str)][:MOST]
             larger, contrast = kept.get("look", self.look)
             self.look = min(max(float(larger), 1.0), 2.0), bool(contrast)
+            self.still = bool(kept.get("still"))
             self.followed = [hint for hint in kept.get("followed", []) if isinstance(hint, str)]
 
     def opened(self, source: str) -> None:
@@ -65,4 +67,5 @@ class Memory:
             with suppress(OSError):
                 self.file.parent.mkdir(parents=True, exist_ok=True)
                 with atomic_write(self.file, kept=False) as file:
-                    json.dump({"recent": self.recent, "followed": self.followed, "look": self.look}, file)
+                    kept = {"recent": self.recent, "followed": self.followed, "look": self.look, "still": self.still}
+                    json.dump(kept, file)

@@ -22,6 +22,7 @@ from sandbox.sport.amounts import amount
 from sandbox.window.history import Changes
 
 if TYPE_CHECKING:
+    from sandbox.picture.story import Camerawork
     from sandbox.scene.scene_run import SceneRun
 
 #: So many paths are kept, apart from those that are pinned; and so many shots without their paths.
@@ -161,8 +162,9 @@ class Playback:
     def __init__(self, shot: Shot, rate: float | None = None) -> None:
         """``rate`` is the player's; without one a shot that is over too soon to be seen starts in slow motion."""
         self.shot, self.duration, self.chosen = shot, shot.run.duration, rate
-        self.rate = rate if rate is not None else 1.0 / slow_motion(shot.run, shot.ball)
-        self.t, self.playing = 0.0, True
+        self.rate = self.usual = rate if rate is not None else 1.0 / slow_motion(shot.run, shot.ball)
+        self.t, self.playing, self.rested = 0.0, True, 0.0  # rested: s since it is over
+        self.story: Camerawork | None = None  # by which it is seen, and which sets its pace
 
     @property
     def over(self) -> bool:
@@ -171,8 +173,26 @@ class Playback:
     def advance(self, dt: float) -> None:
         """``dt`` s of real time have passed."""
         if self.playing:
-            self.seek(self.t + min(dt, LONGEST_FRAME) * self.rate)
+            self.seek(self.t + min(dt, LONGEST_FRAME) * self.pace)
             self.playing = not self.over
+        elif self.moves_on and self.story is not None:
+            self.rested = min(self.rested + dt, self.story.goes_on)
+
+    @property
+    def pace(self) -> float:
+        """The rate at which time passes now: that of the story, unless another is chosen."""
+        follows = self.story is not None and self.chosen is None and self.rate == self.usual
+        return 1.0 / self.story.slower(self.t) if follows and self.story is not None else self.rate
+
+    @property
+    def seen(self) -> float:
+        """The time in s that the camera knows: of the shot, and on after its end."""
+        return self.t + self.rested
+
+    @property
+    def moves_on(self) -> bool:
+        """True if the camera still moves after the end."""
+        return self.story is not None and self.over and self.rested < self.story.goes_on
 
     def toggle(self) -> None:
         """Pause, resume, or start again at the end."""
@@ -186,10 +206,10 @@ class Playback:
         self.seek(self.t + steps * STEP)
 
     def restart(self) -> None:
-        self.t, self.playing = 0.0, True
+        self.t, self.playing, self.rested = 0.0, True, 0.0
 
     def seek(self, t: float) -> None:
-        self.t = min(max(t, 0.0), self.duration)
+        self.t, self.rested = min(max(t, 0.0), self.duration), 0.0
 
     def change_rate(self, by: int) -> None:
         index = _RATES.index(self.rate) + by
@@ -198,7 +218,7 @@ class Playback:
     @property
     def slowed(self) -> bool:
         """True if it is in slow motion that the player has not chosen."""
-        return self.chosen is None and self.rate < 1.0
+        return self.chosen is None and self.pace < 1.0
 
 
 class Played:

@@ -80,8 +80,9 @@ class Shown:
 
     @property
     def follows(self) -> bool:
-        """True if the view follows the ball."""
-        return self.game.watching.playback is not None and "view" in self.on
+        """True if the camera goes with the story of the shot that is watched."""
+        watching = self.game.watching
+        return watching.playback is not None and watching.live is None and "view" in self.on
 
     @property
     def hides_path(self) -> bool:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from copy import copy
+from functools import cached_property
 from math import dist
 from typing import Any
 
@@ -14,6 +16,7 @@ from sandbox.picture.painter import Painter, blank
 from sandbox.picture.palette import Colour, mix, palette
 from sandbox.picture.path import simplify
 from sandbox.picture.sheet import Sheet
+from sandbox.picture.story import Camerawork
 from sandbox.picture.view import View as Picture
 from sandbox.window.background import KeyedCache
 from sandbox.window.canvas import Canvas
@@ -65,8 +68,13 @@ class Stage:
         self.whole = self.picture.camera
         vars(self.picture)["camera"] = chosen or self._camera_of(before) or self.whole
         self.camera = self.picture.camera
-        self.backdrop = self.picture.stage()
-        sheet = Sheet(size, self.picture.on_dark, self.backdrop)
+        self.aimed = self._camera_of(before, anyway=True) or self.camera  # from which the shot was aimed
+        self._compose(self.picture.stage())
+
+    def _compose(self, backdrop: pygame.Surface) -> None:
+        """Draw what stands still, as the camera sees it."""
+        self.backdrop = backdrop
+        sheet = Sheet(self.size, self.picture.on_dark, backdrop)
         self.picture.measure(sheet, self.camera)
         self.notes = self.picture.notes(self.camera)  # what is not drawn to scale
         along, up = self.picture.wind
@@ -74,14 +82,33 @@ class Stage:
         self.texts = [*wind, *(rect for _, rect in sheet.written)]  # of the place, in px
         self._once = KeyedCache()
 
-    def _camera_of(self, before: Stage | None) -> Camera | None:
-        """The camera so far, if it shows the same place and all of the shot, large enough."""
+    @cached_property
+    def camerawork(self) -> Camerawork | None:
+        """The camera that goes with the story of the shot, from where it was aimed; None if it stays where it is."""
+        return self.picture.camerawork_from(self.aimed, self.camera) if self.chosen is None else None
+
+    def at(self, t: float) -> Stage:
+        """The stage as the camera of the story sees it, at a time in s of the shot."""
+        camera = self.camera if self.camerawork is None else self.camerawork.camera(t)
+        if camera == self.camera:
+            return self
+        stage: Stage = self._once("moved", camera, lambda: self._seen_by(camera))
+        return stage
+
+    def _seen_by(self, camera: Camera) -> Stage:
+        stage = copy(self)
+        stage.camera = camera
+        stage._compose(self.picture.backdrop_of(camera))
+        return stage
+
+    def _camera_of(self, before: Stage | None, anyway: bool = False) -> Camera | None:
+        """The camera so far, if it shows the same place and, or ``anyway``, all of the shot, large enough."""
         if before is None or before.chosen is not None or before.size != self.size:
             return None
         if not before.is_place_of(self.shot):
             return None
-        near = self.whole.scale <= _NEARER * before.camera.scale and before.camera.stretch == self.whole.stretch
-        return before.camera if near and before.holds(self.shot) else None
+        near = anyway or (self.whole.scale <= _NEARER * before.camera.scale and before.holds(self.shot))
+        return before.camera if near and before.camera.stretch == self.whole.stretch else None
 
     def shows(self, shot: Shot, chosen: Camera | None) -> bool:
         """True if it was composed for this shot and this choice of camera."""
@@ -203,7 +230,7 @@ class Stage:
             return self.picture
         picture: Picture[Any] = self._once("picture", shot, lambda: shot.run.scene.picture(shot.run, self.size))
         composed = {
-            "camera": self.camera,
+            "camera": self.picture.camera,
             **{name: vars(self.picture)[name] for name in _GROUND if name in vars(self.picture)},
         }
         vars(picture).update(composed)

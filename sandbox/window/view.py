@@ -105,8 +105,10 @@ class View:
         """True if something is being prepared that will have to be drawn."""
         overlay = self.shown.overlay
         pictures = overlay is not None and overlay.picture_count < len(overlay.pictures)
+        playback = self.game.watching.playback
+        moves = playback is not None and playback.moves_on
         coming = any(job.work is not None for job in (self.stages.job, self.fan.job, self.map.job))
-        return pictures or coming or self.stages.needs_stage or bool(self.fan.next_key or self.map.next_key)
+        return pictures or coming or moves or self.stages.needs_stage or bool(self.fan.next_key or self.map.next_key)
 
     def tick(self, dt: float) -> None:
         """``dt`` s have passed."""
@@ -119,6 +121,7 @@ class View:
                 game.memory.follow(hint)
         self._open_panel()
         self.changed |= self.stages.follow(dt)
+        self.viewpoint.follow()
         self.changed |= self.fan.follow()
         self.changed |= self.map.follow()
 
@@ -135,7 +138,7 @@ class View:
 
     def needs_drawing(self, happened: bool) -> bool:
         """True if what would be drawn differs from what was drawn last."""
-        seen = self.game.visible_state, self.shown.visible_state, self.stages.chosen, self.viewpoint.nearer
+        seen = self.game.visible_state, self.shown.visible_state, self.stages.chosen, self.viewpoint.camera
         needed = happened or self.changed or seen != self._drawn
         self._drawn, self.changed = seen, False
         return needed

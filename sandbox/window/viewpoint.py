@@ -1,67 +1,55 @@
-"""The camera of a shot: it shows all of it, a part that the player has chosen, or near the ball that is followed."""
+"""The camera of a shot: it goes with its story, or shows all of it, or a part that the player has chosen."""
 
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 from sandbox.picture.camera import Camera
-from sandbox.picture.view import View as Picture
-from sandbox.window.background import KeyedCache
 from sandbox.window.game import Game
 from sandbox.window.screen import Screen
-from sandbox.window.shots import Shot
 from sandbox.window.shown import Shown
+from sandbox.window.stage import Stage
 from sandbox.window.stages import Stages
 
 #: Largest and smallest zoom, compared with a view of the whole shot.
 _NEAREST, _FARTHEST = 60.0, 0.2
 #: No ball becomes larger by zooming than with this radius, as a share of the picture's height.
 _LARGEST_BALL = 0.12
-#: A view that follows the ball can be so many times nearer or farther.
-_NEARER = 8.0
 #: The ground is never higher than this, as a share of the picture's height.
 _HIGHEST = 0.3
 
 
 class Viewpoint:
-    """Zooms, moves and holds the camera of the stages, or that which follows the ball."""
+    """Zooms, moves and holds the camera of the stages, and has it go with the story of what is watched."""
 
     def __init__(self, game: Game, screen: Screen, shown: Shown, stages: Stages) -> None:
         self.game, self.screen, self.shown, self.stages = game, screen, shown, stages
-        self.nearer = 1.0  # where the view follows the ball
         self._holds = False  # the camera, while something is dragged
-        self._once = KeyedCache()
+
+    def seen(self, stage: Stage) -> Stage:
+        """A stage as the camera sees it now: where a shot is watched it goes with its story."""
+        playback = self.game.watching.playback
+        return stage.at(playback.seen) if playback is not None and playback.story is not None else stage
 
     @property
     def camera(self) -> Camera | None:
         """The current camera; None until there is a stage."""
-        shot = self.game.shot
-        if not self.shown.follows or shot is None:
-            return self.stages.latest.camera if self.stages.latest is not None else None
-        return self.near(shot).view(self.shown.time)
+        stage = self.stages.latest
+        return None if stage is None else self.seen(stage).camera
 
-    def near(self, shot: Shot) -> Picture[Any]:
-        """The picture of a shot that follows its ball, as near as the player has zoomed."""
-        size, look = self.screen.area.size, self.game.memory.look
-        found: Picture[Any] = self._once("near", (shot, size, look), lambda: shot.run.scene.picture(shot.run, size))
-
-        def view(t: float) -> Camera:
-            """The picture's own, nearer, with the ball in the same place; on whole px."""
-            camera = type(found).view(found, t)
-            near = _scaled(camera, self.nearer, camera.pixel(*shot.run.state(shot.ball, t)[:2]))
-            return replace(near, anchor=(round(near.anchor[0]), round(near.anchor[1])))
-
-        vars(found)["view"] = view
-        return found
+    def follow(self) -> None:
+        """Give the shot that is watched the pace of its story, or none if the camera stands still."""
+        playback, stage, story = self.game.watching.playback, self.stages.latest, None
+        if self.shown.follows and playback is not None and stage is not None and stage.shot.run is playback.shot.run:
+            story = stage.camerawork
+        if playback is not None:
+            playback.story = story
 
     def zoom(self, factor: float, at: tuple[float, float]) -> None:
-        """Zoom by ``factor`` around a place (px), or around the ball that the view follows."""
+        """Zoom by ``factor`` around a place (px)."""
         stage = self.stages.latest
-        if self.shown.follows:
-            self.nearer = min(max(self.nearer * factor, 1 / _NEARER), _NEARER)
-        elif stage is not None:
-            camera, whole = self.stages.chosen or stage.camera, stage.whole.scale
+        if stage is not None:
+            camera, whole = self.stages.chosen or self.seen(stage).camera, stage.whole.scale
             largest = max(ball.radius for ball in stage.shot.run.setup.balls)
             nearest = max(whole, min(_NEAREST * whole, _LARGEST_BALL * self.screen.area.height / largest))
             scale = min(max(camera.scale * factor, _FARTHEST * whole), nearest)
@@ -70,21 +58,18 @@ class Viewpoint:
     def pan(self, across: float, down: float) -> None:
         """Move the picture by so many px."""
         if self.stages.latest is not None:
-            camera = self.stages.chosen or self.stages.latest.camera
+            camera = self.stages.chosen or self.seen(self.stages.latest).camera
             right, foot = camera.anchor
             self.look(replace(camera, anchor=(right + across, foot + down)))
 
     def look(self, camera: Camera | None) -> None:
         """Use another camera; None shows all of the shot. From the side the ground stays in the lower part."""
-        if self.shown.follows and camera is not None:
-            self.game.messages.tell("the view follows the ball; V for the whole view")
-            return
         shot = self.game.shot
         if camera is not None and shot is not None and shot.upright:
             across, down = camera.anchor
             camera = replace(camera, anchor=(across, max(down, _HIGHEST * self.screen.area.height)))
         self.stages.choose(camera)
-        self.nearer, self._holds = 1.0, False
+        self._holds = False
 
     def hold(self) -> None:
         """Keep the camera as it is: what is dragged stays under the mouse."""

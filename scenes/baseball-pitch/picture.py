@@ -13,6 +13,7 @@ from sandbox.kit import (
     Post,
     Shape,
     SideView,
+    Story,
     Thing,
     metres,
     palette,
@@ -35,6 +36,11 @@ class Picture(SideView[Parameters]):
     def aims(self) -> list[Box]:
         plate = self.parameters.plate
         return [Box(plate.distance, plate.bottom, plate.distance + DEEP, plate.top)]
+
+    @property
+    def story(self) -> Story:
+        """The zone, or where the ball passes the plate."""
+        return self.meeting(*self.aims, share=0.3, spot=1.0)
 
     @property
     def preferred_view(self) -> Box:

@@ -17,6 +17,7 @@ from sandbox.kit import (
     Shape,
     Sheet,
     SideView,
+    Story,
     in_two_units,
     passing,
     scene_colours,
@@ -47,6 +48,14 @@ class Picture(SideView[Parameters]):
     def aims(self) -> list[Box]:
         fence = self.parameters.fence
         return [Box(fence.distance - 0.5, 0.0, fence.distance + 0.5, fence.height)]
+
+    @property
+    def story(self) -> Story:
+        """The fence with its pole where the ball passes it, or where it comes down."""
+        fence = self.parameters.fence
+        passed = passing(self.run, fence.distance)
+        wall = Box(fence.distance - 0.5, 0.0, fence.distance + 0.5, fence.height + POLE)
+        return self.meeting(wall, share=0.5, spot=4.0, at=None if passed is None else passed.t)
 
     @property
     def preferred_view(self) -> Box:

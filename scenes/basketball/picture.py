@@ -22,6 +22,7 @@ from sandbox.kit import (
     Place,
     Sheet,
     SideView,
+    Story,
     around_corners,
     boards,
     courts,
@@ -58,7 +59,7 @@ class Picture(SideView[Parameters]):
     TRACE, OTHER_TRACES = COLOURS["trace"], COLOURS["earlier"]
     FAINT_TRACE = mix(TRACE, COLOURS["hall"]["wall"][1], 0.45)
     LENGTH_ROWS, SECOND_UNIT, MEASURED_FROM = 1, "ft", "from the hand"
-    EYE_HEIGHT, EYE_COLUMN = 128, 0.25
+    EYE_HEIGHT, EYE_COLUMN, GOES_IN = 128, 0.25, 0.0
 
     @cached_property
     def story_end(self) -> float:
@@ -125,6 +126,11 @@ class Picture(SideView[Parameters]):
         return [Box(x - half, y - NET, back, y + 0.05), Box(x, bottom, back, top)]
 
     @property
+    def story(self) -> Story:
+        """Ring and net, or where the ball goes instead."""
+        return self.meeting(self.aims[0], share=0.35, spot=1.5)
+
+    @property
     def preferred_view(self) -> Box:
         face, _, back, top = self.parameters.board
         return Box(face, 0.0, back + STAND, top)
@@ -170,11 +176,6 @@ class Picture(SideView[Parameters]):
     def camera(self) -> Camera:
         return self.beside or self.fitted(self.area)
 
-    @cached_property
-    def columns(self) -> tuple[float, float]:
-        low, high = super().columns
-        return low, min(high, self.lens.left - 40 * self.unit) if self.beside else high
-
     def eye(self, camera: Camera) -> Eye:
         if camera != self.near:
             return super().eye(camera)
@@ -188,33 +189,25 @@ class Picture(SideView[Parameters]):
         return [mark for mark in marks if not self.beside or here == (self._away(np.array([mark.at]))[0] < 1.0)]
 
     def inset(self, sheet: Sheet, camera: Camera, t: float | None) -> pygame.Rect | None:
-        """The lens, unless it would hide what it shows: how the ball comes, and on the poster what it touches."""
-        _, bottom, back, top = self.parameters.board
-        (left, high), (right, low) = camera.pixel(self.ring[0] - 0.6, top), camera.pixel(back + 1.0, bottom)
-        hidden = self.lens.colliderect((round(left), round(high), round(right - left), round(low - high)))
-        if not self.beside or (t is not None and hidden):
+        """On the poster the lens: how the ball comes, and what it touches."""
+        if not self.beside or t is not None:
             return None
-        near, painter, moment = self.near, sheet.painter, self.moment if t is None else t
+        near, painter, moment = self.near, sheet.painter, self.moment
         corners = around_corners(sheet.surface, self.lens, 10 * self.unit)
         sheet.surface.fill(COLOURS["lens"], self.lens)
         sheet.surface.set_clip(self.lens)
         self.draw_things(painter, self.eye(near), near=False)
         self.behind(painter, near, moment)
         outside, sheet.labels = sheet.labels, Labels(self.lens.inflate(-2 * sheet.gap, -2 * sheet.gap), sheet.gap)
-        if t is None:
-            points = near.pixels(self.path.points)
-            seen = np.flatnonzero(np.abs(points - self.lens.center).max(axis=1) < self.lens.width)
-            draw_trace(sheet, points[seen[0] : seen[-1] + 1], self.TRACE)
-            self._entry(sheet)
-        else:
-            self.trail(painter, near, self.ball, t)
-            self.draw_ball(painter, near, self.ball, t, *self._ball_places(near, t)[self.ball])
+        points = near.pixels(self.path.points)
+        seen = np.flatnonzero(np.abs(points - self.lens.center).max(axis=1) < self.lens.width)
+        draw_trace(sheet, points[seen[0] : seen[-1] + 1], self.TRACE)
+        self._entry(sheet)
         self.before(painter, near, moment)
-        if t is None:
-            mark_impacts(sheet, near, self.impacts(near))
-            corner = self.lens.left + 2 * sheet.gap, self.lens.bottom - 1.6 * sheet.gap
-            larger = f"{near.scale / self.camera.scale:.1f}×"
-            sheet.label(larger, "small", [(*corner, "bottomleft")], CARD["quiet"])
+        mark_impacts(sheet, near, self.impacts(near))
+        corner = self.lens.left + 2 * sheet.gap, self.lens.bottom - 1.6 * sheet.gap
+        larger = f"{near.scale / self.camera.scale:.1f}×"
+        sheet.label(larger, "small", [(*corner, "bottomleft")], CARD["quiet"])
         sheet.labels = outside
         sheet.surface.set_clip(None)
         sheet.surface.blit(corners, self.lens)

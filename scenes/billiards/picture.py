@@ -11,12 +11,14 @@ import pygame
 from sandbox.kit import (
     AboveView,
     Area,
+    Box,
     Camera,
     Colour,
     Entry,
     Look,
     Painter,
     Sheet,
+    Story,
     mix,
     palette,
     round_number_above,
@@ -43,6 +45,9 @@ PLATE, PLATE_LENGTH, PLATE_INSIDE = 0.013, 0.16, 0.026
 SPOTS = (-0.5, 0.0, 0.5)
 #: Snooker's markings (WPBSA): from the head cushion to the line, the D's radius, from the foot cushion to the black, m.
 BAULK, D_RADIUS, BLACK_SPOT = 0.737, 0.292, 0.324
+
+#: Half the width of what is seen of a first contact, in radii, and its share of the picture's height.
+PILE, PILE_SHARE = 8.0, 0.45
 
 MARKING = mix(COLOURS["cloth"], COLOURS["marking"], 0.55)
 #: The cloth between the jaws lies in the cushions' shadow.
@@ -102,6 +107,21 @@ class Picture(AboveView[Parameters]):
         """All but the frame: the scale bar is next to the table."""
         side, gap = 0.05 * self.size[0], self.sheet.gap
         return Area(side, self.sheet.top_row + gap, self.size[0] - side, self.card_row - 2 * gap)
+
+    @property
+    def story(self) -> Story | None:
+        """The first ball that is potted; or the first that the struck one meets."""
+        events, pockets = self.run.events, {hole.name: hole for hole in self.run.setup.traps}
+        met = next((e for e in events if e.kind == "impact" and {e.ball, e.partner} <= set(self.balls)), None)
+        potted = next((e for e in events if e.kind == "caught"), None)
+        if met is None and potted is None:
+            return None
+        if potted is None:
+            assert met is not None
+            return Story(_around((met.x, met.y), PILE * self.radius), met.t, PILE_SHARE)
+        hole = pockets[potted.partner]
+        until = potted.t if met is None or potted.ball == self.ball else met.t
+        return Story(_around(hole.center, hole.radius), potted.t, 0.2, [(self.ball, until), (potted.ball, potted.t)])
 
     # Balls
 
@@ -207,6 +227,10 @@ class Picture(AboveView[Parameters]):
         moving = sum(t < self.caught[name] and any(self.run.state(name, t)[2:4]) for name in self.balls)
         rails = sum(name.endswith(" cushion") for name, event in collisions_of(self.run, self.ball) if event.t <= t)
         return [("moving", str(moving)), ("cushions", str(rails))]
+
+
+def _around(at: Point, reach: float) -> Box:
+    return Box(at[0] - reach, at[1] - reach, at[0] + reach, at[1] + reach)
 
 
 def _snooker_markings(x: float, y: float) -> Plan:

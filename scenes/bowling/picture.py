@@ -18,6 +18,7 @@ from sandbox.kit import (
     Mark,
     Painter,
     Shape,
+    Story,
     near,
     palette,
     plan,
@@ -69,6 +70,12 @@ class Picture(LongView[Parameters]):
         """The pins, and from where the ball is in the gutter."""
         ball = float(self.path.points[-1, 0])
         return Box(min(HEAD - 0.6, ball - 0.5), -LANE - 0.22, HEAD + PIT + 0.28, LANE + 0.22)
+
+    @property
+    def story(self) -> Story:
+        """The pins, as the ball comes to them."""
+        among = (event.t for event in self.run.events if event.ball == self.ball and event.x > HEAD - 2 * ROW)
+        return Story(Box(HEAD - 0.15, -LANE, HEAD + PIT, LANE), next(among, self.decided), 0.0)
 
     @property
     def lines(self) -> dict[str, float]:

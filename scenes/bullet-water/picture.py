@@ -49,9 +49,6 @@ class Picture(SideView[Parameters]):
         at = camera.at[0], 0.0
         return super().eye(replace(camera, at=at, anchor=camera.pixel(*at)))
 
-    def view(self, t: float) -> Camera:
-        return self.camera
-
     def position(self, t: float) -> list[Entry]:
         return [("height" if (y := self.run.state(self.ball, t)[1]) > 0.0 else "depth", metres(abs(y)))]
 

@@ -14,6 +14,7 @@ from sandbox.kit import (
     Look,
     Mark,
     Painter,
+    Story,
     near,
     plan,
     scene_colours,
@@ -40,6 +41,11 @@ class Picture(LongView[Parameters]):
     def aims(self) -> list[Box]:
         """The middle of the house."""
         return [Box(-RINGS[2], -RINGS[2], RINGS[2], RINGS[2])]
+
+    @property
+    def story(self) -> Story:
+        """The house, as the stone comes to rest or meets another."""
+        return Story(self.aims[0], self.decided, 0.0)
 
     @property
     def whole(self) -> Box:

@@ -13,6 +13,7 @@ from sandbox.kit import (
     Post,
     SideView,
     Stands,
+    Story,
     metres,
     scene_colours,
     turf,
@@ -31,10 +32,9 @@ class Picture(SideView[Parameters]):
     LENGTH_ROWS, MEASURED_FROM, THING, CAVEAT = 1, "from the kick", "ball", "not validated"
 
     @property
-    def frame_width(self) -> float:
-        """So much that the uprights, of which the nearer one looks larger, end below the headline."""
-        rows, tall = self.sheet.side_rows(len(self.ghosts), 0), 1.1 * (self.parameters.goal.height + UPRIGHT)
-        return tall * self.size[0] / (rows.base - rows.top)
+    def story(self) -> Story:
+        """Bar and uprights, or where the ball comes down."""
+        return self.meeting(*self.aims, share=0.6, spot=4.0)
 
     @property
     def must_be_visible(self) -> Box:

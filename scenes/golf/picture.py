@@ -26,6 +26,7 @@ from sandbox.kit import (
     Sheet,
     SideRows,
     SideView,
+    Story,
     Stripes,
     Thing,
     dimples,
@@ -53,8 +54,8 @@ STRIPE, LEAST_APEX = 70, 44
 FLAGSTICK, FAR = 2.13, 0.42
 #: Depth of the turf that is cut open, and most of a hollow, in px on 720 rows; a cup of this width is drawn.
 TURF, HOLLOW, LEAST_CUP = 7, 16, 10
-#: Frames show at most this much of the world's length, in m.
-WIDEST_VIEW = 64.0
+#: A ball that ends so near to the cup, in m, is decided there.
+CLOSE = 0.5
 
 #: A pin as near as this, in m, is in the picture of a putt however short it is.
 NEAR_PIN = 15.0
@@ -94,8 +95,16 @@ class Picture(SideView[Parameters]):
         return self.preferred_view if self.pin <= NEAR_PIN else None
 
     @property
-    def frame_width(self) -> float:
-        return min(WIDEST_VIEW, max(0.35 * float(np.ptp(self.path.points[:, 0])), 100 * self.radius))
+    def story(self) -> Story:
+        """The cup if the ball ends near it, or else where it ends up."""
+        cup, end = self.cup, float(self.path.points[-1, 0])
+        near = bool(cup.left < cup.right and cup.left - CLOSE < end < cup.right + CLOSE)
+        return self.meeting(*[cup] * near, share=0.22 if near else 0.35, spot=5.0, at=self.story_end)
+
+    @property
+    def floor(self) -> float:
+        """Of the cup, which is cut open, too."""
+        return min(self.cup.bottom, super().floor)
 
     # The place
 
@@ -144,12 +153,14 @@ class Picture(SideView[Parameters]):
 
     def backdrop(self, painter: Painter, camera: Camera) -> None:
         """Landscape, field and ground."""
-        scale = camera.scale if camera == self.camera else self.home.scale
         eye, (width, height), turf = self.seen_from(camera), self.size, self.colours["turf"]
         low, high = camera.world(0, 0)[0], camera.world(width, 0)[0]
         outline = camera.pixels(self.profile(low, high))
         deepest = min(height, max(round(eye.base), round(outline[:, 1].max())))
-        field, thick = self._field(eye, round_number_above(STRIPE * self.unit / scale)), max(3, round(TURF * self.unit))
+        field, thick = (
+            self._field(eye, round_number_above(STRIPE * self.unit / self.camera.scale)),
+            max(3, round(TURF * self.unit)),
+        )
         Landscape(**self.colours["landscape"]).draw(painter.surface, min(field.foot(eye), height), self.moved(camera))
         field.draw(painter, eye, deepest)
         if outline[:, 1].min() < deepest - 1:
@@ -291,15 +302,3 @@ class Picture(SideView[Parameters]):
             return False
         drop = self.path.points[0, 1] - self.radius - self._under(carry)
         return bool(drop * camera.scale * camera.stretch >= LEAST_DROP * self.unit)
-
-    # Frames
-
-    @property
-    def turf(self) -> Colour:
-        return self.colours["turf"]["fairway"]
-
-    def on_map(self, painter: Painter, camera: Camera) -> None:
-        """The flag."""
-        (x, y), tall = camera.pixel(self.pin, self._under(self.pin)), 24 * self.unit
-        painter.thread([(x, y), (x, y - tall)], max(1, round(1.6 * self.unit)), HOLE["pole"])
-        painter.polygon([(x, y - tall), (x + 0.6 * tall, y - 0.8 * tall), (x, y - 0.6 * tall)], HOLE["flag"])

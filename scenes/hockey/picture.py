@@ -23,6 +23,7 @@ from sandbox.kit import (
     Mark,
     Painter,
     Shape,
+    Story,
     goal,
     near,
     scene_colours,
@@ -74,6 +75,12 @@ class Picture(AboveView[Parameters]):
         rink = self.parameters.rink
         end, half, deep = rink.line, 0.5 * rink.goal_width, DEPTH if rink.goal_line else 0.02 * rink.length
         return [Box(end, -half, end + deep, half), Box(-end - deep, -half, -end, half)]
+
+    @property
+    def story(self) -> Story:
+        """The goal, or where the puck ends up."""
+        at = decided(self.run, self.parameters)[0]
+        return self.meeting(*self.aims, share=0.4, spot=0.3 if self.table else 3.0, at=at)
 
     @cached_property
     def must_show(self) -> np.ndarray:

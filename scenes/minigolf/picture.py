@@ -10,6 +10,7 @@ from sandbox.kit import (
     AboveView,
     Box,
     Look,
+    Story,
     mix,
     plan,
     scene_colours,
@@ -41,6 +42,11 @@ class Picture(AboveView[Parameters]):
         """The hole."""
         hole = self.parameters.hole
         return [Box(hole.x - hole.radius, hole.y - hole.radius, hole.x + hole.radius, hole.y + hole.radius)]
+
+    @property
+    def story(self) -> Story:
+        """The hole, or where the ball ends up."""
+        return self.meeting(*self.aims, share=0.22, spot=0.4)
 
     @cached_property
     def must_show(self) -> np.ndarray:

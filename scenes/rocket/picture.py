@@ -21,6 +21,7 @@ from sandbox.kit import (
     Sheet,
     SideView,
     Silhouette,
+    Story,
     Stripes,
     amount,
     metres,
@@ -50,6 +51,11 @@ class Picture(SideView[Parameters]):
     @property
     def must_be_visible(self) -> Box:
         return Box(-1.0, 0.0, 1.0, self.parameters.launch.rail + 0.5)
+
+    @property
+    def story(self) -> Story:
+        """Where it comes down."""
+        return self.meeting(share=0.3, spot=4.0)
 
     @cached_property
     def strobe_end(self) -> float:

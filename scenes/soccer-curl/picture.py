@@ -14,6 +14,7 @@ from sandbox.kit import (
     Entry,
     Painter,
     Sheet,
+    Story,
     first_touch,
     metres,
     mix,
@@ -52,7 +53,7 @@ class Picture(AboveView[Parameters]):
 
     LOOK, TRACE, OTHER_TRACES = FromTheSide.LOOK, FromTheSide.TRACE, FromTheSide.OTHER_TRACES
     FAINT_TRACE = mix(TRACE, COLOURS["grass"][0], 0.3)
-    TRAIL, MIN_STROBE_SHARE, FRAME_WIDTH, DUSK = 0.4, 0.6, 34.0, COLOURS["dusk"]
+    TRAIL, MIN_STROBE_SHARE, DUSK = 0.4, 0.6, COLOURS["dusk"]
 
     @property
     def balls(self) -> list[str]:
@@ -120,6 +121,18 @@ class Picture(AboveView[Parameters]):
         goal = self.parameters.goal
         aside = goal.width / 2 + goal.post_radius
         return [Box(goal.distance, goal.offset - aside, goal.distance + goal.depth, goal.offset + aside)]
+
+    @property
+    def story(self) -> Story:
+        """Keeper, wall or goal, as the ball meets them."""
+        touched, keeper, at = first_touch(self.run), self.parameters.keeper, self.moment
+        if touched is not None and (self.run.result["flight_time"] is None or touched.t < at):
+            return self.meeting(share=0.3, spot=2.0, at=touched.t)
+        if not keeper.present:
+            return self.meeting(*self.aims, share=0.6, spot=4.0, at=at)
+        x, y = self.keeper_at(at)
+        reach = keeper.radius
+        return Story(Box(x - reach, y - reach, x + reach, y + reach), at, 0.22)
 
     @cached_property
     def must_show(self) -> np.ndarray:

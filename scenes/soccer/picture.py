@@ -20,6 +20,7 @@ from sandbox.kit import (
     Sheet,
     SideView,
     Stands,
+    Story,
     courts,
     goal,
     metres,
@@ -79,6 +80,14 @@ class Picture(SideView[Parameters]):
     def aims(self) -> list[Box]:
         goal = self.parameters.goal
         return [Box(goal.distance, 0.0, goal.distance + goal.depth, goal.height)] if goal.present else []
+
+    @property
+    def story(self) -> Story:
+        """The goal, the wall, or where the ball ends up."""
+        wall = self.parameters.wall
+        thick, there = 0.5 * wall.thickness, wall.present
+        walls = [Box(wall.distance - thick, 0.0, wall.distance + thick, wall.height)] if there else []
+        return self.meeting(*self.aims, *walls, share=0.5, spot=4.0)
 
     @property
     def preferred_view(self) -> Box:

@@ -14,6 +14,7 @@ from sandbox.kit import (
     Shape,
     SideView,
     Stands,
+    Story,
     scene_colours,
     turf,
 )
@@ -35,6 +36,11 @@ class Picture(SideView[Parameters]):
     def aims(self) -> list[Box]:
         """The mark."""
         return [Box(self.parameters.record - 0.1, 0.0, self.parameters.record + 0.4, 0.9)]
+
+    @property
+    def story(self) -> Story:
+        """The mark, or where the shot comes down."""
+        return self.meeting(*self.aims, share=0.3, spot=1.5)
 
     @property
     def preferred_view(self) -> Box:

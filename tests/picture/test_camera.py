@@ -1,14 +1,11 @@
 """Metres to pixels and back."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from sandbox.picture.camera import Area, Box, Camera
-from sandbox.picture.chase import Chase
 
 metres = st.floats(-1e4, 1e4)
 cameras = st.builds(
@@ -55,42 +52,3 @@ def test_heights_are_stretched_and_lengths_are_not():
     camera = Camera((0, 0), (0, 0), scale=10, stretch=2)
     assert camera.pixel(3, 0) == (30, 0)
     assert camera.pixel(0, 3) == (0, -60)
-
-
-class TestChase:
-    """Of a ball that stops dead after 2 s, at 20 m."""
-
-    home, area = Camera((0.0, 0.0), (0.0, 0.0), 40.0), Area(-500.0, -500.0, 500.0, 500.0)
-
-    def chase(self, duration: float = 4.0, **from_the_side) -> Chase:
-        ball = SimpleNamespace(name="ball", radius=0.1)
-        going = SimpleNamespace(duration=duration, setup=SimpleNamespace(balls=[ball]))
-        going.state = lambda name, t: (min(10.0 * t, 20.0), 5.0 * t, 10.0 * (t < 2.0), 5.0, 0.0)
-        return Chase(going, "ball", self.home, self.area, **from_the_side)
-
-    def test_keeps_the_ball_in_sight_and_rounds_the_corner(self):
-        chase, times = self.chase(), np.linspace(0.0, 4.0, 481)
-        cameras = [chase.camera(t) for t in times]
-        shown = np.array(
-            [camera.pixel(*chase.run.state("ball", t)[:2]) for camera, t in zip(cameras, times, strict=True)]
-        )
-        assert np.abs(shown).max() <= 600.0 + 0.5  # px, and half of one for whole px
-        assert np.all(np.abs(shown[[0, 180, -1], 0] - (0.0, 500.0, 500.0)) <= 1.0)
-        speeds = np.diff([camera.at[0] for camera in cameras][::10]) * 12  # m/s, over 1/12 s
-        assert np.abs(np.diff(speeds)).max() < 6.0  # where the ball's changes by 10
-
-    def test_from_the_side_a_high_ball_is_seen_from_farther_away(self):
-        chase = self.chase(ground=np.zeros_like)
-        for t in np.linspace(0.0, 4.0, 41):
-            camera = chase.camera(t)
-            assert camera.at[1] == 0.0
-            assert camera.pixel(0.0, chase.run.state("ball", t)[1])[1] + 1e-9 >= -500.0
-        assert chase.camera(0.0).scale == 40.0 > chase.camera(4.0).scale
-
-    def test_any_time_in_any_order(self):
-        chase = self.chase()
-        later, before = chase.camera(2.5), chase.camera(0.5)
-        assert (chase.camera(0.5), chase.camera(2.5)) == (before, later)
-
-    def test_a_run_of_no_length(self):
-        assert self.chase(0.0).camera(0.0).scale == pytest.approx(40.0)

@@ -39,7 +39,10 @@ class Run:
 class Picture:
     """A ball that goes from left to right over grey; it may fail at a time."""
 
-    slow_motion = 1
+    filmed = False
+
+    def film(self, fps: float) -> list[float]:
+        return frame_times(self.run.duration, fps)
 
     def __init__(self, run: Run, fails_at: float = np.inf):
         self.run, self.fails_at = run, fails_at

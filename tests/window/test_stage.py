@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from concurrent.futures import Future
+from itertools import pairwise
 from pathlib import Path
 
 os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
@@ -218,21 +219,37 @@ class TestTheCamera:
         assert player.view.viewpoint.camera.world(330, 190) == pytest.approx(place)
         assert player.game.watching.playback is not None
 
-    @pytest.mark.parametrize("source", ["golf", "billiards"])
-    def test_it_follows_the_ball_as_near_as_one_likes(self, player, source):
-        player = player(source, (640, 400))
-        for key in (pygame.K_SPACE, pygame.K_v):
-            player.key(key)
+    def test_it_goes_in_with_the_story_and_not_out_before(self, player):
+        player = player("soccer-curl/dive", (640, 400))
+        aimed = player.view.viewpoint.camera
+        player.key(pygame.K_v)
+        player.key(pygame.K_SPACE)
         player.settle()
-        player.game.watching.playback.playing = False
-        ball = player.game.shot.run.state(player.game.shot.ball, player.game.watching.playback.t)[:2]
-        far = player.view.viewpoint.camera
-        player.view.viewpoint.zoom(2.0, (5, 5))
+        playback, scales = player.game.watching.playback, [aimed.scale]
+        decided = playback.story.decided
+        while playback.t < decided:
+            player.frames(1)
+            scales.append(player.view.viewpoint.camera.scale)
+        assert all(after >= before * (1 - 1e-6) for before, after in pairwise(scales))
+        assert scales[-1] > 4 * aimed.scale
+        assert playback.pace == pytest.approx(1 / playback.story.slowest)  # and time has slowed
+        player.view.viewpoint.zoom(0.5, (300, 200))
+        player.settle()
+        assert player.view.viewpoint.camera.scale == pytest.approx(scales[-1] / 2, rel=0.1)  # it is the player's now
+        assert playback.story is None
+
+    def test_it_comes_back_after_the_end_and_then_nothing_is_drawn(self, player):
+        player = player("soccer-curl/dive", (640, 400))
+        player.key(pygame.K_v)
+        player.key(pygame.K_SPACE)
+        player.settle()
+        playback = player.game.watching.playback
+        playback.seek(playback.story.decided)
+        while playback.moves_on or not playback.over:
+            player.frames(1)
         player.frames(2)
-        assert player.view.viewpoint.camera.scale == pytest.approx(2 * far.scale)
-        assert player.view.viewpoint.camera.pixel(*ball) == pytest.approx(far.pixel(*ball), abs=0.6)
-        player.key(pygame.K_0, pygame.KMOD_CTRL)
-        assert player.view.viewpoint.camera == far
+        assert player.view.viewpoint.camera == player.view.stages.latest.camera
+        assert not player.view.needs_drawing(False)
 
     def test_two_fingers_zoom_and_move_it_and_one_pulls(self, player):
         player = player("golf", (640, 400))
