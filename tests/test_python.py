@@ -5,7 +5,6 @@ from __future__ import annotations
 import doctest
 import inspect
 import re
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -67,20 +66,6 @@ def test_the_code_of_the_page_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPat
         exec(block, names)
     assert len(BLOCKS) > 5
     assert {"shot.png", "shot.html", "shot.gif", "energy.png"} <= {path.name for path in tmp_path.iterdir()}
-
-
-def test_the_code_of_the_page_passes_strict_types(tmp_path: Path, strict_types: Callable[..., str]):
-    (tmp_path / "page.py").write_text("\n".join(BLOCKS))
-    (tmp_path / "wrong.py").write_text(
-        "import sandbox\n"
-        "from sandbox import Bal\n"
-        "sandbox.simulate(3)\n"
-        "carry: int = sandbox.simulate(sandbox.load('golf')).state('ball', 0.0).x\n"
-    )
-    said = strict_types("page.py", "wrong.py").splitlines()
-    wrong = [line for line in said if line.startswith("wrong.py")]
-    assert [line for line in said if line.startswith("page.py")] == [], said
-    assert [re.findall(r":(\d+): error", line) for line in wrong if ": error" in line] == [["2"], ["3"], ["4"]]
 
 
 def test_help_leads_to_the_run():

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 import sysconfig
@@ -32,13 +33,18 @@ def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def installed(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Call:
-    """Runs a command of the environment in a folder of its own, far from the checkout.
+def work(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder far from the checkout."""
+    return tmp_path_factory.mktemp("elsewhere")
+
+
+@pytest.fixture(scope="module")
+def installed(wheel: Path, work: Path, tmp_path_factory: pytest.TempPathFactory) -> Call:
+    """Runs a command of the environment in ``work``.
 
     Libraries are those of the environment that runs the tests, lent by a .pth file, so that nothing is downloaded.
     """
-    folder = tmp_path_factory.mktemp("elsewhere")
-    environment = folder / "environment"
+    environment = tmp_path_factory.mktemp("elsewhere") / "environment"
     venv.create(environment, with_pip=False)
     python = environment / "bin" / "python"
     subprocess.run(
@@ -49,8 +55,6 @@ def installed(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Call:
     )
     (site,) = environment.glob("lib/python*/site-packages")
     (site / "lent.pth").write_text(sysconfig.get_path("purelib") + "\n")
-    work = folder / "work"
-    work.mkdir()
     variables = {key: value for key, value in os.environ.items() if key not in ("CI", "PYTHONPATH", "VIRTUAL_ENV")}
 
     def call(program: str, *args: str) -> subprocess.CompletedProcess[str]:
@@ -123,32 +127,48 @@ def test_all_scenes_are_there(installed: Call):
     assert here | presets <= listed
 
 
-def test_a_scene_of_ones_own_and_its_golden_test_there(installed: Call):
-    checked(installed("sandbox", "new", "beachvolley"))
-    assert "Comes down" in checked(installed("sandbox", "run", "./beachvolley"))
-    assert installed("python", "-m", "pytest", "beachvolley").returncode == 0
-    checked(installed("python", "-c", "__import__('shutil').rmtree('beachvolley/golden')"))
-    made = installed("python", "-m", "pytest", "beachvolley", "--golden-update")
-    assert (made.returncode, "golden/beachvolley.png: new" in made.stdout) == (0, True)
+def test_a_scene_of_ones_own_and_its_golden_test_there(installed: Call, work: Path):
+    checked(installed("sandbox", "new", "boules"))
+    assert "Comes down" in checked(installed("sandbox", "run", "./boules"))
+    assert installed("python", "-m", "pytest", "boules").returncode == 0
+    shutil.rmtree(work / "boules" / "golden")
+    made = installed("python", "-m", "pytest", "boules", "--golden-update")
+    assert (made.returncode, "golden/boules.png: new" in made.stdout) == (0, True)
 
 
-def test_a_failure_there_shows_nothing_of_ours(installed: Call):
+def test_a_failure_there_shows_nothing_of_ours(installed: Call, work: Path):
     checked(installed("sandbox", "new", "broken"))
-    checked(installed("python", "-c", "open('broken/scene.py', 'a').write('1 / 0\\n')"))
+    with (work / "broken" / "scene.py").open("a") as file:
+        file.write("1 / 0\n")
     process = installed("sandbox", "run", "./broken")
     assert (process.returncode, process.stdout) == (1, "")
     assert process.stderr.startswith("error: your scene failed\n")
     assert "site-packages" not in process.stderr
 
 
-def test_types_are_seen_there(installed: Call):
-    source = (
-        "import sandbox\nfrom sandbox.engine.model.setup import Ball\nreveal_type(sandbox.load('golf').name)\nBall(1)\n"
+def test_types_are_seen_there_and_pass_strictly(installed: Call, work: Path):
+    """In the scenes of the guide and of the templates, in the code of docs/python.md, and in code that is wrong."""
+    guide, page = ((ROOT / "docs" / f"{name}.md").read_text("utf-8") for name in ("your-own-scene", "python"))
+    blocks = re.findall(r"^```python\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
+    wrong = (
+        "import sandbox\n"
+        "from sandbox import Bal\n"
+        "sandbox.simulate(3)\n"
+        "carry: int = sandbox.simulate(sandbox.load('golf')).state('ball', 0.0).x\n"
+        "reveal_type(sandbox.load('golf').name)\n"
     )
-    checked(installed("python", "-c", f"open('typed.py', 'w').write({source!r})"))
-    # to read the libraries as well would take as long again
-    options = "[mypy]\n[mypy-numpy.*,pydantic.*]\nfollow_imports = skip\nfollow_imports_for_stubs = True\n"
-    checked(installed("python", "-c", f"open('mypy.ini', 'w').write({options!r})"))
-    process = installed("python", "-m", "mypy", "--no-incremental", "typed.py")
-    assert 'typed.py:3: note: Revealed type is "str"' in process.stdout.replace("builtins.", "")
-    assert "typed.py:4: error: " in process.stdout
+    written = {"page.py": "\n".join(blocks), "wrong.py": wrong}
+    for name, text in re.findall(r"^```python\n# (\S+)\n(.*?)^```$", guide, re.MULTILINE | re.DOTALL):
+        written[name] = written.get(name, "") + text
+    assert {"beachvolley/scene.py", "beachvolley/picture.py"} <= written.keys()
+    (work / "beachvolley").mkdir()
+    for name, text in written.items():
+        (work / name).write_text(text, "utf-8")
+    checked(installed("sandbox", "new", "side"))
+    checked(installed("sandbox", "new", "above", "--from-above"))
+    given = [word for name in ("beachvolley", "side", "above", "page", "wrong") for word in ("-p", name)]
+    process = installed("python", "-m", "mypy", "--strict", "--no-incremental", *given)
+    found = re.findall(r"^(\S+?):(\d+): (error|note: Revealed.*)", process.stdout, re.MULTILINE)
+    revealed = found.pop()
+    assert found == [("wrong.py", line, "error") for line in ("2", "3", "4")], process.stdout
+    assert revealed[2].replace("builtins.", "") == 'note: Revealed type is "str"'

@@ -29,7 +29,7 @@ FLOOR = Surface("floor", Segment((-50.0, 0.0), (50.0, 0.0)), restitution=0.8, fr
 MORE = {
     "billiards/nine-ball-break": {},
     "collisions/cradle-5": {"duration": 1.0},
-    "collisions/bowl": {"duration": 0.7},
+    "collisions/bowl": {"duration": 0.45},
     "collisions/dominoes": {"duration": 0.1},
     "basketball/rattle": {},
     "hockey/glove-save": {},
