@@ -6,6 +6,7 @@ import json
 import os
 import re
 import subprocess
+import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
@@ -50,6 +51,22 @@ WAYS: dict[str, Sequence[str]] = {
 }
 
 
+#: Calls commands and prints the outcome of each; settings are timed by fewer repeats.
+CALLS = """
+import io, json, sys
+from contextlib import redirect_stderr, redirect_stdout
+from sandbox.cli import main
+from sandbox.lab import trade
+if __name__ == "__main__":
+    trade._PATIENCE, outcomes = 0.01, {}
+    for name, *arguments in json.loads(sys.argv[1]):
+        with redirect_stdout(io.StringIO()) as out, redirect_stderr(io.StringIO()) as err:
+            code = main([name, *arguments])
+        outcomes[name] = code, out.getvalue(), err.getvalue()
+    print(json.dumps(outcomes))
+"""
+
+
 @pytest.fixture(scope="module")
 def elsewhere(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, str]]:
     """A folder, and the environment of a program on another system."""
@@ -64,23 +81,23 @@ def test_every_command_is_tried_elsewhere():
     assert WAYS.keys() == modules().keys()
 
 
-@pytest.mark.parametrize("command", [name for name in WAYS if name not in ("play", "serve", "fit")])
-def test_a_command_needs_only_what_every_system_has(elsewhere: tuple[Path, dict[str, str]], command: str):
+@pytest.fixture(scope="module")
+def outcomes(elsewhere: tuple[Path, dict[str, str]]) -> dict[str, Outcome]:
+    """Of each command that ends by itself, called there one after another in one process."""
     folder, environment = elsewhere
-    arguments = [word.format(folder) for word in WAYS[command]]
-    done = subprocess.run([*COMMAND, command, *arguments], capture_output=True, text=True, env=environment)
-    assert (done.returncode, "Traceback" in done.stderr, "EncodingWarning" in done.stderr) == (0, False, False)
-    assert done.stdout
+    calls = [[name, *(word.format(folder) for word in WAYS[name])] for name in WAYS if name not in ("play", "serve")]
+    done = subprocess.run(
+        [sys.executable, "-c", CALLS, json.dumps(calls)], capture_output=True, text=True, env=environment
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    return {name: Outcome(*outcome) for name, outcome in json.loads(done.stdout).items()}
 
 
-def test_a_fit_needs_only_what_every_system_has(elsewhere: tuple[Path, dict[str, str]], tmp_path: Path):
-    _, environment = elsewhere
-    for command in (WAYS["run"], WAYS["fit"]):
-        name = "run" if command is WAYS["run"] else "fit"
-        arguments = [word.format(tmp_path) for word in command]
-        done = subprocess.run([*COMMAND, name, *arguments], capture_output=True, text=True, env=environment)
-        assert (done.returncode, done.stderr) == (0, "")
-    assert "launch.speed" in done.stdout
+@pytest.mark.parametrize("command", [name for name in WAYS if name not in ("play", "serve")])
+def test_a_command_needs_only_what_every_system_has(outcomes: dict[str, Outcome], command: str):
+    code, out, err = outcomes[command]
+    assert (code, "Traceback" in err, "EncodingWarning" in err) == (0, False, False)
+    assert "launch.speed" in out if command == "fit" else out
 
 
 def test_the_window_says_where_it_has_no_display(elsewhere: tuple[Path, dict[str, str]]):

@@ -66,16 +66,20 @@ def repeat(trials: Sequence[Timed[Seen]], patience: float = float("inf"), progre
     """Run each several times, for ``patience`` s at most, except those that fail.
 
     Each turn starts with another trial: the first run after the garbage is collected takes longer than the same run
-    later in the turn.
+    later in the turn. Collections skip what is there already: going through it takes longer than most turns.
     """
-    for turn in range(REPEATS + 1):
-        progress(turn, REPEATS + 1)
-        first = turn % len(trials)
-        gc.collect()
-        gc.disable()
-        try:
+    frozen_before = gc.get_freeze_count() > 0
+    gc.freeze()
+    gc.disable()
+    try:
+        for turn in range(REPEATS + 1):
+            progress(turn, REPEATS + 1)
+            first = turn % len(trials)
+            gc.collect()
             for trial in (*trials[first:], *trials[:first]):
                 if not trial.problem and len(trial.walls) <= REPEATS and sum(trial.walls) < patience:
                     trial.run()
-        finally:
-            gc.enable()
+    finally:
+        gc.enable()
+        if not frozen_before:
+            gc.unfreeze()

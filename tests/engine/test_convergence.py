@@ -58,7 +58,7 @@ def test_plain_converges_to_exact_on_soft_turf():
     exact = simulate(setup, resolve("precise"))
     errors = [
         abs(simulate(setup, resolve(method="plain", step=step)).state("ball", 2.5)[0] - exact.state("ball", 2.5)[0])
-        for step in (1 / 1000, 1 / 16000)
+        for step in (1 / 1000, 1 / 8000)
     ]
     assert errors[1] < 2e-3
     assert errors[1] < 0.2 * errors[0]

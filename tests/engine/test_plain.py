@@ -69,7 +69,7 @@ def test_it_converges_to_exact_on_cloth(english: float, follow: float):
             dist(run.state(ball, run.duration)[:2], exact.state(ball, exact.duration)[:2]) for ball in ("cue", "1")
         )
 
-    coarse, fine = (off(simulate(setup, resolve(**by_steps_of(step)))) for step in (1e-2, 6e-4))
+    coarse, fine = (off(simulate(setup, resolve(**by_steps_of(step)))) for step in (1e-2, 1.2e-3))
     assert fine < 0.02
     assert fine < 0.5 * coarse
 
