@@ -55,7 +55,8 @@ def installed(wheel: Path, work: Path, tmp_path_factory: pytest.TempPathFactory)
     )
     (site,) = environment.glob("lib/python*/site-packages")
     (site / "lent.pth").write_text(sysconfig.get_path("purelib") + "\n")
-    variables = {key: value for key, value in os.environ.items() if key not in ("CI", "PYTHONPATH", "VIRTUAL_ENV")}
+    others = ("CI", "PYTHONPATH", "PYTHONDONTWRITEBYTECODE", "VIRTUAL_ENV")  # compiled once, as for a user
+    variables = {key: value for key, value in os.environ.items() if key not in others}
 
     def call(program: str, *args: str) -> subprocess.CompletedProcess[str]:
         command = [str(environment / "bin" / program), *args]
