@@ -159,7 +159,7 @@ def overlapped(run: Run) -> tuple[float, float]:
 
 def gaps(run: Run, t: float) -> Iterator[float]:
     """The gaps at t in m between what is near each other."""
-    states = [(ball, placed(run, ball, t)) for ball in run.setup.balls]
+    states = [(ball, state_and_angle(run, ball, t)) for ball in run.setup.balls]
     for (one, here), (other, there) in combinations(states, 2):
         if hypot(here[0] - there[0], here[1] - there[1]) < one.radius + other.radius:
             yield meeting(one, here, other, there).gap
@@ -171,7 +171,7 @@ def gaps(run: Run, t: float) -> Iterator[float]:
                 yield surface_met(ball, state, (obstacle, near)).gap
 
 
-def placed(run: Run, ball: Ball, t: float) -> State:
+def state_and_angle(run: Run, ball: Ball, t: float) -> State:
     """The state of a ball at t, and the angle of a body."""
     return (*run.state(ball.name, t), *([run.angle(ball.name, t)] if ball.rotates else []))
 

@@ -25,6 +25,9 @@ from sandbox.text import with_noun
 
 ROOT = Path(__file__).resolve().parent.parent
 
+#: The sports that the sandbox is made for.
+FIRST = ("golf", "soccer", "basketball", "billiards")
+
 
 def filled(page: str, name: str, lines: Iterable[str]) -> str:
     """The page with new lines between the marks of a block."""
@@ -35,7 +38,7 @@ def filled(page: str, name: str, lines: Iterable[str]) -> str:
 
 
 def sports() -> Iterator[str]:
-    """Every scene that comes with the sandbox, in the order of the window's tiles, as a row of a table."""
+    """Every scene that comes with the sandbox, as a row of a table."""
     yield from ("| scene | | has |", "|---|---|---|")
     for name, folder in scenes():
         kinds = {"preset": "presets/*.toml", "task": "tasks/*.toml", "game": "games/[a-z]*.py"}
@@ -55,11 +58,13 @@ def models() -> Iterator[str]:
 
 
 def scenes() -> list[tuple[str, Path]]:
-    """Names and folders of the scenes that come with the sandbox, in the order of the window's tiles."""
+    """Names and folders of the scenes that come with the sandbox: ``FIRST``, then in the order of the tiles."""
     folders = [path.parent for path in (ROOT / "scenes").glob("*/scene.py")]
     places = {folder: tomllib.loads(file.read_text("utf-8"))["place"] for folder in folders
               if (file := folder / "tile.toml").exists()}  # fmt: skip
-    return [(folder.name, folder) for folder in sorted(folders, key=lambda it: (places.get(it, inf), it.name))]
+    first = {ROOT / "scenes" / name: place for place, name in enumerate(FIRST)}
+    folders.sort(key=lambda it: (first.get(it, inf), places.get(it, inf), it.name))
+    return [(folder.name, folder) for folder in folders]
 
 
 def item(text: str) -> str:

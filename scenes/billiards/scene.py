@@ -146,7 +146,7 @@ CONTROLS = Controls(
     spins=(Spin("cue.follow", 0.05), Spin("cue.english", 0.05)),
     ball="cue.ball",
     sliders=("cue.speed", "cue.angle", "cue.follow", "cue.english", "rack", "cloth.rolling_friction", "ball.friction"),
-    handles=(Handle("balls[*].x", "balls[*].y", prerequisites=lambda parameters: placed(laid_out(parameters))),),
+    handles=(Handle("balls[*].x", "balls[*].y", prerequisites=lambda parameters: changes_for(laid_out(parameters))),),
     goals=lambda parameters: goals(parameters),
     scores="scored",
     spread=(Spread("cue.speed", 0.03), Spread("cue.angle", minimum=0.2)),  # assumed
@@ -455,10 +455,10 @@ def from_rest(run: SceneRun, parameters: Parameters) -> dict[str, Any]:
         return {"rack": "nine-ball", "balls": []}
     if cue not in spots:
         spots[cue] = _free_spot(list(spots.values()), parameters)
-    return placed(spots)
+    return changes_for(spots)
 
 
-def placed(spots: Mapping[str, Vector]) -> dict[str, Any]:
+def changes_for(spots: Mapping[str, Vector]) -> dict[str, Any]:
     """The changes that put balls at these places."""
     return {"rack": "none", "balls": [{"name": name, "x": x, "y": y} for name, (x, y) in spots.items()]}
 
