@@ -339,8 +339,8 @@ def report(rows: list[dict[str, Any]], races: list[dict[str, Any]], colds: dict[
     answers = []
     for race in races:
         for who in ("ours", "pooltool"):
-            told = {"shot": race["shot"], "who": NAMES[who], "potted": ", ".join(race[who]["potted"]) or "none"}
-            answers.append(race[who] | told)
+            summary = {"shot": race["shot"], "who": NAMES[who], "potted": ", ".join(race[who]["potted"]) or "none"}
+            answers.append(race[who] | summary)
         answers.append({"shot": race["shot"], "who": "limit", "seconds": race["limit_s"], "over_limit": 1})
     columns = {
         "shot": "{shot}",

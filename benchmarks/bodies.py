@@ -140,23 +140,23 @@ def at(time: float, points: list[tuple[float, float]]) -> float:
     return points[0][1] if time < points[0][0] else points[-1][1]
 
 
-def report(name: str, told: dict[str, Any]) -> None:
+def report(name: str, results: dict[str, Any]) -> None:
     columns = {
         "method": "{method}",
         "error": "{error_m:.1e} m",
         "time": "{time_s:.2f ms}",
         "bare pymunk's error at the same time": "{pymunk_over_ours:,.0f} times",
     }
-    show(f"{name}, {told['impacts']:g} impacts", told["rows"], columns)
+    show(f"{name}, {results['impacts']:g} impacts", results["rows"], columns)
 
 
 def main() -> None:
     arguments = command_line(__doc__, repeats=3)
     rates, most = (QUICK_RATES, 1) if arguments.quick else (RATES, None)
-    told = {name: compare(starts[:most], rates, arguments.repeats) for name, starts in cases().items()}
-    for name, found in told.items():
+    results = {name: compare(starts[:most], rates, arguments.repeats) for name, starts in cases().items()}
+    for name, found in results.items():
         report(name, found)
-    keep(arguments.json, told)
+    keep(arguments.json, results)
 
 
 if __name__ == "__main__":

@@ -184,10 +184,10 @@ def report(name: str, rows: list[dict[str, Any]]) -> None:
 
 def main() -> None:
     arguments = command_line(__doc__, repeats=15)
-    told = {case.name: compare(case, arguments.repeats) for case in cases(arguments.quick)}
-    for name, rows in told.items():
+    results = {case.name: compare(case, arguments.repeats) for case in cases(arguments.quick)}
+    for name, rows in results.items():
         report(name, rows)
-    keep(arguments.json, told)
+    keep(arguments.json, results)
 
 
 if __name__ == "__main__":

@@ -156,12 +156,12 @@ def main() -> None:
     arguments = command_line(__doc__, options=options)
     names = [listing.name for listing in listings() if "/" not in listing.name]
     films = [Film(name) for name in (arguments.scenes.split(",") if arguments.scenes else names)]
-    told: dict[str, Any] = {"frames": [measure(film) for film in films]}
-    report(told["frames"])
+    results: dict[str, Any] = {"frames": [measure(film) for film in films]}
+    report(results["frames"])
     if arguments.levels:
-        told["levels"] = levels(films)
-        show("a frame as PNG", told["levels"], {"packed": "{packed}", "time": "{ms:.1f} ms", "size": "{kB:.0f} kB"})
-    keep(arguments.json, told)
+        results["levels"] = levels(films)
+        show("a frame as PNG", results["levels"], {"packed": "{packed}", "time": "{ms:.1f} ms", "size": "{kB:.0f} kB"})
+    keep(arguments.json, results)
 
 
 if __name__ == "__main__":

@@ -51,15 +51,15 @@ class Keys:
         for key, sign in (("flippers.left", -1.0), ("flippers.right", 1.0)):
             down, times = self.down[key], self.held[key]
             if self.tries:
-                wanted = ball.y < 0.165 and ball.vy < 0.3 and 0.0 <= sign * ball.x < 0.075
+                press = ball.y < 0.165 and ball.vy < 0.3 and 0.0 <= sign * ball.x < 0.075
             else:
-                wanted = down ^ (self.chance.random() < (LET_GO if down else PRESSED))
-            if wanted != down:
-                if wanted:
+                press = down ^ (self.chance.random() < (LET_GO if down else PRESSED))
+            if press != down:
+                if press:
                     times.append([world.t, 600.0])
                 else:
                     times[-1][1] = world.t
-                self.down[key] = wanted
+                self.down[key] = press
                 world.apply({key: times})
 
 

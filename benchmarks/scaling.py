@@ -158,7 +158,7 @@ TITLES: dict[str, tuple[str, dict[str, str]]] = {
 def main() -> None:
     options = {"--only": {"default": ",".join(TITLES)}, "--rows": {"type": float, "default": ROWS[-1]}}
     arguments = command_line(__doc__, repeats=3, options=options)
-    quick, repeats, wanted = arguments.quick, arguments.repeats, arguments.only.split(",")
+    quick, repeats, chosen = arguments.quick, arguments.repeats, arguments.only.split(",")
     gc.set_threshold(100_000)  # as in the program itself
     some = 2 if quick else None
     sizes = [rows for rows in ROWS if rows < arguments.rows] + [int(arguments.rows)]
@@ -169,7 +169,7 @@ def main() -> None:
         "rows": partial(grown, "rows", (10, 20) if quick else sizes, of_rows),
         "jobs": partial(of_jobs, 20 if quick else ROWS_OF_JOBS, JOBS[:some]),
     }
-    results = {name: measure() for name, measure in measured.items() if name in wanted}
+    results = {name: measure() for name, measure in measured.items() if name in chosen}
     for name, found in results.items():
         title, more = TITLES[name]
         columns = {name: f"{{{name}:,}}", **({} if name == "jobs" else COLUMNS), **more}

@@ -333,18 +333,18 @@ def called(command: list[str], about: str) -> str:
     out, err = io.StringIO(), io.StringIO()
     with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
         code = program(command)
-    said = err.getvalue()
-    if any(ord(mark) < 32 and mark not in "\n\t\r" for mark in out.getvalue() + said):
+    errors = err.getvalue()
+    if any(ord(mark) < 32 and mark not in "\n\t\r" for mark in out.getvalue() + errors):
         raise Wrong("control characters", about)
     if code == 0:
         return "ran"
     if code == 130 and "KeyboardInterrupt" in about:
         return FAILED
-    first = said.partition("\n")[0]
+    first = errors.partition("\n")[0]
     if code not in (1, 2) or not first.startswith("error: "):
-        raise Wrong(f"exit {code} without an error line", f"{about}: {said[-500:]}")
-    if "Traceback" in said and "your scene failed" not in first:
-        raise Wrong("a traceback of our own", f"{about}: {said[-500:]}")
+        raise Wrong(f"exit {code} without an error line", f"{about}: {errors[-500:]}")
+    if "Traceback" in errors and "your scene failed" not in first:
+        raise Wrong("a traceback of our own", f"{about}: {errors[-500:]}")
     return REFUSED if code == 2 else FAILED
 
 
@@ -512,11 +512,11 @@ class Kills:
 
     def two_at_once(self, command: list[str]) -> None:
         both = [started(command) for _ in range(2)]
-        said = [process.communicate(timeout=120)[1] for process in both]
+        errors = [process.communicate(timeout=120)[1] for process in both]
         codes = sorted(process.returncode for process in both)
-        refused = sum("another sweep is writing to this file" in text for text in said)
+        refused = sum("another sweep is writing to this file" in text for text in errors)
         if (codes, refused) not in (([0, 2], 1), ([0, 0], 0)):  # the second: one was done before the other started
-            raise Wrong(f"two at once: exits {codes}", repr(said)[-600:])
+            raise Wrong(f"two at once: exits {codes}", repr(errors)[-600:])
         self.note("kills", (ONE_OF_TWO if refused else SAME, ""))
 
 
@@ -536,11 +536,11 @@ def end(command: list[str], by: signal.Signals, moment: float) -> None:
         os.killpg(process.pid, by) if whole else process.send_signal(by)
     about = f"{by.name} after {moment:.2f} s"
     try:
-        _, said = process.communicate(timeout=30)
-        if "leaked" in said or OURS.search(said):
-            raise Wrong("a traceback of our own", f"{about}: {said[-600:]}")
-        if process.returncode not in (*SIGNALS[by], 1 if "Traceback" in said else 0):  # 1: by Python, at its start
-            raise Wrong(f"exit {process.returncode}", f"{about}: {said[-600:]}")
+        _, errors = process.communicate(timeout=30)
+        if "leaked" in errors or OURS.search(errors):
+            raise Wrong("a traceback of our own", f"{about}: {errors[-600:]}")
+        if process.returncode not in (*SIGNALS[by], 1 if "Traceback" in errors else 0):  # 1: by Python, at its start
+            raise Wrong(f"exit {process.returncode}", f"{about}: {errors[-600:]}")
         for _ in range(100):
             os.killpg(process.pid, 0)
             time.sleep(0.05)

@@ -109,9 +109,9 @@ def imports(program: str, repeats: int) -> dict[str, float]:
     return {package: median(times.get(package, 0.0) for times in found) for package in found[0]}
 
 
-def _by_package(said: str) -> dict[str, float]:
+def _by_package(text: str) -> dict[str, float]:
     times: dict[str, float] = defaultdict(float)
-    for line in said.splitlines():
+    for line in text.splitlines():
         own, _, rest = line.removeprefix("import time:").partition("|")
         if line.startswith("import time:") and own.strip().isdigit():
             times[_package(rest.partition("|")[2].strip())] += int(own) / 1e3

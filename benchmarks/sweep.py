@@ -200,10 +200,10 @@ def commands(repeats: int, quick: bool) -> list[dict[str, Any]]:
                 "target_s": share * floor if target is None else target,
             }
         )
-    for scene, vary, wanted, target in AIMS[: 1 if quick else None]:
-        spent = min(timed(sandbox.aim, scene, vary, wanted)[0] for _ in range(repeats))
-        said = "".join(f"{name}={cell(value)}" for name, value in wanted.items())
-        rows.append({"command": f"aim {scene} {said}, in Python", "processor_s": spent, "target_s": target})
+    for scene, vary, goal, target in AIMS[: 1 if quick else None]:
+        spent = min(timed(sandbox.aim, scene, vary, goal)[0] for _ in range(repeats))
+        goals = "".join(f"{name}={cell(value)}" for name, value in goal.items())
+        rows.append({"command": f"aim {scene} {goals}, in Python", "processor_s": spent, "target_s": target})
     return rows
 
 

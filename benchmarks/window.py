@@ -151,7 +151,7 @@ def main() -> None:
         "fans": "{fans:.1f} /s",
         "whole": "{whole_s:.2f} s",
     }
-    shown = [
+    measures = [
         row
         | {"scene": source, "activity": name, "share": row["processor_ms"] / FRAME / 1e3}
         | {"path": row["path"] if name == "aiming" else None, "fans": row["fans"] if name == "with a fan" else None}
@@ -159,7 +159,7 @@ def main() -> None:
         for name, row in found.items()
         if name == "with a fan" or arguments.scenes or "/" not in source
     ]
-    show("frames", shown, columns)
+    show("frames", measures, columns)
     every = [row for found in rows.values() for row in found.values()]
     in_time = sum(row["in_time"] * row["frames"] for row in every) / sum(row["frames"] for row in every)
     say(f"{in_time:.1%} of all frames in time")

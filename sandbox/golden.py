@@ -127,9 +127,9 @@ class Golden:
                 self.note(_UNRECORDED, f"{text}: {each}")
         elif expected is None or physics == NEW:
             what, path = ("picture", png) if expected is None else ("run", text)
-            said = f"{name} has no golden {what} at {path}"
-            self._report(name, [said], image, expected)
-            _fail(f"{said}; make it with pytest --golden-update")
+            message = f"{name} has no golden {what} at {path}"
+            self._report(name, [message], image, expected)
+            _fail(f"{message}; make it with pytest --golden-update")
         else:
             lines = list(_kind_of_change(name, known, actual, physics, drawing, tolerance))
             if run is not None and known is not None:
@@ -166,9 +166,9 @@ class Golden:
             return read(path) if is_given(path) else None
         except (OSError, SyntaxError, ValueError) as error:
             if not self.update:
-                said = f"{name}: {path} is damaged: {error}"
-                self._report(name, [said], actual)
-                _fail(said, "fetch it again, or make it again: pytest --golden-update")
+                message = f"{name}: {path} is damaged: {error}"
+                self._report(name, [message], actual)
+                _fail(message, "fetch it again, or make it again: pytest --golden-update")
             return None
 
     def _save_difference(
@@ -230,8 +230,8 @@ def _cause(known: Record, actual: Record, run: SceneRun) -> Iterator[str]:
     units = {parameter.key: parameter.unit for parameter in walk(run.scene.parameters, entries=True)}
     changed = record.changed_parameters(known, actual, units)
     if changed:
-        shown, more = changed[:_MOST_CHANGES], changed[_MOST_CHANGES:]
-        yield f"other parameters: {'; '.join([*shown, *([f'{len(more)} more'] if more else [])])}"
+        first, more = changed[:_MOST_CHANGES], changed[_MOST_CHANGES:]
+        yield f"other parameters: {'; '.join([*first, *([f'{len(more)} more'] if more else [])])}"
     elif len(known.get("parameters", ())) > 1:  # a bare setup has none but its accuracy
         yield "the parameters are the same"
     if known.get("versions", actual["versions"]) != actual["versions"]:
@@ -274,8 +274,8 @@ def _changed_physics(known: Record | None, actual: Record, tolerance: float, fac
     if first is None and not results:
         return None
     moved = "same motion, different result" if first is None else f"the physics changed: first at {first[1]}"
-    shown, more = results[: _MOST_CHANGES - 2], results[_MOST_CHANGES - 2 :]
-    return "; ".join([moved, *shown, *(more if len(more) < 2 else [f"{len(more)} more"])])
+    listed, more = results[: _MOST_CHANGES - 2], results[_MOST_CHANGES - 2 :]
+    return "; ".join([moved, *listed, *(more if len(more) < 2 else [f"{len(more)} more"])])
 
 
 def _all_changes(known: Record, actual: Record, tolerance: float, facts: Mapping[str, Fact] | None = None) -> list[str]:
@@ -346,7 +346,7 @@ def pytest_configure(config: pytest.Config) -> None:
 def _selection(config: pytest.Config) -> str | None:
     """The option by which only some of the tests are run; None if there is none."""
     options = {"keyword": "-k", "markexpr": "-m", "lf": "--last-failed", "deselect": "--deselect", "maxfail": "-x"}
-    chosen = (shown for option, shown in options.items() if config.getoption(option, None))
+    chosen = (flag for option, flag in options.items() if config.getoption(option, None))
     return next(chosen, next((arg for arg in config.args if "::" in arg or Path(arg).is_file()), None))
 
 

@@ -23,10 +23,10 @@ def of_user_code(error: BaseException) -> str | None:
     is_users_syntax = isinstance(error, SyntaxError) and error.filename is not None and not is_ours(error.filename)
     if first is None and not is_users_syntax:
         return None
-    shown = [frame for frame in frames[first:] if not is_hidden(frame.filename)] if first is not None else []
-    head = ["your scene failed\n", "Traceback (most recent call last):\n"] if shown else ["your scene failed\n"]
-    said = [_short(line) for line in traceback.format_exception_only(error)]
-    return "".join([*head, *traceback.format_list(shown), *said])
+    own = [frame for frame in frames[first:] if not is_hidden(frame.filename)] if first is not None else []
+    head = ["your scene failed\n", "Traceback (most recent call last):\n"] if own else ["your scene failed\n"]
+    last = [_short(line) for line in traceback.format_exception_only(error)]
+    return "".join([*head, *traceback.format_list(own), *last])
 
 
 def one_line_error(error: BaseException) -> str:

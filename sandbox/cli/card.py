@@ -141,10 +141,10 @@ def _compared(rows: list[tuple[str, str]], verdict: str, others: Sequence[SceneR
 
 def _events(run: SceneRun) -> Table:
     several = len(run.setup.balls) > 1
-    shown = list(run.events if len(run.events) <= _EVENTS_SHOWN else run.events[: _EVENTS_SHOWN - 1])
-    rows = [words_of(run, event, several) for event in shown]
-    if len(shown) < len(run.events):
-        more = f"... {len(run.events) - len(shown) - 1} more"
+    listed = list(run.events if len(run.events) <= _EVENTS_SHOWN else run.events[: _EVENTS_SHOWN - 1])
+    rows = [words_of(run, event, several) for event in listed]
+    if len(listed) < len(run.events):
+        more = f"... {len(run.events) - len(listed) - 1} more"
         rows += [("", *([""] if several else []), more, "", ""), words_of(run, run.events[-1], several)]
     columns = 5 if several else 4
     return Table([Column(), *[words()] * (columns - 1)], [(f"{t:>10}", *texts) for t, *texts in rows])
@@ -186,15 +186,15 @@ def _beyond_target(check: Check | None, scene: Scene) -> list[str]:
 def _check_lines(check: Check, scene: Scene) -> list[str]:
     """Return lines on what depends on the accuracy, what is chaotic, and the errors of results without a row."""
     away = f"{check.nudges} runs from starts {NUDGE:g} m away"
-    said = [
+    lines = [
         f"depends on the accuracy: {name} is {_word(here)} here and {_word(finer)} in a finer run"
         for name, (here, finer) in check.changed.items()
     ]
-    said += [
+    lines += [
         f"chaotic: {_error(check, scene, name)}; {away} alone give {margin(spread, scene.units[name])}"
         for name, spread in check.chaotic.items()
     ]
-    said += [
+    lines += [
         f"chaotic: {name.replace('_', ' ')} differs in {len(others)} of {away}, for example {_word(others[0])}"
         for name, others in check.changed_by_nudge.items()
     ]
@@ -203,8 +203,8 @@ def _check_lines(check: Check, scene: Scene) -> list[str]:
         for name, error in check.errors.items()
         if error >= _LEAST_REPORTED and not scene.facts[name].label and name not in check.chaotic
     ]
-    said += [f"not on the card: {', '.join(unseen)}"] if unseen else []
-    return said or [f"checked against a finer run and {away}: only the numbers change, by no more than their ±"]
+    lines += [f"not on the card: {', '.join(unseen)}"] if unseen else []
+    return lines or [f"checked against a finer run and {away}: only the numbers change, by no more than their ±"]
 
 
 def _error(check: Check, scene: Scene, name: str) -> str:

@@ -114,16 +114,16 @@ def run(
         others = {source: simulate(other, progress=progress) for source, other in compared.items()}
     if as_json:
         more = {} if task is None else {"attempt": task.report(done)}
-        said = card.as_json(chosen, done, checked, list(others.values()), more)
+        text = card.as_json(chosen, done, checked, list(others.values()), more)
     else:
-        said = "\n".join([*card.card(chosen, done, checked, others), *([] if task is None else task.lines(done))])
+        text = "\n".join([*card.card(chosen, done, checked, others), *([] if task is None else task.lines(done))])
         if paths["momentum"] is not None:
             from sandbox.cli.rows import impact_lines
 
-            said = "\n".join([said, "", *impact_lines(done)])
+            text = "\n".join([text, "", *impact_lines(done)])
     outputs.write(files, outputs.Drawn(done, size, fps, others, *sampled))
     written = [] if as_json else [f"wrote {path}" for path in files.values()]
-    say("\n".join([said, *written]))
+    say("\n".join([text, *written]))
 
 
 def _sampling(every: str | None, columns: str | None, path: Path | None) -> tuple[float | None, tuple[str, ...]]:

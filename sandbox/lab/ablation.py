@@ -89,10 +89,10 @@ class Ablated:
         if self.is_nothing:
             return "nothing: no contact" if self.idle else "nothing"
         numbers = [(name, *map(_rounded, values)) for name, values in (self.results or {}).items()]
-        shown = [f"{name} {one} -> {other}" for name, one, other in numbers if one != other][:_SHOWN]
+        changes = [f"{name} {one} -> {other}" for name, one, other in numbers if one != other][:_SHOWN]
         if self.verdict[0] != self.verdict[1]:
-            shown.append(_changed_words(*self.verdict))
-        return ", ".join(shown)
+            changes.append(_changed_words(*self.verdict))
+        return ", ".join(changes)
 
     def cells(self) -> list[str]:
         """A row of the table: the part, the change, both shifts, and what it saves."""

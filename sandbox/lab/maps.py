@@ -90,12 +90,12 @@ def chart_of(plan: Plan, found: ChartData, family: str | None = None) -> Chart:
     if family is not None and found.numbers is None:
         raise RequestError(f"--family {family}: curves need a number, and {found.label} is not one; name another --of")
     shots = f"{plan.samples:,} shots at random" if plan.samples else with_noun(plan.size, "shot")
-    shown = axes_shown(plan, found, family)
-    x, y = (label(plan.scene, plan.axes[place].key) for place in (shown[0], shown[-1]))
-    if len(shown) == 1:
+    drawn = axes_shown(plan, found, family)
+    x, y = (label(plan.scene, plan.axes[place].key) for place in (drawn[0], drawn[-1]))
+    if len(drawn) == 1:
         y = found.label if found.numbers is not None else ""
     title = f"{plan.scene.title}: {found.label.partition(' (')[0]}"
-    panel = Panel(partial(_draw, plan, found, shown, family), x, y)
+    panel = Panel(partial(_draw, plan, found, drawn, family), x, y)
     return Chart([panel], title, f"{shots}; all other parameters as in the scene file")
 
 
@@ -109,20 +109,20 @@ def axes_shown(plan: Plan, found: ChartData, family: str | None = None) -> list[
 
 
 def _draw(
-    plan: Plan, found: ChartData, shown: Sequence[int], family: str | None, axes: Any, colours: Mapping[str, Any]
+    plan: Plan, found: ChartData, drawn: Sequence[int], family: str | None, axes: Any, colours: Mapping[str, Any]
 ) -> None:
-    if len(shown) == 1 and found.numbers is not None:
-        _curves(axes, plan, found, shown[0], family)
+    if len(drawn) == 1 and found.numbers is not None:
+        _curves(axes, plan, found, drawn[0], family)
     else:
-        (_map if plan.is_grid or len(shown) != 2 else _cloud)(axes, plan, found, colours)
-    for place, side in zip(shown, ("x", "y"), strict=False):
+        (_map if plan.is_grid or len(drawn) != 2 else _cloud)(axes, plan, found, colours)
+    for place, side in zip(drawn, ("x", "y"), strict=False):
         axis = plan.axes[place]
         if isinstance(axis, Values) and not has_numbers(axis):
             axes.set(**{f"{side}ticks": range(len(axis.distinct))})
             axes.set(**{f"{side}ticklabels": [cell(value) for value in axis.distinct]})
     own = own_place(plan)
     if own is not None:
-        _mark_own(axes, [own[place] for place in shown], found, found.axes[shown[0]], colours["card"]["ink"])
+        _mark_own(axes, [own[place] for place in drawn], found, found.axes[drawn[0]], colours["card"]["ink"])
 
 
 # ---------------------------------------------------------------------------------------------------------------------
@@ -133,26 +133,26 @@ def _draw(
 def read(plan: Plan, rows: Iterable[Row], of: str | None) -> ChartData:
     """The swept columns and the one to show. Raises RequestError if every point failed."""
     scene = plan.scene
-    shown = of or ("verdict" if "verdict" in plan.facts_read else next(iter(plan.facts_read), "ended"))
+    column = of or ("verdict" if "verdict" in plan.facts_read else next(iter(plan.facts_read), "ended"))
     places: list[list[str]] = [[] for _ in plan.keys]
     texts: list[str] = []
     won: list[bool] = []
     for row in rows:
         for place, key in zip(places, plan.keys, strict=True):
             place.append(row[key])
-        texts.append(row[shown] if not row["error"] else FAILED)
+        texts.append(row[column] if not row["error"] else FAILED)
         won.append(row.get(scene.controls.scores) not in NOTHING)
     if all(text == FAILED for text in texts):
         raise RequestError("--plot: every point failed, there is nothing to show")
     swept = [_column(axis, place) for axis, place in zip(plan.axes, places, strict=True)]
     numbers = _numbers(["" if text == FAILED else text for text in texts])
     if numbers is not None:
-        return ChartData(swept, result_label(scene, shown), numbers, [], frozenset())
-    in_order = shown not in scene.facts or scene.facts[shown].in_order
+        return ChartData(swept, result_label(scene, column), numbers, [], frozenset())
+    in_order = column not in scene.facts or scene.facts[column].in_order
     words = [text if text == FAILED else _word(text, in_order) for text in texts]
     scored, all_of = Counter(word for word, wins in zip(words, won, strict=True) if wins), Counter(words)
     good = frozenset(word for word in all_of if 2 * scored[word] > all_of[word])
-    return ChartData(swept, result_label(scene, shown), None, words, good)
+    return ChartData(swept, result_label(scene, column), None, words, good)
 
 
 def _word(text: str, in_order: bool) -> str:

@@ -48,16 +48,16 @@ def page_of(failures: Iterable[tuple[str, Mapping[str, Any]]]) -> str:
 def _section(test: str, failed: Mapping[str, Any]) -> str:
     lines = "".join(f"<p>{html(line)}</p>" for line in failed["lines"])
     changes = "".join(f"<li>{html(change)}</li>" for change in failed["changes"])
-    told = f"<h3>What differs in the run</h3><ul>{changes}</ul>" if changes else ""
+    differences = f"<h3>What differs in the run</h3><ul>{changes}</ul>" if changes else ""
     pictures = failed["pictures"]
-    shown = _compared(failed["name"], **pictures) if "difference" in pictures else _alone(pictures)
-    return f"<section><h2>{html(failed['name'])}</h2><p>{html(test)}</p>{lines}{told}{shown}</section>"
+    comparison = _compared(failed["name"], **pictures) if "difference" in pictures else _alone(pictures)
+    return f"<section><h2>{html(failed['name'])}</h2><p>{html(test)}</p>{lines}{differences}{comparison}</section>"
 
 
 def _alone(pictures: Mapping[str, str]) -> str:
     figures = (
-        f'<figure><img alt="{kind}" src="{shown}"><figcaption>{kind}</figcaption></figure>'
-        for kind, shown in pictures.items()
+        f'<figure><img alt="{kind}" src="{source}"><figcaption>{kind}</figcaption></figure>'
+        for kind, source in pictures.items()
     )
     return f'<div class="pictures">{"".join(figures)}</div>'
 

@@ -43,9 +43,9 @@ def page_of(plan: Plan, found: ChartData, of: str | None = None, family: str | N
     chart = replace(chart_of(plan, found, family), height=HEIGHT)
     swept = list(plan.points(0, plan.size))
     done = list(runs(plan.scene, plan.keys, swept, asked=plan.facts_read))
-    shown = axes_shown(plan, found, family)
-    places = [found.axes[place] for place in shown]
-    if len(shown) == 1:
+    indices = axes_shown(plan, found, family)
+    places = [found.axes[place] for place in indices]
+    if len(indices) == 1:
         places.append(np.full(plan.size, 0.5) if found.numbers is None else found.numbers)
     with drawn([chart], width=WIDTH) as sheet:
         drawing = svg_of(sheet, chart.title)
@@ -56,7 +56,7 @@ def page_of(plan: Plan, found: ChartData, of: str | None = None, family: str | N
         "x": at[:, 0],
         "y": 1.0 - at[:, 1],
         "along": len(plan.axes) == 1,
-        "chosen": _chosen(plan, shown, places),
+        "chosen": _chosen(plan, indices, places),
         "texts": _texts(plan, done, swept),
         "starts": [0, *accumulate(map(len, lines))],
         "path": np.concatenate(lines).ravel(),
@@ -95,12 +95,12 @@ def _values(axis: Axis) -> str:
     return ",".join(map(argument, axis.values))
 
 
-def _chosen(plan: Plan, shown: Sequence[int], places: Sequence[np.ndarray]) -> int:
+def _chosen(plan: Plan, indices: Sequence[int], places: Sequence[np.ndarray]) -> int:
     """The point nearest to the scene file's own shot."""
     own = own_place(plan)
     if own is None:
         return 0
-    away = sum(((axis - own[place]) / (np.ptp(axis) or 1.0)) ** 2 for place, axis in zip(shown, places, strict=False))
+    away = sum(((axis - own[place]) / (np.ptp(axis) or 1.0)) ** 2 for place, axis in zip(indices, places, strict=False))
     return int(np.argmin(np.where(np.isfinite(places[-1]), away, np.inf)))
 
 

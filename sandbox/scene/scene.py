@@ -194,12 +194,12 @@ class Scene:
     def verdict(self, run: SceneRun) -> str:
         """The verdict: one sentence on what happened."""
         with sys_exit_as_error():
-            said = getattr(self.module, "verdict", fallback_verdict)(run, self.parameters)
-        if not isinstance(said, str):
-            raise self._wrong("verdict", "text", said)
-        if len(said) > _LONGEST_TEXT:
-            raise self._wrong("verdict", f"text of at most {_LONGEST_TEXT} characters", said)
-        return said
+            verdict = getattr(self.module, "verdict", fallback_verdict)(run, self.parameters)
+        if not isinstance(verdict, str):
+            raise self._wrong("verdict", "text", verdict)
+        if len(verdict) > _LONGEST_TEXT:
+            raise self._wrong("verdict", f"text of at most {_LONGEST_TEXT} characters", verdict)
+        return verdict
 
     @property
     def controls(self) -> Controls:
@@ -351,8 +351,10 @@ def _parameters(
             expected = f"{found.folder.resolve().name}.toml"
             raise RequestError(f"{where}: its numbers belong in {expected}; is {named.name} that file?") from None
         if not files and is_of_library(found.folder):
-            said = f"it was installed without its file of numbers, {found.folder.name}.toml: declare it as package data"
-            raise RequestError(f"{where}: {said}") from None
+            reason = (
+                f"it was installed without its file of numbers, {found.folder.name}.toml: declare it as package data"
+            )
+            raise RequestError(f"{where}: {reason}") from None
         raise
 
 

@@ -124,8 +124,8 @@ async def _checked(processes: JobProcesses, scenes: dict[str, Listed]) -> None:
 
 def _listening(port: int | None, share: bool) -> socket.socket:
     """A socket that listens on the port, by default on PORT or, where that is taken, on any. Raises RequestError."""
-    wanted = [port] if port is not None else [_PORT, 0]
-    for number in wanted:
+    ports = [port] if port is not None else [_PORT, 0]
+    for number in ports:
         listener = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
         if os.name == "posix":  # elsewhere it lets two programs have one port
             listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
@@ -135,7 +135,7 @@ def _listening(port: int | None, share: bool) -> socket.socket:
             return listener
         except OSError as error:
             listener.close()
-            if number == wanted[-1]:
+            if number == ports[-1]:
                 raise RequestError(f"--port {number}: {reason(error)}") from None
     raise AssertionError
 

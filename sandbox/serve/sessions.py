@@ -88,9 +88,9 @@ def standing(session: Session) -> dict[str, Any]:
 
 def shown_until(session: Session | None, run: SceneRun, ball: str) -> float | None:
     """The time in s until which a task shows the path while the player aims; None for all of it."""
-    shown = session.task.shown if session is not None else "all"
-    if shown == "first contact":
+    visible = session.task.shown if session is not None else "all"
+    if visible == "first contact":
         return first_impact(run, ball)
-    if shown == "one metre":
+    if visible == "one metre":
         return time_after(1.0, points([(run, ball)])[0])
-    return 0.0 if shown == "nothing" else None
+    return 0.0 if visible == "nothing" else None

@@ -140,15 +140,15 @@ def described(source: str, is_task: bool) -> Reply:
     else:
         chosen = {it.key: known[it.key]._replace(low=it.low, high=it.high) for it in task.controls}
     first = (*controls.sliders, *(chosen if task is not None else ()))
-    shown = [_setting(p, first) for p in chosen.values()]
+    settings = [_setting(p, first) for p in chosen.values()]
     order = {key: place for place, key in enumerate(controls.sliders)}
-    shown.sort(key=lambda each: order.get(each["key"].partition("[")[0], len(order)))
+    settings.sort(key=lambda each: order.get(each["key"].partition("[")[0], len(order)))
     facts = [fact for fact in scene.facts.values() if fact.label and fact.unit and not fact.names]
     return {
         "kept": {
             "title": source if task is not None else scene.title,
             "about": task.goal if task is not None else scene.about,
-            "parameters": shown,
+            "parameters": settings,
             "pull": _pull(scene, chosen, task is not None),
             "facts": [{"key": fact.key, "label": fact.label, "unit": fact.unit} for fact in facts],
             "held": ", ".join(held.name for held in controls.held),
@@ -340,9 +340,9 @@ def _energy(run: SceneRun) -> dict[str, Any] | None:
         bands, put_in = bands_of(course)
     except (SandboxError, ValueError, ArithmeticError):
         return None
-    shown = [{"name": band.name, "colour": css(band.colour), "top": _short(band.values), "foot": _short(band.foot)}
+    curves = [{"name": band.name, "colour": css(band.colour), "top": _short(band.values), "foot": _short(band.foot)}
              for band in [*bands, *put_in]]  # fmt: skip
-    return {"times": _short(course.times), "end": run.duration, "bands": shown} if shown else None
+    return {"times": _short(course.times), "end": run.duration, "bands": curves} if curves else None
 
 
 def _short(values: np.ndarray | None) -> list[float]:

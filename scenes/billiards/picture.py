@@ -214,13 +214,13 @@ class Picture(AboveView[Parameters]):
 
     def progress(self, t: float) -> tuple[str, str]:
         """The last event worth reporting."""
-        told, first = f"struck at {self.parameters.cue.speed:.1f} m/s", self.run.result["first_contact"]
+        text, first = f"struck at {self.parameters.cue.speed:.1f} m/s", self.run.result["first_contact"]
         for event in (event for event in self.run.events if event.t <= t):
             if event.kind == "caught":
-                told = f"the {event.ball} into the {event.partner}"
+                text = f"the {event.ball} into the {event.partner}"
             elif event.kind == "impact" and {event.ball, event.partner} == {self.ball, first}:
-                told, first = f"meets the {first} at {self.run.closing_speed(event):.1f} m/s", None
-        return told[0].upper() + told[1:], ""
+                text, first = f"meets the {first} at {self.run.closing_speed(event):.1f} m/s", None
+        return text[0].upper() + text[1:], ""
 
     def position(self, t: float) -> list[Entry]:
         """The number of balls that move, and of cushions that the struck one has met."""

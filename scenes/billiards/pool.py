@@ -23,9 +23,9 @@ CUE = "cue"
 Same = TypeVar("Same", bound="Pool")
 
 
-def free_place(taken: Collection[Vector], wanted: Iterable[Vector]) -> Vector:
+def free_place(taken: Collection[Vector], candidates: Iterable[Vector]) -> Vector:
     """The first of some places (m) at which a ball touches no other."""
-    return next(at for at in wanted if all(hypot(at[0] - x, at[1] - y) > 2.0 * RADIUS for x, y in taken))
+    return next(at for at in candidates if all(hypot(at[0] - x, at[1] - y) > 2.0 * RADIUS for x, y in taken))
 
 
 def on_long_string(taken: Collection[Vector]) -> Vector:
@@ -96,19 +96,19 @@ class Pool(Match):
         fouls[self.turn] = fouls[self.turn] + 1 if foul else 0
         potted = [name for name in outcome["potted"] if name != CUE]
         what = [f"pots {named(potted)}"] if potted else ["pots nothing"] if not foul else []
-        said = f"{self.player} {' and '.join(what)}" if what else self.player
-        said += f"{', but' if what else ':'} {foul}, a foul" if foul else ""
+        text = f"{self.player} {' and '.join(what)}" if what else self.player
+        text += f"{', but' if what else ':'} {foul}, a foul" if foul else ""
         turn = self.turn if goes_on and not foul else 1 - self.turn
         changes.setdefault("balls", self.table_after(outcome))
         changes |= {"foul": foul, "fouls": (fouls[0], fouls[1]), "in_hand": bool(foul)}
-        return self.going_on(said, turn, behind=self.breaks and self.behind_after_break, **changes)
+        return self.going_on(text, turn, behind=self.breaks and self.behind_after_break, **changes)
 
     def illegal_break(self: Same, outcome: Outcome) -> Same | None:
         """The match after a break with too few balls driven to a cushion, and none potted; None for a legal one."""
         if not self.breaks or outcome["potted"] or outcome["driven"] >= DRIVEN:
             return None
-        said = f"{self.player} breaks with {outcome['driven']} balls to a cushion, not {DRIVEN}"
-        return self.going_on(said, 1 - self.turn, foul="illegal break")
+        text = f"{self.player} breaks with {outcome['driven']} balls to a cushion, not {DRIVEN}"
+        return self.going_on(text, 1 - self.turn, foul="illegal break")
 
     @property
     def start(self) -> Mapping[str, Any]:

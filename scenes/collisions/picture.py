@@ -298,14 +298,14 @@ class Picture(AboveView[Parameters]):
         of_unit = {
             unit: max(largest[what] for what in sums if AMOUNTS[what][0] == unit) for unit, _ in AMOUNTS.values()
         }
-        shown = [what for what in sums if largest[what] > 0.02 * of_unit[AMOUNTS[what][0]]]
+        visible = [what for what in sums if largest[what] > 0.02 * of_unit[AMOUNTS[what][0]]]
         top = sheet.top_row + 1.5 * small
-        shown = shown[: 1 + int(max(0.0, self.card_row - top - 2 * small) / (BLOCK * small))]
-        tall = len(shown) * BLOCK * small
+        visible = visible[: 1 + int(max(0.0, self.card_row - top - 2 * small) / (BLOCK * small))]
+        tall = len(visible) * BLOCK * small
         board = pygame.Rect(round(right - room), round(top - 1.3 * small), round(room), round(tall + 0.2 * small))
         board = board.inflate(2 * sheet.gap, 0)
         sheet.painter.panel(board, CARD["background"], CARD["opacity"], 10 * self.unit)
-        for i, what in enumerate(shown):
+        for i, what in enumerate(visible):
             unit, total = AMOUNTS[what][0], sum(sums[what][0])
             words = signed(f"{total if abs(total) > 1e-4 * largest[what] else 0.0:.3g}")
             self._bars(sheet, top + i * BLOCK * small, f"{what}: {words} {unit}", sums[what])

@@ -373,14 +373,14 @@ FACTS = (
 
 def verdict(run: SceneRun, parameters: Parameters) -> str:
     """Return the outcome in a sentence."""
-    said = run.result
-    if said["exchanges"]:
-        return f"Exchanges: {', '.join(f'{name} {count}' for name, count in said['exchanges'].items())}"
-    if said["lost"] is None:
-        falls = said["falls"]
-        rest = ", and comes to rest" if falls and said["ended"] == "rest" else ""
+    result = run.result
+    if result["exchanges"]:
+        return f"Exchanges: {', '.join(f'{name} {count}' for name, count in result['exchanges'].items())}"
+    if result["lost"] is None:
+        falls = result["falls"]
+        rest = ", and comes to rest" if falls and result["ended"] == "rest" else ""
         return f"Strikes the floor {falls} times{rest}" if falls > 1 else "No two balls meet"
-    loss = "nothing" if said["lost"] < 0.05 else f"{said['lost']:.0f} %"
+    loss = "nothing" if result["lost"] < 0.05 else f"{result['lost']:.0f} %"
     several = sum(event.kind == "impact" for event in run.events) > 1
-    when = ", later all of it" if said["ended"] == "rest" else " in the first hit" if several else ""
-    return f"{said['approach']:.2f} m/s together, {said['separation']:.2f} apart; {loss} lost{when}"
+    when = ", later all of it" if result["ended"] == "rest" else " in the first hit" if several else ""
+    return f"{result['approach']:.2f} m/s together, {result['separation']:.2f} apart; {loss} lost{when}"

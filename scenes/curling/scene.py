@@ -167,11 +167,11 @@ def verdict(run: SceneRun, parameters: Parameters) -> str:
     """Return the outcome in a sentence."""
     (team, points), line = _score(run, parameters), removed_by(run).get(DELIVERED)
     gone = [name for name in run.result["removed"] if name != DELIVERED]
-    said = "stays" if gone else f"lies {roughly(run.result['to_tee'] or 0.0)} from the tee"
+    text = "stays" if gone else f"lies {roughly(run.result['to_tee'] or 0.0)} from the tee"
     if DELIVERED in run.result["removed"]:
-        said = f"goes over the {line}" if line else "stops short of the hog line"
-    said = f"takes out {len(gone)} and {said}" if gone else said
-    return f"{said[0].upper()}{said[1:]}; " + (f"{team} lies {points}" if team else "nobody lies in the house")
+        text = f"goes over the {line}" if line else "stops short of the hog line"
+    text = f"takes out {len(gone)} and {text}" if gone else text
+    return f"{text[0].upper()}{text[1:]}; " + (f"{team} lies {points}" if team else "nobody lies in the house")
 
 
 def left_on_sheet(run: Run, parameters: Parameters) -> dict[str, Any]:

@@ -141,7 +141,7 @@ FACTS = (
 
 def verdict(run: SceneRun, parameters: Parameters) -> str:
     """Return the outcome in a sentence."""
-    said, pace = net_game.verdict(run, parameters), run.result["pace_rating"]
+    text, pace = net_game.verdict(run, parameters), run.result["pace_rating"]
     if parameters.shot == "serve" and not run.result["in"]:
-        said = f"Fault: {said[0].lower()}{said[1:]}"
-    return said if pace is None else f"{said}; court pace {pace:.0f}, {pace_category(pace)}"
+        text = f"Fault: {text[0].lower()}{text[1:]}"
+    return text if pace is None else f"{text}; court pace {pace:.0f}, {pace_category(pace)}"

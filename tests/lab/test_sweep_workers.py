@@ -61,8 +61,10 @@ def test_ctrl_c_keeps_what_is_done_and_the_same_command_resumes(tmp_path, jobs):
     go, path = tmp_path / "go", tmp_path / "rows.csv"
     waits = (
         "    import pathlib, time\n"
-        "    time.sleep(0.015)\n"
-        f"    while parameters.launch.height > 1.5 and not pathlib.Path({str(go)!r}).exists():\n"
+        f"    go = pathlib.Path({str(go)!r})\n"
+        "    if not go.exists():\n"
+        "        time.sleep(0.01)\n"
+        "    while parameters.launch.height > 1.5 and not go.exists():\n"
         "        time.sleep(0.01)\n"
     )
     scene = own_scene(tmp_path, waits)

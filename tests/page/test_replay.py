@@ -29,7 +29,7 @@ from tests.scenes.play import run_of
 RUNS = {
     "golf": None,
     "billiards": None,
-    "collisions/bowl": {"duration": 0.6},
+    "collisions/bowl": {"duration": 0.45},
     "collisions/tumbling-box": None,
     "collisions/cradle-3": {"balls[0].x": -0.2, "duration": 0.2},
 }

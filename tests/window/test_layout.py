@@ -85,7 +85,8 @@ def test_nothing_covers_anything_in_any_scene_and_size(source, monkeypatch):
                     spins, view.shown.on = app.game.session.controls.spins, view.shown.on ^ {"pad"}
                     check(view)
                     assert ("pad" in view.drawing.layout.placed) <= bool(spins)
-                    for at in list(view.stages.latest.line(app.game.shot)[::7]):
+                    line = view.stages.latest.line(app.game.shot)
+                    for at in line[:: max(7, len(line) // 8)].tolist():
                         view.targets.mouse = round(at[0]), round(at[1])
                         check(view)
                     view.targets.mouse = (-1, -1)

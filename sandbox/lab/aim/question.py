@@ -119,9 +119,9 @@ class Aim(display.Reported):
     # are narrower than this may be missed; empty for targets that are numbers
 
     def __repr__(self) -> str:
-        wanted = ", ".join(map(str, self.targets))
+        targets = ", ".join(map(str, self.targets))
         found = "; ".join(", ".join(f"{k} = {v:.6g}" for k, v in one.values.items()) for one in self.solutions)
-        return f"<Aim of {self.scene.title} at {wanted}: {found or 'no solution'}>"
+        return f"<Aim of {self.scene.title} at {targets}: {found or 'no solution'}>"
 
     def report(self) -> Report:
         return report_of(self)

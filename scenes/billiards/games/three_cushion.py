@@ -46,15 +46,15 @@ class ThreeCushion(Match):
         both = (points[0], points[1])
         what = "a point" if scored else "no point"
         way = "misses a ball" if cushions is None else f"after {with_noun(cushions, 'cushion')}"
-        said = f"{self.player}: {foul or f'{what}, {way}'}"
+        text = f"{self.player}: {foul or f'{what}, {way}'}"
         balls = tuple((name, x, y) for name, (x, y) in outcome["positions"].items())
         after = replace(self, balls=balls, opening=False, points=both)
         ended = self.turn == 1 and not scored and points[0] >= POINTS
         if points[1] >= POINTS or ended:
             winner = None if points[0] == points[1] else int(points[1] > points[0])
-            return after.won_by(winner, said, foul=foul)
+            return after.won_by(winner, text, foul=foul)
         done = not scored or points[0] >= POINTS > self.points[0]
-        return after.going_on(said, 1 - self.turn if done else self.turn, foul=foul)
+        return after.going_on(text, 1 - self.turn if done else self.turn, foul=foul)
 
     @property
     def scores(self) -> tuple[str, str]:

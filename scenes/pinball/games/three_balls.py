@@ -24,11 +24,11 @@ class ThreeBalls(Match):
     def after(self, outcome: Outcome) -> ThreeBalls:
         won, points = int(outcome["score"]), list(self.points)
         points[self.turn] += won
-        both, balls, said = (points[0], points[1]), self.balls + 1, f"{self.player}: {won} points"
+        both, balls, text = (points[0], points[1]), self.balls + 1, f"{self.player}: {won} points"
         if balls < 2 * BALLS:
-            return self.going_on(said, 1 - self.turn, points=both, balls=balls)
+            return self.going_on(text, 1 - self.turn, points=both, balls=balls)
         winner = None if both[0] == both[1] else int(both[1] > both[0])
-        return self.won_by(winner, said, points=both, balls=balls)
+        return self.won_by(winner, text, points=both, balls=balls)
 
     @property
     def scores(self) -> tuple[str, str]:
