@@ -10,13 +10,15 @@ from typing import Any
 
 import pytest
 
+from sandbox.cli.program import COMMANDS
+
 ROOT = Path(__file__).resolve().parent.parent
 TABLES = (ROOT / "CONTRIBUTING.md").read_text("utf-8")
 EXTENSIONS = [
     row.split("`")[1] for row in TABLES[TABLES.index("| extension |") :].split("| `__main__`")[0].splitlines()[2:]
 ]
 ALL = ",".join(EXTENSIONS)
-CORE = ["aim", "coefficients", "list", "new", "run", "schema", "stress", "sweep", "trade", "validate"]
+CORE = sorted(name for names in COMMANDS.values() for name in names)
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="processes are forked")
 
