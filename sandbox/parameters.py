@@ -150,8 +150,8 @@ def _each(values: Iterable[Any], read: Callable[[Any], _Read]) -> Iterator[_Read
 def _declared(default: Any, meaning: str, kind: Quantity) -> Any:
     if kind.unit not in units.KIND_OF:
         meant = units.suggestion(kind.unit)
-        known = f"did you mean {meant}?" if meant else f"use {', '.join(unit for unit in units.KIND_OF if unit)}"
-        raise ValueError(f'"{kind.unit}" is not a known unit; {known}; or "" for a number without one')
+        known = f"did you mean {meant}?" if meant else f"use one of {', '.join(filter(None, units.KIND_OF))}."
+        raise ValueError(f'"{kind.unit}" is not a known unit: {known} A number without a unit has ""')
     if kind.low > kind.high:
         raise ValueError(f"the lowest value, {kind.low:g}, is above the highest, {kind.high:g}")
     field = Field(default, description=meaning, json_schema_extra=kind)
@@ -556,7 +556,7 @@ def _explained(
         key, dotted, value = f"{key}.{word}", (*dotted, word), value[word]
     prefix = f"{changed_by} " if _holds(changes, dotted) else f"{source}: " if source else ""
     if error["type"] == "extra_forbidden":
-        return f"{prefix}{key}: unknown key{_suggestion('.'.join(dotted), schema, values)}"
+        return f"{prefix}{key}: unknown key{_suggestion(key, '.'.join(dotted), schema, values)}"
     if error["type"] == "missing":
         return f"{prefix}{key}: missing"
     problem = f"{_problem(error)}{_key_that_takes(value, schema, dotted)}"
@@ -603,17 +603,19 @@ def _holds(tables: Any, path: tuple[str, ...]) -> bool:
     return bool(path)
 
 
-def _suggestion(key: str, schema: type[Group], values: Mapping[str, Any]) -> str:
-    """Return the end of a message about an unknown key: the key that was probably meant."""
+def _suggestion(shown: str, key: str, schema: type[Group], values: Mapping[str, Any]) -> str:
+    """Return the end of a message about an unknown key, ``shown`` as ``balls[1].x``: the key probably meant."""
     inside = key.rpartition(".")[0]
     for word in _words_for(key, schema):
         return f" here; it belongs to {inside}.{word}"
     known = known_keys(schema, values)
     near = nearest(key, known)
     if near is not None:
+        if near.rpartition(".")[0] == inside:
+            near = shown.removesuffix(key.rpartition(".")[2]) + near.rpartition(".")[2]
         return f"; did you mean {near}?"
     siblings = [k.rpartition(".")[2] for k in known if k.rpartition(".")[0] == inside]
-    return f"; {inside or 'the file'} has {', '.join(siblings)}" if siblings else ""
+    return f"; {inside or 'the scene'} has {', '.join(siblings)}" if siblings else ""
 
 
 def _words_for(key: str, schema: type[Group]) -> Iterator[str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from types import CodeType
 
 from sandbox import resources
 from sandbox.errors import SandboxError
@@ -38,8 +39,26 @@ def one_line_error(error: BaseException) -> str:
     if isinstance(error, SandboxError):
         return text
     own = [frame for frame in traceback.extract_tb(error.__traceback__) if not is_ours(frame.filename)]
-    place = f" ({'/'.join(Path(own[-1].filename).parts[-2:])}, line {own[-1].lineno})" if own else ""
+    place = f" ({_place(own[-1].filename)}, line {own[-1].lineno})" if own else ""
     return f"{type(error).__name__}{': ' if text else ''}{text}{place}"
+
+
+def defined_at(function: object) -> str:
+    """Where a user's function is defined, as the end of a message: ``" (hall/scene.py, line 12)"``; "" for others."""
+    code = code_of(function)
+    return "" if code is None else f" ({_place(code.co_filename)}, line {code.co_firstlineno})"
+
+
+def code_of(function: object) -> CodeType | None:
+    """The code of a function, or of the ``__call__`` of an object, that is the user's; None for others."""
+    function = getattr(function, "func", function)  # of a partial
+    called = function if hasattr(function, "__code__") else getattr(type(function), "__call__", None)  # noqa: B004
+    code = getattr(called, "__code__", None)
+    return code if isinstance(code, CodeType) and not is_ours(code.co_filename) else None
+
+
+def _place(filename: str) -> str:
+    return "/".join(Path(filename).parts[-2:])
 
 
 def _short(line: str) -> str:

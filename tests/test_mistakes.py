@@ -53,8 +53,8 @@ def scene(written: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pat
             "UnknownFact: 'gone': no such",
         ),
         (OF_DROP, "duration=parameters.duration", "length=parameters.duration", "TypeError: "),
-        (OF_DROP, '"m/s", low=0', '"furlong", low=0', 'ValueError: "furlong" is not a known unit; use'),
-        (OF_DROP, '"m/s", low=0', '"MPH", low=0', 'ValueError: "MPH" is not a known unit; did you me'),
+        (OF_DROP, '"m/s", low=0', '"furlong", low=0', 'ValueError: "furlong" is not a known unit: use'),
+        (OF_DROP, '"m/s", low=0', '"MPH", low=0', 'ValueError: "MPH" is not a known unit: did you me'),
         (OF_DROP, "import Group,", "import Accuracies, Group,", "ImportError: cannot import name 'Accuracies'"),
         (OF_DROP, "class Throw", "raise SystemExit(0)\nclass Throw", "ExitCalled: SystemExit(0)"),
         (OF_DROP, BALL, f"    exit(0)\n{BALL}", "ExitCalled: SystemExit(0)"),
@@ -116,7 +116,7 @@ HANDED_OVER = [
     (OF_DROP, "parameters.duration)", "parameters.duration, until=lambda: True)", "until is called as until(event): "),
     (OF_DROP, FLOOR, "friction=0.5, law=lambda: None)", "is called as law(normal_speed, tangential_speed): "),
     (OF_DROP, FLOOR, "friction=0.5, law=lambda *_: None)", "must return a Bounce of numbers, such as Bounce(rest"),
-    (OF_DROP, FLOOR, "friction=0.5, law=lambda *_: (0.5, 0.5))", "and returned (0.5, 0.5)"),
+    (OF_DROP, FLOOR, "friction=0.5, law=lambda *_: (0.5, 0.5))", "and returned (0.5, 0.5) (drop/{})"),
     (OF_DROP, FLOOR, "friction=0.5, law=lambda *_: 'hard')", "and returned 'hard'"),
     (OF_DROP, f"{FORCE},", "        return 1j,", "Gravity is called with (t, position, velocity, spin)"),
     (
@@ -125,7 +125,7 @@ HANDED_OVER = [
         "        return float('nan'),",
         "spin) and must return (fx, fy) in N, a torque one number in N m",
     ),
-    (OF_DROP, f"{FORCE},", "        return 10**400,", "int too large to convert to float"),
+    (OF_DROP, f"{FORCE},", "        return 10**400,", "int too large to convert to float (drop/{})"),
     *(
         (OF_DROP, "FACTS = (", f"x = []\nx.append(x)\nFACTS = (Fact('odd', '', '', lambda run, _: {what}),", said)
         for what, said in (
@@ -142,7 +142,7 @@ HANDED_OVER = [
     *(
         (OF_DROP, "FACTS = (", f"FACTS = (Fact('odd', '{label}', 'm', lambda run, _: {what}),", said)
         for label, what, said in (
-            ("odd", "'far'", "the fact odd must return a number in m, a list of them, or None, but returned 'far'"),
+            ("odd", "'far'", "drop/{}: the fact odd must return a number in m, a list of them, or None, but return"),
             ("odd", "{'a': 1.0}", "a list of them, or None, but returned {'a': 1.0}"),
             ("odd", "True", "a list of them, or None, but returned True"),
             ("", "{'a': [1.0, 'far']}", "a list of them, or None, but returned {'a': [1.0, 'far']}"),
@@ -159,8 +159,8 @@ DEFINED = [
     (OF_DROP, "class Parameters(SceneParameters)", "class Parameters(dict)", "must be a sandbox.parameters.SceneParam"),
     (OF_DROP, "class Parameters(SceneParameters)", "class Parameters(Group)", "must be a sandbox.parameters.ScenePar"),
     (OF_NEW, "width: float =", "width: Nowhere =", "scene.py: Parameters: name 'Nowhere' is not defined"),
-    (OF_NEW, "return Setup([", "Setup([", "scene.py: build must return a Setup, but returned None"),
-    (OF_NEW, 'return "Never', '"Never', "verdict must return text, but returned None"),
+    (OF_NEW, "return Setup([", "Setup([", "{}: build must return a Setup, but returned None"),
+    (OF_NEW, 'return "Never', '"Never', "{}: verdict must return text, but returned None"),
     (OF_NEW, "FACTS = (", "FACTS = (3,", "FACTS must be a tuple of facts, but 3 is not one"),
     (OF_NEW, '"apex", "m"', '"apex", "metres"', 'FACTS: apex has the unit "metres", which is not known'),
     (OF_NEW, 'final_when="floor"', 'final_when="flor"', 'has final_when="flor"; choose from start, end, ball, floor'),
@@ -199,18 +199,21 @@ DEFINED = [
 ]
 
 
+LINE = re.compile(r"scene\.py, line \d+")
+
+
 @pytest.mark.parametrize(("file", "old", "new", "expected"), HANDED_OVER + DEFINED)
 def test_what_is_given_wrongly_is_said_in_a_line(call: Call, scene: Path, file: str, old: str, new: str, expected: str):
     change(scene / file, old, new)
     outcome = call("run", f"./{file.partition('/')[0]}", "--poster", "poster.png")
-    assert_refused(outcome, expected, code=outcome.code or 1)
+    assert_refused(outcome._replace(err=LINE.sub("{}", outcome.err)), expected, code=outcome.code or 1)
 
 
 @pytest.mark.parametrize(("file", "old", "new", "expected"), HANDED_OVER)
 def test_a_sweep_says_it_too(call: Call, scene: Path, file: str, old: str, new: str, expected: str):
     change(scene / file, old, new)
     outcome = call("sweep", "./drop", "--over", "launch.height=1:2:30", "--jobs", 1, "--out", "rows.csv")
-    assert_refused(outcome._replace(out=""), expected, code=1)
+    assert_refused(outcome._replace(out="", err=LINE.sub("{}", outcome.err)), expected, code=1)
 
 
 def test_a_fact_that_is_not_a_number_did_not_happen(call: Call, scene: Path):

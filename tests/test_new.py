@@ -168,6 +168,8 @@ def test_a_folder_that_is_renamed_says_which_file_to_rename(call, scene: Path):
     outcome = call("run", "./copy")
     assert outcome.code == 2
     assert outcome.err == f"error: copy: its numbers belong in copy.toml; is {NAME}.toml that file?\n"
+    Path(f"copy/{NAME}.toml").unlink()
+    assert call("run", "./copy").err == "error: copy: its numbers belong in copy.toml; there is none\n"
 
 
 def test_it_is_listed_where_it_stands(call, scene: Path):

@@ -244,7 +244,7 @@ def test_groups_are_frozen_and_their_defaults_are_checked():
 
 
 def test_unknown_units_and_reversed_bounds_are_scene_errors():
-    with pytest.raises(ValueError, match='"furlong" is not a known unit; use m, cm'):
+    with pytest.raises(ValueError, match='"furlong" is not a known unit: use one of m, cm'):
         quantity(1.0, "furlong", low=0, high=1, meaning="")
     with pytest.raises(ValueError, match="the lowest value, 1, is above the highest, -1"):
         quantity(..., "m", low=1, high=-1, meaning="")
@@ -286,12 +286,13 @@ def test_a_bad_number_names_file_key_value_bound_and_unit(value: Any, expected: 
         ({"lunch": {"speed": 1}}, "shot.toml: lunch: unknown key; did you mean launch?"),
         ({"speed": 1}, "shot.toml: speed: unknown key; did you mean launch.speed?"),
         ({"ball": {"temperature": 1}}, "ball.temperature: unknown key; did you mean air.temperature?"),
-        ({"qqqqqq": 1}, "qqqqqq: unknown key; the file has gravity, launch, ball, air, holed, balls, heights, accur"),
+        ({"qqqqqq": 1}, "qqqqqq: unknown key; the scene has gravity, launch, ball, air, holed, balls, heights, accur"),
         ({"ball": {"drag": {"qqq": 1}}}, "ball.drag.qqq: unknown key; ball.drag has model, critical, velocity"),
         (
             {"ball": {"drag": {"coefficient": 1}}},
             'coefficient: unknown key here; it belongs to ball.drag.model = "con',
         ),
+        ({"balls": [{"nam": "one"}]}, "balls[0].nam: unknown key; did you mean balls[0].name?"),
         ({"balls": [{"name": "one", "y": 0}]}, "balls[0].y: unknown key; balls has name, x"),
         # a value of the wrong kind
         ({"launch": 3}, "launch = 3: must be a group of keys, not a single value"),

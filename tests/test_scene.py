@@ -438,6 +438,8 @@ def test_a_file_that_names_no_scene_is_refused(tmp_path: Path, content: str, exp
 def test_a_file_for_another_scene_is_refused(drop: Path):
     (drop / "drop.toml").write_text('scene = "golf"')
     assert 'scene = "golf", but a file in this folder is for drop' in refusal(drop)
+    (drop / "drop.toml").write_text('scene = "dropp"')
+    assert "unknown scene dropp; sandbox list shows them all; a file in this folder is for drop" in refusal(drop)
 
 
 # Checking -----------------------------------------------------------------------------------------------------------

@@ -13,7 +13,7 @@ One that says nothing depends on time if its code uses its first argument.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dis import get_instructions
 from functools import cache, partial, reduce
 from types import CodeType, FunctionType, MethodType
@@ -62,15 +62,20 @@ def _timing(term: Any) -> Timing:
         depends = scale is not None or len(jumps) > 0 or _uses_time(term)
     if not depends:
         return STEADY
-    timing = Timing(True, TIME_SCALE if scale is None else scale, tuple(jumps))
+    scale, jumps = TIME_SCALE if scale is None else scale, tuple(jumps)
+    if not _holds(lambda: everywhere(scale > 0.0)):
+        raise ValueError(f"{short(term)}: time_scale = {short(scale)} must be positive, in s")
+    if not _holds(lambda: all(map(finite, jumps))):
+        raise ValueError(f"{short(term)}: discontinuities = {short(jumps)} must be finite numbers, in s")
+    return Timing(True, scale, jumps)
+
+
+def _holds(condition: Callable[[], bool]) -> bool:
+    """Return the condition; False where it cannot be computed, as of text in place of a number."""
     try:
-        right = everywhere(timing.scale > 0.0) and all(map(finite, timing.jumps))
-    except TypeError:  # such as text in place of a number
-        right = False
-    if not right:
-        said = f"time_scale = {short(scale)} must be positive, and discontinuities = {short(jumps)} finite, in s"
-        raise ValueError(f"{short(term)}: {said}")
-    return timing
+        return condition()
+    except TypeError:
+        return False
 
 
 @cache
@@ -80,6 +85,8 @@ def _timed(kind: Any) -> tuple[str, ...] | None:
     at = next((place for place, each in enumerate(classes) if "timed" in vars(each)), None)
     if at is None or any("__call__" in vars(each) for each in classes[:at]):
         return None
+    if isinstance(kind.timed, str):
+        raise ValueError(f"{kind.__name__}: timed = {kind.timed!r} must be a tuple: ({kind.timed!r},)")
     return tuple(kind.timed)
 
 

@@ -82,4 +82,9 @@ class Picture(AboveView[Group]):
         (x0, y0), (x1, y1) = seen
         sides = _STEEP if abs(y1 - y0) > abs(x1 - x0) else _LEVEL
         places = [(x0 + part * (x1 - x0), y0 + part * (y1 - y0)) for part in _ALONG]
-        return [(x + across * off, y + down * off, anchor) for x, y in places for across, down, anchor in sides]
+        beside = [(x + across * off, y + down * off, anchor) for x, y in places for across, down, anchor in sides]
+        (left, left_y), (right, right_y) = sorted(seen)
+        (top_x, top), (bottom_x, bottom) = sorted(seen, key=lambda end: end[1])
+        level = [(left - off, left_y, "midright"), (right + off, right_y, "midleft")]
+        steep = [(top_x, top - off, "midbottom"), (bottom_x, bottom + off, "midtop")]
+        return [*beside, *(steep if sides is _STEEP else level)]

@@ -293,7 +293,8 @@ def _meant(file: Path, written: Any, own: tuple[str, Path]) -> tuple[str, Path, 
             raise RequestError(
                 f'{file}: {_unknown(name)}; for the folder next to this file write scene = "./{written}"'
             )
-        raise RequestError(f"{file}: {_unknown(name)}{_own_folder(file)}")
+        here = f"; a file in this folder is for {own[0]}" if own[0] else _own_folder(file)
+        raise RequestError(f"{file}: {_unknown(name)}{here}")
     return name, installed, preset
 
 

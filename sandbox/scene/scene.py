@@ -27,7 +27,7 @@ from sandbox.sport.controls import Controls
 from sandbox.sport.facts import ENDED, FALLBACK_FACTS, Fact, FinalWhen, fallback_verdict, problem_with
 from sandbox.text import check_mapping, shortened
 from sandbox.toml import read_toml
-from sandbox.tracebacks import is_of_library
+from sandbox.tracebacks import code_of, is_of_library
 
 if TYPE_CHECKING:
     from sandbox.engine.paths.run import Run
@@ -37,6 +37,8 @@ if TYPE_CHECKING:
 _REQUIRED = ("Parameters", "build")
 #: Keys of a scene file beside its parameters.
 _NOT_PARAMETERS = ("scene", "measured")
+#: Files of a scene's folder that hold none of its parameters.
+_NO_SCENE_FILES = ("colours.toml", "shots.toml", "tile.toml")
 #: Types of facts that hold others.
 _CONTAINERS = (Mapping, list, tuple)
 #: Most characters of a fact or a verdict, for which cards and pictures have room.
@@ -116,7 +118,7 @@ class Scene:
         with sys_exit_as_error():
             setup = self.module.build(self.parameters)
         if not isinstance(setup, Setup):
-            raise self._wrong("build", "a Setup", setup)
+            raise self._wrong(self.module.build, "build", "a Setup", setup)
         known = ("start", "end", *setup.names)
         for fact in self.facts.values():
             if isinstance(fact.final_when, str) and fact.final_when not in known:
@@ -168,9 +170,10 @@ class Scene:
         if isinstance(value, float) and not isfinite(value):
             return None
         if not _is_reportable(value):
-            raise self._wrong(f"the fact {fact.key}", _REPORTABLE, value)
+            raise self._wrong(fact.compute, f"the fact {fact.key}", _REPORTABLE, value)
         if fact.unit and not (_is_numeric(value) and not (fact.label and isinstance(value, Mapping))):
-            raise self._wrong(f"the fact {fact.key}", f"a number in {fact.unit}, a list of them, or None", value)
+            expected = f"a number in {fact.unit}, a list of them, or None"
+            raise self._wrong(fact.compute, f"the fact {fact.key}", expected, value)
         return value
 
     def final_when(self, asked: Collection[str]) -> frozenset[FinalWhen] | None:
@@ -194,11 +197,11 @@ class Scene:
     def verdict(self, run: SceneRun) -> str:
         """The verdict: one sentence on what happened."""
         with sys_exit_as_error():
-            verdict = getattr(self.module, "verdict", fallback_verdict)(run, self.parameters)
+            verdict = (function := getattr(self.module, "verdict", fallback_verdict))(run, self.parameters)
         if not isinstance(verdict, str):
-            raise self._wrong("verdict", "text", verdict)
+            raise self._wrong(function, "verdict", "text", verdict)
         if len(verdict) > _LONGEST_TEXT:
-            raise self._wrong("verdict", f"text of at most {_LONGEST_TEXT} characters", verdict)
+            raise self._wrong(function, "verdict", f"text of at most {_LONGEST_TEXT} characters", verdict)
         return verdict
 
     @property
@@ -207,10 +210,11 @@ class Scene:
         controls: Controls = getattr(self.module, "CONTROLS", Controls())
         return controls
 
-    def _wrong(self, function: str, expected: str, value: Any) -> RunError:
+    def _wrong(self, function: Any, name: str, expected: str, value: Any) -> RunError:
         """A scene's function returned something else, often because of a missing return."""
-        file = from_here(self.folder / "scene.py")
-        return RunError(f"{file}: {function} must return {expected}, but returned {_as_text(value)}")
+        file, code = from_here(self.folder / "scene.py"), code_of(function)
+        line = f", line {code.co_firstlineno}" if code is not None and Path(code.co_filename).name == "scene.py" else ""
+        return RunError(f"{file}{line}: {name} must return {expected}, but returned {_as_text(value)}")
 
     def _repr_html_(self) -> str:
         return display.notebook().scene_html(self)
@@ -346,16 +350,15 @@ def _parameters(
     except RequestError:
         for count, (file, _) in enumerate(files[:-1], 1):
             declared.validate(schema, first(count), file)
-        where, named, *_ = from_here(last), *sorted(found.folder.glob("*.toml")), None
-        if not files and named is not None:
-            expected = f"{found.folder.resolve().name}.toml"
-            raise RequestError(f"{where}: its numbers belong in {expected}; is {named.name} that file?") from None
-        if not files and is_of_library(found.folder):
-            reason = (
-                f"it was installed without its file of numbers, {found.folder.name}.toml: declare it as package data"
-            )
-            raise RequestError(f"{where}: {reason}") from None
-        raise
+        where, expected = from_here(last), f"{found.folder.resolve().name}.toml"
+        others = sorted({file.name for file in found.folder.glob("*.toml")}.difference(_NO_SCENE_FILES))
+        if files:
+            raise
+        if not others and is_of_library(found.folder):
+            reason = f"it was installed without its file of numbers, {expected}: declare it as package data"
+        else:
+            reason = f"its numbers belong in {expected}; {f'is {others[0]} that file?' if others else 'there is none'}"
+        raise RequestError(f"{where}: {reason}") from None
 
 
 def parameters_of(source: str | Path) -> tuple[str, declared.SceneParameters]:

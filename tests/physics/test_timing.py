@@ -123,5 +123,13 @@ def test_times_must_be_times(name, value):
         return t, 0.0
 
     setattr(push, name, value)
-    with pytest.raises(ValueError, match=f"push.*{name} = .*in s"):
+    with pytest.raises(ValueError, match=f"push[^=]*: {name} = [^=]*in s"):
         timing(push)
+
+
+def test_the_fields_that_are_timed_are_a_tuple():
+    class Push:
+        timed = "wind"
+
+    with pytest.raises(ValueError, match=r"Push: timed = 'wind' must be a tuple: \('wind',\)"):
+        timing(Push())

@@ -11,7 +11,7 @@ import pygame
 import pytest
 
 import sandbox
-from sandbox import Ball, Gravity, Segment, Setup, Surface, Trap
+from sandbox import Ball, Gravity, Segment, Setup, Surface, Touches, Trap
 from sandbox.picture import plain
 from sandbox.scene.setup_scene import with_scene
 from tests.own_scene import DROP, copy_of
@@ -135,6 +135,17 @@ def archery() -> sandbox.Run:
     rings = [Surface(f"ring {i}", Segment((30.0, 0.2 + 0.1 * i), (30.0, 0.3 + 0.1 * i)), 0.0, 0.5) for i in range(11)]
     butts = Trap("butts", (31.0, 2.12), 0.3)
     return sandbox.simulate(Setup([arrow], rings, duration=3.0, traps=[butts]))
+
+
+def test_a_target_at_the_edge_is_named_over_its_top():
+    """To its right the picture ends; to its left is the path, and below it the ground."""
+    arrow = Ball("ball", 0.02, 0.01, (0.0, 1.5), (57.0, 3.9), forces=[Gravity(9.81)])
+    ground = Surface("ground", Segment((-1e4, 0.0), (1e4, 0.0)), 0.1, 0.8)
+    target = Surface("target", Segment((50.0, 0.7), (50.0, 1.9), 0.01), 0.0, 0.5)
+    shown = with_scene(sandbox.simulate(Setup([arrow], [ground, target], duration=3.0, until=Touches("target", 1))))
+    view = shown.scene.picture(shown, (1280, 720))
+    view.poster()
+    assert dict(view.sheet.written)["target"].bottom < view.camera.pixel(50.0, 1.9)[1]
 
 
 def test_targets_are_named_and_in_sight():

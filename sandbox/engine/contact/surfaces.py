@@ -18,6 +18,7 @@ from sandbox.engine.model.tolerances import STILL
 from sandbox.physics.elementwise import cos, sin, where
 from sandbox.physics.impulse import after_impulse, surface_speeds
 from sandbox.physics.integrators import Acceleration, State
+from sandbox.tracebacks import defined_at
 
 _FLOATS = [float] * len(Bounce._fields)
 
@@ -45,7 +46,7 @@ def _bounce_by(law: BounceLaw, partner: str, approach: float, along: float) -> B
     if not numbers and not (isinstance(bounce, Bounce) and all(isinstance(value, Real) for value in bounce)):
         raise UserFunctionError(
             f"a ball hit {partner!r}: the scene's law must return a Bounce of numbers, such as "
-            f"Bounce(restitution=0.7, friction=0.3), and returned {bounce!r:.60}"
+            f"Bounce(restitution=0.7, friction=0.3), and returned {bounce!r:.60}{defined_at(law)}"
         )
     restitution, friction, tilt, tangential = bounce
     if not 0.0 <= restitution <= 1.0:
@@ -58,7 +59,7 @@ def _bounce_by(law: BounceLaw, partner: str, approach: float, along: float) -> B
         problem = f"tangential {tangential:g}: must be from 0 to 1"
     else:
         return bounce
-    raise UserFunctionError(f"the scene's law for {partner!r} returned {problem}")
+    raise UserFunctionError(f"the scene's law for {partner!r} returned {problem}{defined_at(law)}")
 
 
 def tilted(nx: Any, ny: Any, tilt: Any, along: Any) -> tuple[Any, Any]:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from sandbox.errors import RunError, sys_exit_as_error
+from sandbox.tracebacks import defined_at
 
 _PACKAGE = Path(__file__).resolve().parents[2]
 
@@ -34,7 +35,7 @@ def call_user_function(function: Callable[..., Any], form: str, *arguments: Any)
     except TypeError as error:
         if is_from_inside(error):
             raise
-        raise UserFunctionError(f"{form}: {error}") from None
+        raise UserFunctionError(f"{form}: {error}{defined_at(function)}") from None
 
 
 def failed(t: float, ball: str, what: str) -> RunError:

@@ -174,6 +174,8 @@ class ConstantBounce:
     def __post_init__(self) -> None:
         if not isinstance(self.bounce, Bounce):
             raise ValueError(f"bounce law: bounce = {short(self.bounce)} must be a Bounce")
+        fractions = ["restitution", "tangential"]
+        check("bounce law", self.bounce, fractions=fractions, not_negative=["friction"], finite=["tilt"])
 
     def __call__(self, normal_speed: float, slip_speed: float) -> Bounce:
         return self.bounce

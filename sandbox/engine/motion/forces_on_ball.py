@@ -14,6 +14,7 @@ from sandbox.errors import RunError
 from sandbox.physics.elementwise import of_floats
 from sandbox.physics.forces import Drag, Gravity, Magnus, SpinDecay, Wind, in_wind, through_air
 from sandbox.physics.integrators import Acceleration, AccelerationFunction, State
+from sandbox.tracebacks import defined_at
 
 #: Everyday names of causes.
 _CALLED = {"magnus": "lift", "bullet drag": "drag"}
@@ -158,7 +159,7 @@ def _differing(term: Any, *arguments: Any) -> str | None:
     if first == again:
         return None
     rule = "it must depend on nothing but (t, position, velocity, spin)"
-    return f"{_name(term)}, called twice with the same, returned {first:.40} and {again:.40}: {rule}"
+    return f"{_name(term)}, called twice with the same, returned {first:.40} and {again:.40}: {rule}{defined_at(term)}"
 
 
 def by_cause(terms: Sequence[Any], t: float, state: State) -> Iterator[tuple[str, Any]]:
@@ -183,9 +184,9 @@ def wrong_term(ball: Ball, t: float, state: State) -> str | None:
             several = isinstance(found, tuple | list) or getattr(found, "shape", ()) != ()
             right = all(map(_is_finite, found if several else (found,))) and parts == (several and len(found))
         except (TypeError, ValueError, OverflowError) as error:
-            return f"{_rule(term)}: {error}"
+            return f"{_rule(term)}: {error}{defined_at(term)}"
         if not right:
-            return f"{_rule(term)}, and returned {' '.join(repr(found).split()):.60}"
+            return f"{_rule(term)}, and returned {' '.join(repr(found).split()):.60}{defined_at(term)}"
         if (wrong := _differing(term, t, *arguments)) is not None:
             return wrong
     return None

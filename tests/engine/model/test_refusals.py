@@ -66,6 +66,8 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
     (lambda: surface(law=0.5), "surface 'floor': law = 0.5 must be a function of the normal and the tangential speed"),
     (lambda: surface(nose_height="1"), "surface 'floor': nose_height = '1' must not be negative"),
     (lambda: ConstantBounce(0.5), "bounce law: bounce = 0.5 must be a Bounce"),
+    (lambda: ConstantBounce(Bounce(-0.5, 0.1)), "bounce law: restitution = -0.5 must be from 0 to 1"),
+    (lambda: ConstantBounce(Bounce(0.5, -0.1)), "bounce law: friction = -0.1 must not be negative"),
     (lambda: trap(radius=-1.0), "trap 'pit': radius = -1.0 must be positive"),
     (lambda: trap(end=3.0), "trap 'pit': end = 3.0 must be two finite numbers"),
     (lambda: trap(end=(5.0, 0.0)), r"trap 'pit': end = center = \(5.0, 0.0\): leave out end"),
