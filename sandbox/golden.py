@@ -118,8 +118,8 @@ class Golden:
             written = {} if drawing is None else {png: (as_png(coarser(image)), drawing)}
             if run is not None and physics is not None:
                 written[text] = _recorded(name, run, until, tolerance, known), physics
-            elif known is not None and (new or known.get("parameters") != actual["parameters"]):
-                change = "; ".join(f"{each} is new" for each in new) or "the same run, with its parameters"
+            elif known is not None and (new or any(known.get(key) != actual.get(key) for key in record.EXPLAINING)):
+                change = "; ".join(f"{each} is new" for each in new) or "the same run, with its parameters and labels"
                 written[text] = record.as_text(record.merged(known, whole, tolerance)).encode(), change
             self._write(written)
         elif drawing is None and physics is None:

@@ -54,7 +54,7 @@ from sandbox.physics.integrators import State
 from sandbox.physics.plane import Strips
 from sandbox.physics.slope import Slope
 from sandbox.scene.scene_run import SceneRun
-from sandbox.sport.air import Air, ConstantDrag, NoForce, OutdoorAir, Weather, wind_in
+from sandbox.sport.air import Air, AirByDensity, ConstantDrag, NoForce, OutdoorAir, Weather, wind_in
 from sandbox.sport.amounts import amount, in_two_units, metres, roughly, round_number_above, signed
 from sandbox.sport.controls import Controls, Goal, Handle, Held, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact, cached_per_run
@@ -115,6 +115,7 @@ __all__ = [
     "TENNIS_DRAG",
     "TENNIS_LIFT",
     "Air",
+    "AirByDensity",
     "Ball",
     "Body",
     "Bounce",

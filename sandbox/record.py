@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from importlib.metadata import version
+from math import inf
 from pathlib import Path
 from platform import python_version
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
 TOLERANCE = 1e-6
 #: Numbers are rounded to this many digits, so that files differ only where the tolerance is exceeded.
 _DIGITS = 9
+#: Parts of a record that say where a difference comes from; one that is older may lack them.
+EXPLAINING = ("parameters", "labels", "says")
 #: States recorded for each ball, and the most for all balls together.
 SAMPLES, _MOST_STATES = 24, 240
 #: A run is chaotic if moving its balls this far, in m, at the start moves the result by more than the tolerance. It is
@@ -50,7 +53,9 @@ def record(run: SceneRun, until: float | None = None, duration: float | None = N
     times = _rounded([(duration or end) * i / last for i in range(last + 1)])  # as the file will have them
     recorded: Record = {} if until is None else {"until": until}
     if until is None:
-        recorded |= {"ended": run.ended, "duration": run.duration, "result": json_ready(run.result)}
+        recorded |= {"ended": run.ended, "duration": run.duration, "says": run.scene.verdict(run)}
+        recorded["result"] = json_ready(run.result)
+        recorded["labels"] = {key: label for key, fact in run.scene.facts.items() if (label := _label(fact))}
     recorded["parameters"] = run.scene.parameters.model_dump(mode="json", exclude_none=True)
     recorded["versions"] = _versions()
     recorded["events"] = [
@@ -64,6 +69,11 @@ def record(run: SceneRun, until: float | None = None, duration: float | None = N
         for ball in balls
     }
     return _rounded(recorded)
+
+
+def _label(fact: Fact) -> str:
+    """Label and unit of a fact: ``"landing speed (m/s)"``."""
+    return f"{fact.label} ({fact.unit})".strip() if fact.unit else fact.label
 
 
 def _versions() -> str:
@@ -154,7 +164,17 @@ def changed_results(
             label = facts[name].label if name in facts else ""
             shown = name if label in ("", name.replace("_", " ")) else f"{name} ({label})"
             found.append(f"{shown} is {now.rstrip()}, was {then.rstrip()}")
-    return found
+    return [*found, *_changed_words(expected, actual, [name for name in before if name in after])]
+
+
+def _changed_words(expected: Record, actual: Record, facts: Sequence[str]) -> Iterator[str]:
+    """Yield how label and unit of the ``facts``, and the verdict, differ; nothing of a record without them."""
+    labels, names = expected.get("labels", {}), actual.get("labels", {})
+    for name in facts if "labels" in expected else ():
+        if labels.get(name) != names.get(name):
+            yield f"{name} is labelled {_word(names.get(name, ''))}, was {_word(labels.get(name, ''))}"
+    if "says" in expected and expected["says"] != actual["says"]:
+        yield f"the verdict is {_word(actual['says'])}, was {_word(expected['says'])}"
 
 
 def known_part(known: Record, actual: Record) -> tuple[Record, list[str]]:
@@ -201,7 +221,7 @@ def diverges(run: SceneRun, until: float | None = None, tolerance: float = TOLER
 
     recorded = record(run, until)
     nudged_run = SceneRun.of(simulate(nudged(run.setup, _NUDGE, 0), run.accuracy), run.scene, {})
-    other = record(nudged_run, until, recorded.get("duration"))
+    other = record(nudged_run, inf if until is None else until, recorded.get("duration"))  # without results
     change = first_change(recorded, other, tolerance)
     return None if change is None else change[0]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from types import new_class
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self
 
 from sandbox.parameters import Group, choice, quantity, vector
 from sandbox.physics.air import LogWind, UniformWind, moist_density
@@ -15,17 +15,22 @@ if TYPE_CHECKING:
     from sandbox.sport.flight import Sphere
 
 
-class Air(Group):
-    """Still air, or a uniform wind."""
+class AirByDensity(Group):
+    """Still air, or a uniform wind: enough for drag that does not depend on the Reynolds number."""
 
     density: float = quantity(..., "kg/m^3", 0, 1100, "density")
-    viscosity: float = quantity(..., "Pa s", 1e-7, 10, "dynamic viscosity, for the Reynolds number")
     wind: tuple[float, float] = vector(..., "m/s", -100, 100, "along x and y; negative x is a headwind")
 
     @property
-    def air(self) -> Air:
+    def air(self) -> Self:
         """The air with its density."""
         return self
+
+
+class Air(AirByDensity):
+    """Still air, or a uniform wind."""
+
+    viscosity: float = quantity(..., "Pa s", 1e-7, 10, "dynamic viscosity, for the Reynolds number")
 
 
 class OutdoorAir(Air):
@@ -36,7 +41,7 @@ class OutdoorAir(Air):
     roughness: float = quantity(..., "m", 0.0001, 2, "roughness length of a log profile")
 
 
-class Weather(Air):
+class Weather(AirByDensity):
     """The air, by its weather unless its density is given."""
 
     density: float | None = quantity(  # type: ignore[assignment]
@@ -48,14 +53,14 @@ class Weather(Air):
     elevation: float = quantity(..., "m", -500, 9000, "above the sea")
 
     @property
-    def air(self) -> Air:
+    def air(self) -> Self:
         if self.density is not None:
             return self
         density = moist_density(self.temperature + 273.15, 100.0 * self.pressure, self.humidity, self.elevation)
         return self.model_copy(update={"density": density})
 
 
-def wind_in(air: Air) -> Wind | None:
+def wind_in(air: AirByDensity) -> Wind | None:
     """The wind as a velocity field, or None for still air."""
     if air.wind == (0.0, 0.0):
         return None

@@ -80,11 +80,15 @@ class Baseball(Sphere, drag=BaseballDrag, lift=BASEBALL_LIFT):
         return self.spin_decay
 
 
+class BaseballAir(Weather, Air):
+    """The air that a baseball flies through."""
+
+
 class BaseballFlight(Flight):
     """Parameters of a baseball in the air; x = 0 is the plate of a hit, and the hand of a pitch."""
 
     release: Release = group(..., "where the ball leaves bat or hand")
-    air: Weather = group(..., "the air")
+    air: BaseballAir = group(..., "the air")
     ball: Baseball = group(..., "the ball")
 
 
@@ -126,7 +130,7 @@ class Fence(Group):
     height: float = quantity(..., "m", 0, 30, "height")
 
 
-class FieldAir(Crosswind, Weather):
+class FieldAir(Crosswind, BaseballAir):
     """The air over the field."""
 
 

@@ -422,7 +422,7 @@ def verdict(run: SceneRun, parameters: Parameters) -> str:
     if result["first_contact"] is None:
         return "Hits no ball"
     if run.ended == "duration":
-        return f"Still rolling after {run.duration:.0f} s"
+        return f"Still moving after {run.duration:.0f} s"
     if not run.setup.traps:
         return _carom(run, parameters)
     if len(others(run, parameters)) > 5:

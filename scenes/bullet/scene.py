@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from math import atan2, degrees
-from typing import Literal
+from typing import Literal, cast
 
 from sandbox.engine import simulate
 from sandbox.engine.model.accuracy import LEVELS
@@ -84,9 +84,9 @@ class Bullet(Group):
 
     def drag_in(self, weather: Weather) -> list[Force]:
         """The force of that air on it; none without air."""
-        air, sound = weather.air, speed_of_sound(weather.temperature + 273.15)
-        given = self.mass, self.drag.model, self.coefficient, air.density, sound, wind_in(air)
-        return [BulletDrag(*given)] if air.density > 0.0 else []
+        density, sound = cast(float, weather.air.density), speed_of_sound(weather.temperature + 273.15)
+        given = self.mass, self.drag.model, self.coefficient, density, sound, wind_in(weather)
+        return [BulletDrag(*given)] if density > 0.0 else []
 
 
 class Zero(Group):

@@ -19,7 +19,7 @@ from sandbox.engine.contact.manifold import ContactManifold, meeting
 from sandbox.engine.model.ball import kinetic
 from sandbox.kit import (
     ENDED,
-    Air,
+    AirByDensity,
     Ball,
     Constant,
     ContactModel,
@@ -105,7 +105,7 @@ class Parameters(SceneParameters):
     strings: float = quantity(
         ..., "m", 0, 50, "length of a cradle's strings, in which the balls hang in touch; 0: none"
     )
-    air: Air = group(..., "the air; without density where it does not matter")
+    air: AirByDensity = group(..., "the air; without density where it does not matter")
     stepping: Stepping = group(..., "rules at a fixed step beside it")
     duration: float = quantity(..., "s", 0.01, 60, "shown at most")
 
@@ -169,8 +169,7 @@ def build(it: Parameters) -> Setup:
         if weight:
             forces.append(String(hung, weight / it.strings) if it.strings else Gravity(it.gravity))
         if it.air.density:
-            air = it.air.density, Constant(SPHERE_DRAG), wind_in(it.air)
-            forces.append(Drag(body.radius, *air, viscosity=it.air.viscosity))
+            forces.append(Drag(body.radius, it.air.density, Constant(SPHERE_DRAG), wind_in(it.air)))
         velocity = _velocity(body, launch)
         if it.strings:
             velocity = _on_string(body, hung, velocity, it)

@@ -21,7 +21,7 @@ from sandbox.kit import (
     ENDED,
     LAUNCH,
     RPM,
-    Air,
+    AirByDensity,
     Body,
     Circle,
     Controls,
@@ -102,7 +102,7 @@ class Parameters(SceneParameters):
 
     launch: PlaceKick = group(..., "the ball just after the kick")
     gravity: float = quantity(..., "m/s^2", 0, 100, "gravity")
-    air: Air = group(..., "the air")
+    air: AirByDensity = group(..., "the air")
     ball: Football = group(..., "the ball")
     ground: Solid = group(..., "the grass")
     goal: Goal = group(..., "the goal")

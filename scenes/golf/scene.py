@@ -315,7 +315,7 @@ def verdict(run: SceneRun, parameters: Parameters) -> str:
     if carry is None:
         return "Did not come down"
     if result["ended"] == "duration":
-        return f"Still rolling after {run.duration:.0f} s, {roughly(abs(total))} from the start"
+        return f"Still moving after {run.duration:.0f} s, {roughly(abs(total))} from the start"
     if abs(carry) < 0.05 * abs(total):
         story = f"Rolls {roughly(abs(total))}" + (" backwards" if total < 0.0 else "")
     else:

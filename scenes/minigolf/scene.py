@@ -270,7 +270,7 @@ def verdict(run: SceneRun, parameters: Parameters) -> str:
     if result["holed"]:
         return ("Hole in one" if parameters.putt == 1 else f"Holed with putt {parameters.putt}") + way
     if result["ended"] == "duration":
-        return f"Still rolling after {run.duration:.0f} s{way}"
+        return f"Still moving after {run.duration:.0f} s{way}"
     return f"Stops {roughly(result['to_hole'])} from the hole{way}"
 
 

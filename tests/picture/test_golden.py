@@ -304,6 +304,27 @@ class TestRuns:
         scene.write_text(scene.read_text().replace("return sum(", "return 99 or sum("))
         again(scene_project).stdout.fnmatch_lines(["*same motion, different result; bounces is 99, was *"])
 
+    def test_says_that_a_label_a_unit_or_the_verdict_changed(self, scene_project):
+        again(scene_project, "--golden-update")
+        scene = scene_project.path / "drop" / "scene.py"
+        known = scene.read_text()
+        for old, new, said in (
+            ('"bounces", "bounces", ""', '"bounces", "hops", ""', 'bounces is labelled "hops", was "bounces"'),
+            ('"final height", "m"', '"final height", "cm"', 'final_height is labelled "final height (cm)", was "*(m)"'),
+            ('"Bounced"', '"Bounced on"', 'the verdict is "Bounced on", was "Bounced"'),
+        ):
+            scene.write_text(known.replace(old, new))
+            again(scene_project).stdout.fnmatch_lines([f"*same motion, different result; {said}"])
+
+    def test_an_older_record_without_labels_passes_and_gets_them(self, scene_project):
+        again(scene_project, "--golden-update")
+        record = scene_project.path / "golden" / "it.json"
+        whole = json.loads(record.read_text())
+        record.write_text(as_text({key: value for key, value in whole.items() if key not in ("labels", "says")}))
+        again(scene_project).assert_outcomes(passed=1)
+        again(scene_project, "--golden-update").stdout.fnmatch_lines(["*the same run, with its parameters and labels"])
+        assert json.loads(record.read_text()) == whole
+
     def test_a_new_fact_passes_and_is_one_more_line(self, scene_project):
         """In a record of another machine, which has other versions and last digits."""
         again(scene_project, "--golden-update")
@@ -374,7 +395,7 @@ class TestRuns:
         self.changed(scene_project, monkeypatch, '{"air.wind": [1, 0]}').assert_outcomes(passed=1)
         record = scene_project.path / "golden" / "it.json"
         before = json.loads(record.read_text())
-        told = "*it.json: the same run, with its parameters"
+        told = "*it.json: the same run, with its parameters and labels"
         again(scene_project, "--golden-update").stdout.fnmatch_lines([told])
         after = json.loads(record.read_text())
         assert after["parameters"]["air"]["wind"] == [1.0, 0.0]

@@ -22,8 +22,6 @@ from tests.scenes.play import run_of
 NAMES = [listing.name for listing in listings()]
 SCENES = [name for name in NAMES if "/" not in name]
 
-#: Parameters that all scenes with air share, and some do not need: a law without Reynolds number has no viscosity.
-UNUSED = {"air.viscosity": ("bullet", "bullet-water", "football")}
 #: With what some others have an effect.
 NEEDS = {"billiards": {"rack": "nine-ball", "rack_scatter": 0.0002}}
 
@@ -78,7 +76,6 @@ def without_effect(name: str) -> set[str]:
         for each in walk(own.parameters, entries=True)
         if not each.key.startswith("accuracy.") and any(True for _ in other_values(each))
     }
-    lost = {key: value for key, value in lost.items() if name not in UNUSED.get(key, ())}
     for scatter in own.controls.spread:
         lost.pop(scatter.sd, None)  # of a player
     for scene in starts(name):
