@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,7 @@ from sandbox import units
 from sandbox.engine.model.accuracy import LEVELS
 from sandbox.parameters import Accuracy, words_of
 from sandbox.physics.integrators import INTEGRATORS
+from sandbox.physics.timing import timing_of
 
 PAGE = (Path(__file__).resolve().parent.parent / "docs" / "forces.md").read_text("utf-8")
 BLOCKS = re.findall(r"^```python\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)
@@ -40,6 +42,9 @@ def test_the_blocks_do_what_the_page_says(names: dict[str, Any]):
     scene = names["scene"]
     assert abs(scene.result(names["own"])["carry"] - sandbox.simulate(scene).result["carry"]) > 1.0
     assert names["gusty"].state("ball", 1.0).x == pytest.approx(5.275, abs=1e-6)
+    still = sandbox.simulate(replace(names["held_back"].setup, balls=[names["tossed"]]))
+    assert names["held_back"].events[0].x < still.events[0].x - 1.0
+    assert timing_of([names["blown"].forces[2]]).jumps == (0.4, 0.7)
     assert names["slid"].state("puck", 2.0).y > 0.1
     bounce = names["first"].events[0].t
     assert names["after"].state("ball", bounce) == names["first"].state("ball", bounce)
