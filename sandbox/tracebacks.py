@@ -44,7 +44,7 @@ def one_line_error(error: BaseException) -> str:
 
 
 def defined_at(function: object) -> str:
-    """Where a user's function is defined, as the end of a message: ``" (hall/scene.py, line 12)"``; "" for others."""
+    """The place of a user's function, as the end of a message: ``" (hall/scene.py, line 12)"``; "" for others."""
     code = code_of(function)
     return "" if code is None else f" ({_place(code.co_filename)}, line {code.co_firstlineno})"
 
