@@ -158,9 +158,8 @@ def changed_results(
         if name not in after or name not in before:
             found.append(f"{name} is {'new' if name in after else 'gone'}")
         elif not _same(before[name], after[name], tolerance):
-            now, then = (
-                f"{_word(value[name])} {facts[name].unit if name in facts else ''}" for value in (after, before)
-            )
+            unit = facts[name].unit if name in facts else ""
+            now, then = (_word(value) + f" {unit}" * (value is not None) for value in (after[name], before[name]))
             label = facts[name].label if name in facts else ""
             shown = name if label in ("", name.replace("_", " ")) else f"{name} ({label})"
             found.append(f"{shown} is {now.rstrip()}, was {then.rstrip()}")

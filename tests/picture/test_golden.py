@@ -548,6 +548,8 @@ class TestRecords:
         facts = {"clearance": Fact("clearance", "over the net", "m", lambda run, parameters: 0.0)}
         found = changed_results({"result": {"clearance": 0.3}}, {"result": {"clearance": 0.25}}, facts=facts)
         assert found == ["clearance (over the net) is 0.25 m, was 0.3 m"]
+        found = changed_results({"result": {"clearance": 0.3}}, {"result": {"clearance": None}}, facts=facts)
+        assert found == ["clearance (over the net) is null, was 0.3 m"]
 
     def test_text_reads_back(self):
         kept = self.records() | {"events": [], "result": {"spots": [1.0, {"a": "Fußball"}]}}
