@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from sandbox import entries
-from sandbox.cli.arguments import changes_options, load, optional_scene, scene_argument
+from sandbox.cli.arguments import changes_options, load, optional_scene, scene_argument, table_options
 from sandbox.cli.reports import Outputs, report_options
 from sandbox.errors import RequestError, RunError
 from sandbox.files import check_file, is_stream
 
 if TYPE_CHECKING:
+    from sandbox.lab.mapped import Choices
     from sandbox.lab.plan import Plan
     from sandbox.scene import Scene
 
@@ -85,8 +86,12 @@ def aim(
     help="A parameter and its values, also as KEY=A,B,C or KEY=MEAN~SD; repeatable.",
 )
 @click.option(
-    "--points", metavar="F.csv", type=Path, help="Points in a table: a column for each KEY, in place of --over."
+    "--points",
+    metavar="F.csv",
+    type=Path,
+    help="Points in a table, in place of --over: a column for each KEY, or shots as a launch monitor writes them.",
 )
+@table_options
 @click.option("--out", metavar="F.csv", type=Path, required=True, help="CSV file to write, one row per point.")
 @changes_options
 @click.option(
@@ -110,6 +115,7 @@ def sweep(
     scene: str,
     over: tuple[str, ...],
     points: Path | None,
+    choices: Choices,
     out: Path,
     changes: dict[str, Any],
     samples: int | None,
@@ -135,12 +141,13 @@ def sweep(
       sandbox sweep throws --over launch.angle=20:60:81 --over release.height=0,1,2 --out put.csv \\
         --plot put.png --family release.height
       sandbox sweep golf --points measured-launches.csv --out carry.csv
+      sandbox sweep golf --points trackman.csv --where Club=Driver --set air.density=1.1 --out thin.csv
     """
     from sandbox.lab.row_file import rows
     from sandbox.lab.sweep import sweep_to_file, workers, worthwhile_jobs
     from sandbox.progress import bar
 
-    plan = _plan(load(scene, changes), over, points, samples, seed, check)
+    plan, notes = _plan(load(scene, changes), over, points, choices, samples, seed, check)
     check_file("--out", out, ".csv")
     _check_chart(plan, outputs, of, family)
     outputs.check({"--out": out})
@@ -155,29 +162,39 @@ def sweep(
         if outputs.page is not None:
             page = partial(entries.require(PAGES, "--html").page_of, plan, shown, of, family)
     new = [out] if done.points > done.resumed else []
-    outputs.write(done.report(charts), others=new, page_of=page, quiet=is_stream(out))
+    outputs.write(done.report(charts, notes), others=new, page_of=page, quiet=is_stream(out))
     if done.failures == done.points - done.resumed > 0:
         raise RunError(f"every point failed, the first with: {done.first_error}")
 
 
 def _plan(
-    scene: Scene, over: tuple[str, ...], points: Path | None, samples: int | None, seed: int | None, check: bool
-) -> Plan:
-    """The points of a sweep. Raises RequestError for options that do not go together."""
-    from sandbox.lab.axes import parse_axis, points_in
+    scene: Scene,
+    over: tuple[str, ...],
+    points: Path | None,
+    choices: Choices,
+    samples: int | None,
+    seed: int | None,
+    check: bool,
+) -> tuple[Plan, tuple[str, ...]]:
+    """The points of a sweep, and sentences on how a table of shots was read. Raises RequestError for options that do
+    not go together."""
+    from sandbox.lab.axes import parse_axis
     from sandbox.lab.plan import Plan
+    from sandbox.lab.points import points_from
 
+    if seed is not None and samples is None:
+        raise RequestError(f"--seed {seed}: requires --samples")
+    if points is None and choices:
+        raise RequestError("--map, --where, --without and --strict require --points F.csv")
     if points is not None:
         if over or samples is not None:
             raise RequestError(f"--points {points}: cannot be combined with --over or --samples")
-        plan = Plan(scene, points_in(scene, "--points", points), check=check, listed=True)
-    elif over:
-        plan = Plan(scene, tuple(parse_axis(scene, "--over", text) for text in over), samples or 0, seed or 0, check)
-    else:
+        axes, found = points_from(scene, "--points", points, choices)
+        return Plan(scene, axes, check=check, listed=True), () if found is None else found.said
+    if not over:
         raise RequestError("nothing to sweep over: give --over KEY=LO:HI:N, or --points F.csv")
-    if seed is not None and samples is None:
-        raise RequestError(f"--seed {seed}: requires --samples")
-    return plan
+    axes_over = tuple(parse_axis(scene, "--over", text) for text in over)
+    return Plan(scene, axes_over, samples or 0, seed or 0, check), ()
 
 
 def _check_chart(plan: Plan, outputs: Outputs, of: str | None, family: str | None) -> None:

@@ -11,8 +11,11 @@ import numpy as np
 
 from sandbox.errors import RequestError
 from sandbox.lab.axes import Values, points_given
+from sandbox.lab.mapped import choices_of
 from sandbox.lab.plan import Plan
+from sandbox.lab.points import points_from
 from sandbox.lab.runs import Progress, no_progress, outcomes, runs
+from sandbox.lab.selection import LeftOut
 from sandbox.scene import Scene, as_scene
 from sandbox.scene.scene_run import SceneRun
 from sandbox.text import check_mapping, no_such_result
@@ -37,6 +40,8 @@ class Runs:
     facts: Mapping[str, np.ndarray]  # each in its unit, as in ``scene.units``
     errors: Mapping[int, str]  # one line for each point that failed
     runs: Sequence[SceneRun | None]  # None for one that failed; empty if they were not kept
+    rows: tuple[int, ...] = ()  # of a table of shots, the first is 1, that are the points
+    left_out: tuple[LeftOut, ...] = ()  # its rows that are not used, each with its reason
 
     def __len__(self) -> int:
         return len(next(iter(self.points.values())))
@@ -54,16 +59,22 @@ class Runs:
 
 def simulate_many(
     scene: Scene | str | Path,
-    points: Mapping[str, Any],
+    points: Mapping[str, Any] | str | Path,
     facts: Sequence[str] = (),
     *,
+    columns: Mapping[str, str] | None = None,
+    where: Mapping[str, str] | Sequence[str] = (),
+    without: Sequence[str] = (),
+    strict: bool = False,
     paths: bool = False,
     progress: Progress = no_progress,
 ) -> Runs:
     """Run a scene at each of many points: ``simulate_many("golf", {"launch.speed": speeds, "launch.angle": angles})``.
 
     ``points`` gives the values of each parameter, one per point, in its declared unit or as strings with a unit: the
-    first values of all are the first point. Similar shots are computed together, as arrays, with the results of
+    first values of all are the first point. Or it is a table, with the parameters in its first line, or with shots as
+    ``fit`` reads them: ``columns``, ``where``, ``without`` and ``strict`` are as there, and ``rows`` of the result are
+    those of the table that are used. Similar shots are computed together, as arrays, with the results of
     ``simulate`` to rounding; the same points give the same digits.
 
     Only the ``facts`` that are named are read, by default all but how a run ends, and each run ends when these are
@@ -80,10 +91,14 @@ def simulate_many(
     >>> found["made"].dtype, found["apex"].shape
     (dtype('bool'), (3,))
     """
-    chosen = as_scene(scene)
-    check_mapping("points", points, '{"launch.angle": [10, 20, 30]}')
+    chosen, read = as_scene(scene), None
     wanted = _facts(chosen, facts)
-    plan = Plan(chosen, points_given(chosen, points), listed=True, facts=wanted)
+    if isinstance(points, str | Path):
+        axes, read = points_from(chosen, "points", Path(points), choices_of(columns, where, without, strict))
+    else:
+        check_mapping("points", points, '{"launch.angle": [10, 20, 30]}')
+        axes = points_given(chosen, points)
+    plan = Plan(chosen, axes, listed=True, facts=wanted)
     rows: list[Mapping[str, Any]] = []
     kept: list[SceneRun | None] = []
     errors: dict[int, str] = {}
@@ -98,10 +113,10 @@ def simulate_many(
             if paths:
                 kept.append(found if isinstance(found, SceneRun) else None)
     progress(plan.size, plan.size)
-    columns = {axis.key: as_array(axis.values) for axis in plan.axes if isinstance(axis, Values)}
-    return Runs(
-        chosen, columns, {key: as_array([row.get(key) for row in rows]) for key in plan.facts_read}, errors, kept
-    )
+    given = {axis.key: as_array(axis.values) for axis in plan.axes if isinstance(axis, Values)}
+    found_facts = {key: as_array([row.get(key) for row in rows]) for key in plan.facts_read}
+    numbers, left_out = ((), ()) if read is None else (read.rows, read.left_out)
+    return Runs(chosen, given, found_facts, errors, kept, numbers, left_out)
 
 
 def _facts(scene: Scene, facts: Sequence[str]) -> tuple[str, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -22,7 +22,7 @@ from sandbox.lab.formats import (
     recognized,
     stated,
 )
-from sandbox.lab.selection import LeftOut, Selection, rows_text
+from sandbox.lab.selection import LeftOut, Selection, rows_text, used
 from sandbox.lab.table_file import Column, Table, split_unit
 from sandbox.lab.where import Condition, conditions
 from sandbox.scene import Scene
@@ -97,6 +97,13 @@ class Mapped:
     unused: tuple[str, ...]  # the names of columns that are not used
     columns: Mapping[str, str]  # the column of each parameter and fact that is one
 
+    @property
+    def said(self) -> tuple[str, ...]:
+        """Sentences on how it was read, and on the rows and columns that are not used."""
+        shots = used(len(self.rows) + len(self.left_out), self.left_out, "shot")
+        unused = f"columns that are not used: {', '.join(self.unused)}" if self.unused else ""
+        return tuple(filter(None, (shots, *self.notes, unused)))
+
     def check_both(self) -> None:
         """Raise RequestError if it has nothing of the launch, or no result."""
         if not self.measured or not self.given:
@@ -105,14 +112,17 @@ class Mapped:
             raise RequestError(f"{self.table.where}: {missing} among the columns that are used: {used}")
 
 
-def read_shots(scene: Scene, table: Table, choices: Choices = EVERYTHING) -> Mapped:
-    """The parameters and results of each row of a table, by its known columns or those that are named. Raises
-    RequestError; for a table that is not known it has the ``--map`` options to complete."""
+def read_shots(scene: Scene, table: Table, choices: Choices = EVERYTHING, launches_only: bool = False) -> Mapped:
+    """The parameters and results of each row of a table, by its known columns or those that are named; or the
+    parameters alone. Raises RequestError; for a table that is not known it has the ``--map`` options to complete."""
     if choices.entries:
-        return mapped(scene, table, stated(choices.entries, table, scene, choices.without), choices)
-    found = recognized(table, scene, choices.without, choices.beside)
+        found: ColumnMap | None = stated(choices.entries, table, scene, choices.without)
+    else:
+        found = recognized(table, scene, choices.without, choices.beside)
     if found is None:
         raise RequestError(f"{table.where}: {_unknown(table, scene)}")
+    if launches_only:
+        found = replace(found, sources=tuple(one for one in found.sources if one.key not in scene.facts))
     return mapped(scene, table, found, choices)
 
 

@@ -167,8 +167,8 @@ class SweepSummary:
     before: Path | None = None  # backup of the file's previous content, if from another sweep
     alone: str = ""  # why its shots ran one by one, if they need not
 
-    def report(self, charts: Sequence[Chart] = ()) -> Report:
-        """Number of points, speed, failures, and the file's previous content."""
+    def report(self, charts: Sequence[Chart] = (), said: Sequence[str] = ()) -> Report:
+        """Number of points, speed, failures, the file's previous content, and what is said of the points."""
         new = self.points - self.resumed
         before = f", {self.resumed:,} already in the file" if self.resumed else ""
         title = (
@@ -184,7 +184,7 @@ class SweepSummary:
         if self.before is not None:
             notes.append(f"the previous rows are in {self.before}")
         document = {**vars(self), "before": None if self.before is None else str(self.before)}
-        return Report(lambda: document, title, [Notes(notes if new else []), *charts])
+        return Report(lambda: document, title, [Notes([*(notes if new else []), *said]), *charts])
 
 
 def sweep_to_file(plan: Plan, path: Path, pool: Workers, progress: Progress = no_progress) -> SweepSummary:

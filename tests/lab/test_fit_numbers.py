@@ -9,7 +9,7 @@ from scipy.stats import t as student_t
 
 import sandbox
 from sandbox.lab.axes import Span
-from sandbox.lab.fit.intervals import errors_of, group_sds, pooled
+from sandbox.lab.fit.intervals import clustered, errors_of, group_sds, pooled
 from sandbox.lab.fit.loss import HUBERS, SQUARES, TUKEYS, Loss
 from sandbox.lab.fit.problem import Problem
 from sandbox.lab.fit.search import neumann
@@ -35,6 +35,19 @@ def line(rng: np.random.Generator, sds: tuple[float, float]) -> tuple[np.ndarray
     x, groups = np.tile(np.linspace(-1.0, 1.0, 20), 2), np.repeat([0, 1], 20)
     slopes = np.column_stack([np.ones(40), x])
     return rng.normal(0.0, 1.0, 40) * np.array(sds)[groups], slopes, groups
+
+
+def test_errors_that_are_alike_in_groups_are_those_of_the_groups_means():
+    """The mean of eight equal groups: its standard error is the sd of their means over the root of their number."""
+    rng = np.random.default_rng(0)
+    labels = np.repeat(np.arange(8), 10)
+    for common, differs in ((2.0, True), (0.0, False)):
+        errors = common * rng.normal(size=8)[labels] + rng.normal(size=80)
+        left, slopes = errors - errors.mean(), -np.ones((80, 1))
+        found, apart = clustered(left, slopes, np.full(80, 1.7), labels, SQUARES)
+        means = errors.reshape(8, 10).mean(axis=1)
+        assert found.sds[0] == pytest.approx(means.std(ddof=1) / 8**0.5)
+        assert (found.freedom[0], apart.tolist()) == (7.0, [differs])
 
 
 def test_errors_of_a_straight_line_are_those_of_the_textbook():

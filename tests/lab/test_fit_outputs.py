@@ -82,7 +82,7 @@ def test_what_cannot_be_told_apart_is_said_with_what_would_help():
     kick = track("soccer", FREE_KICK, 0.4, 0.02, 14)
     fixed = sandbox.load("soccer", FREE_KICK)
     found = sandbox.fit(fixed, kick, {"launch.speed": (20, 35), "ball.drag.coefficient": (0, 1)})
-    assert "launch.speed and ball.drag.coefficient can hardly be told apart" in said(found)
+    assert "launch.speed and ball.drag.coefficient have strongly correlated errors" in said(found)
     assert "more of the path would help, up to " in said(found)
 
 

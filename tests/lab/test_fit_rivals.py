@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
+from types import MappingProxyType
 
 import numpy as np
 import pytest
@@ -34,6 +35,7 @@ class TwoRoots:
     units = ("m",)
     free = ()
     left_out = unused = ()
+    alike = MappingProxyType({})
     rows = np.arange(1, 42)
     groups = np.zeros(41, dtype=int)
     times = np.full(41, np.nan)

@@ -218,6 +218,7 @@ def test_a_value_at_the_end_of_its_range_is_no_result(call: Call, tmp_path: Path
     done = call("fit", "golf", file, "--vary", "air.density=1.15:1.3", "--json")
     value = json.loads(done.out)["values"]["air.density"]
     assert (value["value"], value["low"], value["high"], value["at_bound"]) == (1.15, None, None, True)
+    assert value["interval_kind"] is json.loads(done.out)["interval_kind"] is None
     said = call("fit", "golf", file, "--vary", "air.density=1.15:1.3", "--save", tmp_path / "x.toml").out
     assert "1.15 kg/m^3 no result: at the end of its range" in text_of(said.splitlines())
     assert "±" not in said
@@ -278,6 +279,52 @@ def test_rows_are_left_out_of_a_validation(call: Call, tmp_path: Path, carries: 
     assert_refused(call("validate", "golf", "--strict"), "--strict require --against")
 
 
+def test_a_table_of_shots_gives_the_points_of_a_sweep(call: Call, tmp_path: Path, carries: list[float]):
+    rows = [*shots(carries), next(iter(BAD)), "W,60,12,2600,none,3\n"]
+    file, out = written(tmp_path, HEAD + "".join(rows)), tmp_path / "out.csv"
+    done = call("sweep", "golf", "--points", file, "--where", "Club=D", "--set", "air.density=1.1", "--out", out)
+    assert "used 5 of 6 shots: row 6, Spin Rate = -21474836480 rpm" in text_of(done.out.splitlines())
+    swept = [line.split(",") for line in out.read_text().splitlines()]
+    column = swept[0].index("carry")
+    assert [float(row[column]) for row in swept[1:]] == pytest.approx(carries)
+    thin = sandbox.load("golf", {"air.density": 1.1})
+    found = sandbox.simulate_many(thin, file, facts=("carry",), columns={"launch.speed": "Ball Speed"}, without=())
+    assert found.rows == (1, 2, 3, 4, 5, 6, 7)
+    found = sandbox.simulate_many(thin, file, facts=("carry",))
+    assert found["carry"][:5] == pytest.approx(carries)
+    assert [each.row for each in found.left_out] == [6]
+    assert_refused(
+        call("sweep", "golf", "--where", "a=b", "--out", out), "--map, --where, --without and --strict require"
+    )
+
+
+def test_results_that_disagree_make_the_interval_robust(call: Call, tmp_path: Path):
+    """The model's drag is 4 % less than that of these shots: carry and apex call for different densities of the air."""
+    fixed = {"ball.drag.model": "constant", "ball.drag.coefficient": 0.25}
+    given = {"launch.speed": np.linspace(55.0, 70.0, 12), "launch.angle": np.linspace(18.0, 11.0, 12),
+             "launch.spin": np.linspace(5000.0, 2600.0, 12)}  # fmt: skip
+    names, noise = ("carry", "apex", "flight_time"), np.random.default_rng(1).normal(size=(3, 12))
+    spread = (0.5, 0.1, 0.02)
+    for drag, kind in ((0.26, "robust"), (0.25, "normal")):
+        flown = sandbox.simulate_many(
+            sandbox.load("golf", {**fixed, "ball.drag.coefficient": drag}), given, facts=names
+        )
+        table = given | {name: flown[name] + sd * own for name, sd, own in zip(names, spread, noise, strict=True)}
+        columns = {key: key for key in table}
+        found = sandbox.fit(sandbox.load("golf", fixed), table, {"air.density": (1.0, 1.4)}, columns=columns)
+        value = found.values["air.density"]
+        assert value.interval_kind == kind
+        assert found.robust_by == (("result",) if kind == "robust" else ())
+        assert (
+            value.half
+            == found.half_widths["air.density"]
+            > (3.0 if kind == "robust" else 0.99) * (found.normal_half_widths["air.density"])
+        )
+        assert ("errors are alike in each result, by more than chance" in text_of(as_text(found.report()))) == (
+            kind == "robust"
+        )
+
+
 # Rows of tracks -----------------------------------------------------------------------------------------------------
 
 THROW = [(t, 1.0 + 5.0 * t, 2.0 + 3.0 * t - 4.905 * t * t) for t in (np.arange(12) / 20).tolist()]
@@ -294,6 +341,20 @@ def test_an_empty_cell_of_a_track_leaves_out_its_row(call: Call, tmp_path: Path,
     assert found["values"]["gravity"]["value"] == pytest.approx(9.81, abs=1e-3)
     assert (found["points"], [each["row"] for each in found["left_out"]]) == (11, [3])
     assert_refused(call(*args, "--strict"), f"track {file}: row 3, y ")
+
+
+def test_a_wrong_scale_is_named_by_the_gravity_of_the_arcs(call: Call, tmp_path: Path):
+    """A ball that bounces three times, measured 30 % too large; and on a clock that is 20 % too slow."""
+    run = sandbox.simulate(sandbox.load("collisions/bouncing-ball", {"launch.speed": 0.8, "launch.angle": 0.0}))
+    t = np.arange(0.0, 1.9, 1.0 / 30.0)
+    x, y = (run.states("first", t)[:, :2] + np.random.default_rng(2).normal(0.0, 0.004, (len(t), 2))).T
+    vary = ("--vary", "floor.restitution", "--vary", "launch.speed=0:2", "--free", "origin")
+    for scale, clock, said in ((1.3, 1.0, "scale is 30 % off, or your clock 12 %"), (1.0, 0.8, "scale is 5")):
+        rows = "".join(f"{at * clock},{scale * right},{scale * up}\n" for at, right, up in zip(t, x, y, strict=True))
+        refused = call("fit", "collisions/bouncing-ball", written(tmp_path, "t,x,y\n" + rows), *vary)
+        assert_refused(refused, f"m/s^2, not 9.81: your {said}")
+    again = call("fit", "collisions/bouncing-ball", tmp_path / "track.csv", *vary, "--set", "gravity=15.3", "--json")
+    assert json.loads(again.out)["values"]["floor.restitution"]["value"] == pytest.approx(0.75, abs=0.01)
 
 
 # Heads --------------------------------------------------------------------------------------------------------------

@@ -43,7 +43,7 @@ def _gain(found: Fit, pair: tuple[str, str], ball: str, times: np.ndarray) -> fl
     """The factor by which points at these times would narrow the interval of the worse known of two values."""
     keys = list(found.values)
     middle = np.array([float(value_at(found.scene.parameters, key)) for key in keys])
-    half = np.array([one.half or 0.0 for one in found.values.values()])
+    half = np.array(list(found.half_widths.values()))
     steps = np.where(half > 0.0, STEP * half, 1e-9)
     moved = flown(found.scene, keys, np.vstack([middle + np.diag(steps), middle - np.diag(steps)]), float(times[-1]))
     if any(run is None for run in moved):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -39,6 +39,11 @@ class Filmed:
     def count(self) -> int:
         """The points."""
         return len(self)
+
+    @property
+    def alike(self) -> Mapping[str, np.ndarray]:
+        """No groups are known of points; neighbours have a pattern."""
+        return {}
 
     @property
     def free(self) -> tuple[Free, ...]:

@@ -12,6 +12,13 @@ from sandbox.lab.statistics import student
 #: Groups in one unit scatter alike, unless their variances differ by this many standard errors.
 _DIFFERENT = 3.0
 
+#: Groups whose errors are alike are too far apart to be so by chance, at this many standard deviations of a normal
+#: distribution (one side, 5 %); an interval from them takes at least this many degrees of freedom: assumed.
+_BY_CHANCE, _FEWEST_FREE = 1.645, 2.0
+
+#: Two values whose errors are correlated more strongly than this can hardly be told apart.
+HARDLY = 0.98
+
 #: A direction of the values with less than this share of the largest effect has none: its variance is then so large
 #: that the interval is the whole range.
 _NO_EFFECT = 1e-9
@@ -101,3 +108,30 @@ def inverse_of(slopes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     known, scale = values > _NO_EFFECT**2, np.outer(size, size)
     inverse = (vectors[:, known] / values[known]) @ vectors[:, known].T / scale
     return inverse, (vectors[:, ~known] / _NO_EFFECT**2) @ vectors[:, ~known].T / scale
+
+
+def clustered(
+    residuals: np.ndarray, slopes: np.ndarray, sds: np.ndarray, labels: np.ndarray, loss: Loss
+) -> tuple[Errors, np.ndarray]:
+    """The errors of the shares where those of one group are alike, as far as they may be, and independent of those of
+    others: a sandwich whose middle has the sum of each group (Liang & Zeger 1986, times G / (G - 1)). And for each
+    share true if groups differ by more than errors that are all independent would by chance.
+    """
+    scaled, unit = residuals / sds, slopes / sds[:, None]
+    inverse, unknown = inverse_of(unit)
+    mean = max(float(loss.bend(scaled).mean()), 0.05)
+    moved = inverse @ (unit * (loss.weight(scaled) * scaled / mean)[:, None]).T  # of each residual in each share
+    names, places = np.unique(labels, return_inverse=True)
+    sums = np.zeros((len(slopes.T), len(names)))
+    np.add.at(sums.T, places, moved.T)
+    count, parameters = len(names), len(sums)
+    factor = count / max(count - 1, 1)
+    apart = factor * (sums**2).sum(axis=1) > _most_by_chance(count - 1) * (moved**2).sum(axis=1)
+    freedom = np.full(parameters, max(float(count - parameters), _FEWEST_FREE))
+    return Errors(factor * sums @ sums.T + unknown, freedom), apart
+
+
+def _most_by_chance(freedom: int) -> float:
+    """The 95 % quantile of chi^2 over its degrees of freedom (Wilson & Hilferty 1931)."""
+    step = 2.0 / (9.0 * max(freedom, 1))
+    return float((1.0 - step + _BY_CHANCE * step**0.5) ** 3)

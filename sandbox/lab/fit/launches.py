@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import product
 from math import isfinite
 
@@ -16,6 +16,9 @@ from sandbox.lab.runs import outcomes
 from sandbox.lab.selection import LeftOut, reasons
 from sandbox.scene import Scene
 from sandbox.scene.points import Points
+
+#: Groups of launches that a column makes, at least, and launches in each of them on average.
+_FEWEST_GROUPS, _FEWEST_IN_GROUP = 3, 3
 
 
 @dataclass(frozen=True)
@@ -30,6 +33,9 @@ class Launches:
     where: str = "track"  # as messages begin
     left_out: tuple[LeftOut, ...] = ()
     unused: tuple[str, ...] = ()  # columns of the table
+    words: Mapping[str, np.ndarray] = field(
+        default_factory=dict
+    )  # by column that makes groups: the word of each launch
 
     what = "shot"
     free: tuple[Free, ...] = ()
@@ -60,6 +66,14 @@ class Launches:
         return tuple(self.measured)
 
     @property
+    def alike(self) -> Mapping[str, np.ndarray]:
+        """Each launch, each result, and the words of each column that makes groups."""
+        count = len(self.measured)
+        found = {"shot": np.repeat(np.arange(self.count), count)} if count > 1 else {}
+        found |= {"result": self.groups} if count > 1 else {}
+        return found | {name: np.repeat(words, count) for name, words in self.words.items()}
+
+    @property
     def times(self) -> np.ndarray:
         """NaN for each residual, since results have no times."""
         return np.full(self.count * len(self.measured), np.nan)
@@ -78,7 +92,8 @@ class Launches:
         if not kept.any():
             raise RequestError(f"{self.where}: no row can be used: {reasons(left_out)}")
         given, measured = ({key: values[kept] for key, values in some.items()} for some in (self.given, self.measured))
-        return replace(self, given=given, measured=measured, numbers=self.numbers[kept], left_out=left_out)
+        words = {name: labels[kept] for name, labels in self.words.items()}
+        return replace(self, given=given, measured=measured, numbers=self.numbers[kept], left_out=left_out, words=words)
 
     def _without_result(self, scene: Scene) -> list[LeftOut]:
         """The launches that lack one of the results, and which."""
@@ -128,5 +143,18 @@ def launches(scene: Scene, found: Mapped, strict: bool = False) -> Launches:
         found.table.where,
         found.left_out,
         found.unused,
+        _words(found),
     )
     return every if strict else every.that_fly(scene)
+
+
+def _words(found: Mapped) -> dict[str, np.ndarray]:
+    """The columns that make groups of launches, such as the club, the player or the day: a few words, none of them
+    alone."""
+    columns: dict[str, np.ndarray] = {}
+    for column in found.table.columns:
+        cells = np.array([column.cells[row - 1].strip() for row in found.rows])
+        counts = np.unique(cells, return_counts=True)[1]
+        if column.name in found.unused and _FEWEST_GROUPS <= len(counts) <= len(cells) / _FEWEST_IN_GROUP:
+            columns[column.name] = cells
+    return columns

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -54,6 +54,10 @@ class Measured(Protocol):
     @property
     def units(self) -> tuple[str, ...]:
         """The unit of each group."""
+
+    @property
+    def alike(self) -> Mapping[str, np.ndarray]:
+        """Groups of residuals whose errors may be alike, by name: a label for each residual, shape (residuals,)."""
 
     @property
     def times(self) -> np.ndarray:

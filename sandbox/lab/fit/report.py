@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 from sandbox.lab.fit.advice import advice
 from sandbox.lab.fit.chart import charts
+from sandbox.lab.fit.falling import gravity_hint
+from sandbox.lab.fit.intervals import HARDLY
 from sandbox.lab.fit.loss import OUTLIER, SQUARES, TUKEY
 from sandbox.lab.report import Column, Notes, Report, Table, words
 from sandbox.lab.selection import used
@@ -21,8 +23,8 @@ from sandbox.text import one_line, with_noun
 if TYPE_CHECKING:
     from sandbox.lab.fit.squares import Fit, Value
 
-#: Two values whose errors are correlated more strongly than this can hardly be told apart, and this not at all.
-_HARDLY, _NOT = 0.95, 0.999
+#: Errors of two values that are correlated more than this are strongly so, and this cannot be told apart at all.
+_STRONG, _NOT = 0.95, 0.999
 
 #: Differences of Akaike's criterion up to which models are alike, and from which one is ruled out (Burnham & Anderson
 #: 2002, section 2.6).
@@ -42,7 +44,7 @@ def report_of(found: Fit) -> Report:
     """The values with their intervals, points and residuals as charts, and what is to be said of them; as details the
     correlations, and the models that were compared."""
     pairs = [
-        (f"{one} and {other}", value, "hardly told apart" if abs(value) > _HARDLY else "")
+        (f"{one} and {other}", value, "hardly told apart" if abs(value) > HARDLY else "")
         for (one, other), value in found.correlations.items()
     ]
     correlations = [words(), Column("correlation", write="{:.3f}".format), words()]
@@ -72,9 +74,11 @@ def value_rows(found: Fit) -> list[tuple[str, ...]]:
     """Key, value, unit, interval, and half of it as a share of the value."""
     rows: list[tuple[str, ...]] = []
     for key, one in found.values.items():
-        digits, half = _digits(one), one.half
+        half = one.half
+        digits = _digits(one, half if one.at_bound else found.half_widths[key])
         if half is None:
-            rows.append((key, f"{one.value:.{digits}f}", one.unit, "no result: at the end of its range", ""))
+            why = "no result: at the end of its range" if one.at_bound else "none: hardly told apart"
+            rows.append((key, f"{one.value:.{digits}f}", one.unit, why, ""))
             continue
         percent = round(100.0 * half / abs(one.value), _SHOWN - 1) if one.value and half < abs(one.value) else None
         share = "" if percent is None else f"± {significant(percent)} %"
@@ -82,10 +86,9 @@ def value_rows(found: Fit) -> list[tuple[str, ...]]:
     return rows
 
 
-def _digits(one: Value) -> int:
-    """Decimals that show the interval with two digits, but at most seven digits of the value; the fewest that show a
-    value without one."""
-    half = one.half
+def _digits(one: Value, half: float | None) -> int:
+    """Decimals that show half an interval with two digits, but at most seven digits of the value; the fewest that show
+    a value without one."""
     if half is None:
         return min(len(f"{one.value:.6f}".rstrip("0").partition(".")[2]), 6)
     most = _SHOWN - 1 - _exponent(one.value)
@@ -113,7 +116,16 @@ def sentences(found: Fit) -> Iterator[str]:
     if found.pattern:
         yield (
             f"the model does not explain all: the residuals have a pattern, and are {significant(found.pattern)} times "
-            "as large as neighbouring ones differ. The intervals are then too narrow"
+            "as large as neighbouring ones differ"
+        )
+        hint = "" if "gravity" in found.values else gravity_hint(found.scene, measured, found.free)
+        if hint:
+            yield hint
+    if found.robust_by:
+        alike = ", ".join(f"each {name}" if not name.startswith("blocks") else name for name in found.robust_by)
+        yield (
+            f"errors are alike in {alike}, by more than chance: the intervals come from how much these differ "
+            "(robust). What they have in common, such as a wrong scale, no interval shows"
         )
     yield from _of_values(found)
     yield from _of_others(found)
@@ -145,7 +157,8 @@ def assumed(found: Fit) -> str:
     alike = "" if len(found.measured.names) == 1 else f", alike in {names}" if found.pooled else f"; {names} weighted"
     apart = "" if found.pooled or len(found.measured.names) == 1 else " by the scatter of each"
     robust = f"; what is {TUKEY:.1f} sd off does not count" if found.loss != SQUARES.name else ""
-    return f"assumed: errors of all {found.measured.what}s are independent and normal{alike}{apart}{robust}"
+    groups = " but for these groups" if found.robust_by else ""
+    return f"assumed: errors of all {found.measured.what}s are independent{groups} and normal{alike}{apart}{robust}"
 
 
 def _of_values(found: Fit) -> Iterator[str]:
@@ -163,12 +176,13 @@ def _of_values(found: Fit) -> Iterator[str]:
 def _of_pairs(found: Fit) -> Iterator[str]:
     for (first, second), value in found.correlations.items():
         known = not (found.values[first].unknown or found.values[second].unknown)
-        if abs(value) > _HARDLY and known:
-            can = "cannot" if abs(value) > _NOT else "can hardly"
+        if abs(value) > _STRONG and known:
             help_ = advice(found, first, second)
-            yield (
-                f"{first} and {second} {can} be told apart (correlation {value:.3f})" + (f": {help_}" if help_ else "")
-            )
+            how = f"have strongly correlated errors ({value:.3f})"
+            if abs(value) > HARDLY:
+                can = "cannot" if abs(value) > _NOT else "can hardly"
+                how = f"{can} be told apart (correlation {value:.3f}), and have no intervals"
+            yield f"{first} and {second} {how}" + (f": {help_}" if help_ else "")
 
 
 def _of_others(found: Fit) -> Iterator[str]:
@@ -178,8 +192,8 @@ def _of_others(found: Fit) -> Iterator[str]:
     said = []
     for other in found.others[:_OTHERS]:
         apart = [key for key, one in found.values.items() if not one.holds(other.values[key])]
-        named = [f"{key} = {other.values[key]:.{_digits(found.values[key])}f} {found.values[key].unit}".rstrip()
-                 for key in apart]  # fmt: skip
+        named = [f"{key} = {other.values[key]:.{_digits(found.values[key], found.half_widths[key])}f} "
+                 f"{found.values[key].unit}".rstrip() for key in apart]  # fmt: skip
         said.append(f"{', '.join(named)} (chi^2 {other.more:.1f} more)")
     more = f"; and {len(found.others) - _OTHERS} more" if len(found.others) > _OTHERS else ""
     well = "as well" if found.others[0].more < _AS_GOOD else "nearly as well"
@@ -209,6 +223,7 @@ def _models_text(found: Fit) -> str:
 
 def document(found: Fit) -> dict[str, Any]:
     """For JSON; every value in its unit."""
+    kinds = {one.interval_kind for one in found.values.values()}
     return {
         "scene": found.scene.name,
         "preset": found.scene.preset,
@@ -223,6 +238,8 @@ def document(found: Fit) -> dict[str, Any]:
         "late": found.late,
         "loss": found.loss,
         "pattern": found.pattern,
+        "interval_kind": next((kind for kind in ("robust", "normal") if kind in kinds), None),
+        "robust_by": found.robust_by,
         "models": {
             word: {"behind": each.behind if each.fit is not None else None, "failure": each.failure or None}
             for word, each in found.models.items()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import combinations
-from math import inf
+from math import ceil, inf
 from typing import Any
 
 import numpy as np
@@ -14,7 +14,8 @@ from sandbox import display
 from sandbox.errors import RequestError, RunError
 from sandbox.lab.axes import Span
 from sandbox.lab.fit.descent import Place, descend
-from sandbox.lab.fit.intervals import Errors, errors_of, group_sds, pooled
+from sandbox.lab.fit.falling import gravity_hint
+from sandbox.lab.fit.intervals import HARDLY, Errors, clustered, errors_of, group_sds, pooled
 from sandbox.lab.fit.loss import HUBERS, OUTLIER, SQUARES, TUKEYS, Loss
 from sandbox.lab.fit.measured import Measured
 from sandbox.lab.fit.problem import Problem
@@ -41,14 +42,17 @@ ROUNDING, _ROUNDING_SHARE = 1e-12, 1e-8
 #: A share of its range within which a value is at its end.
 _AT_END = 1e-6
 
+#: A block of neighbours is so many times as long as their errors are alike, and there are at least so many: assumed.
+_BLOCK, _FEWEST_BLOCKS = 3.0, 6
+
 #: A fit whose residuals have a pattern, and on average this share of the extent of the data, explains nothing.
 NOTHING = 0.15
 
 
 @dataclass(frozen=True)
 class Value:
-    """A fitted value with its 95 % interval, in its unit; one that stopped at an end of its range is no result, and has
-    no interval."""
+    """A fitted value with its 95 % interval, in its unit. One that stopped at an end of its range is no result, and has
+    no interval; nor has one that can hardly be told apart from another."""
 
     value: float
     low: float | None
@@ -56,6 +60,7 @@ class Value:
     unit: str
     at_bound: bool = False  # the fit stopped at an end of the range
     unknown: bool = False  # the data do not say: the interval is the whole range
+    interval_kind: str | None = None  # "normal"; "robust", where errors are alike in groups; None without an interval
 
     @property
     def half(self) -> float | None:
@@ -106,6 +111,9 @@ class Fit(display.Reported):
     pattern: float  # how much larger residuals are than the differences of neighbours say; 0.0 if they are as large
     remarks: tuple[str, ...]
     slopes: np.ndarray  # of the computed by the values in their units, (residuals, values)
+    half_widths: dict[str, float]  # of the interval of each value, if it has one or not
+    normal_half_widths: dict[str, float]  # the same, if all errors were independent
+    robust_by: tuple[str, ...] = ()  # the groups whose errors are alike, from which intervals are robust
     late: int = 0  # points after the end of the scene's own run
     end: float = inf  # s, that end
     others: tuple[Other, ...] = ()  # values of other minima, the best first
@@ -217,21 +225,26 @@ def _finished(
         scatter = np.array([sds[measured.groups == group][0] for group in range(len(measured.names))])
     kept = np.abs(place.residuals) <= OUTLIER * np.maximum(robust_sds(place.residuals, measured.groups), 1e-12)
     keys, values = problem.keys, problem.values(place.share).tolist()
+    pattern = _pattern(problem, np.where(kept, place.residuals, 0.0), place.slopes)
+    half, robust_by = _half_widths(measured, place, sds, loss, errors, pattern)
     best = problem.scene.changed(dict(zip(problem.scene_keys, values, strict=False)))
     correlated = errors.covariance / np.maximum(np.outer(errors.sds, errors.sds), 1e-300)
     return Fit(
         best,
         measured,
-        _values(problem, place.share, errors),
+        _values(problem, place.share, half, correlated, [bool(some) for some in robust_by]),
         {(keys[i], keys[j]): float(correlated[i, j]) for i, j in combinations(range(count), 2)},
         place.residuals,
         dict(zip(measured.names, scatter.tolist(), strict=True)),
         bool(np.ptp(sds) == 0.0),
         loss.name,
         tuple(np.unique(measured.rows[~kept]).tolist()),
-        _pattern(problem, np.where(kept, place.residuals, 0.0), place.slopes),
+        pattern,
         measured.remarks(best, values[len(problem.scene_keys) :]),
         -place.slopes / problem.width,
+        dict(zip(keys, (half * problem.width).tolist(), strict=True)),
+        dict(zip(keys, (errors.half_widths * problem.width).tolist(), strict=True)),
+        tuple(dict.fromkeys(name for some in robust_by for name in some)),
         *_late(problem, best, values[len(problem.scene_keys) :]),
         tuple(
             Other(dict(zip(keys, problem.values(other.share).tolist(), strict=True)), more) for more, other in others
@@ -260,16 +273,42 @@ def _late(problem: Problem, best: Scene, free: Sequence[float]) -> tuple[int, fl
     return int((points.t > run.duration * (1.0 + 1e-9)).sum()), run.duration
 
 
-def _values(problem: Problem, share: np.ndarray, errors: Errors) -> dict[str, Value]:
+def _half_widths(
+    measured: Measured, place: Place, sds: np.ndarray, loss: Loss, errors: Errors, pattern: float
+) -> tuple[np.ndarray, list[list[str]]]:
+    """Half of the interval of each share: the widest of that of independent errors and those of groups that differ by
+    more than chance; and the names of these groups for each share. Where residuals have a pattern, blocks of neighbours
+    are groups, too."""
+    alike = dict(measured.alike)
+    if pattern:
+        rows = np.unique(measured.rows)
+        length = max(2, min(ceil(_BLOCK * pattern**2), len(rows) // _FEWEST_BLOCKS))
+        alike[f"blocks of {length} {measured.what}s"] = np.searchsorted(rows, measured.rows) // length
+    half, names = errors.half_widths, [list[str]() for _ in errors.sds]
+    for name, labels in alike.items():
+        found, apart = clustered(place.residuals, place.slopes, sds, labels, loss)
+        for place_of in np.flatnonzero(apart & (found.half_widths > errors.half_widths)):
+            names[place_of].append(name)
+            half = np.where(np.arange(len(half)) == place_of, np.maximum(half, found.half_widths), half)
+    return half, names
+
+
+def _values(
+    problem: Problem, share: np.ndarray, halves: np.ndarray, correlated: np.ndarray, robust: Sequence[bool]
+) -> dict[str, Value]:
     found: dict[str, Value] = {}
-    columns: Any = zip(problem.keys, problem.units, share, errors.half_widths, problem.low, problem.width, strict=True)
-    for key, unit, at, half, low, width in columns:
-        value, error = float(low + at * width), float(half * width)
-        if _AT_END < at < 1.0 - _AT_END:
-            ends = max(float(low), value - error), min(float(low + width), value + error)
-            found[key] = Value(value, *ends, unit, unknown=bool(half >= 1.0))
+    hardly = (np.abs(np.triu(correlated, 1) + np.tril(correlated, -1)) > HARDLY).any(axis=0)
+    columns: Any = zip(
+        problem.keys, problem.units, share, halves, problem.low, problem.width, hardly, robust, strict=True
+    )
+    for key, unit, at, half, low, width, is_hardly, is_robust in columns:
+        value, error, unknown = float(low + at * width), float(half * width), bool(half >= 1.0)
+        at_bound = not _AT_END < at < 1.0 - _AT_END
+        if at_bound or (is_hardly and not unknown):
+            found[key] = Value(value, None, None, unit, at_bound, unknown)
         else:
-            found[key] = Value(value, None, None, unit, at_bound=True, unknown=bool(half >= 1.0))
+            ends = max(float(low), value - error), min(float(low + width), value + error)
+            found[key] = Value(value, *ends, unit, False, unknown, "robust" if is_robust else "normal")
     return found
 
 
@@ -281,8 +320,8 @@ def check_near(scene: Scene, measured: Measured, residuals: np.ndarray) -> None:
     off = float(np.sqrt((residuals**2).mean()))
     extent = float(np.sqrt(((points.positions - points.positions.mean(axis=0)) ** 2).mean()))
     if off > NOTHING * extent and neumann(measured.groups, residuals) < ALIKE:
-        raise RequestError(
-            f"no run of {scene.title} in these ranges comes near this track: the best is off by {off:.3g} m on "
-            "average. Is it of this scene, in m and s from its origin (or --free time,origin), and are the ranges wide "
-            "enough?"
+        hint = gravity_hint(scene, measured, [one.start for one in measured.free]) or (
+            "is it of this scene, in m and s from its origin (or --free time,origin), and are the ranges wide enough?"
         )
+        best = f"comes near this track, the best is off by {off:.3g} m on average"
+        raise RequestError(f"no run of {scene.title} in these ranges {best}: {hint}")
