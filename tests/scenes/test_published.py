@@ -42,9 +42,13 @@ def test_every_case_has_a_source_a_kind_and_a_reasoned_tolerance(rows):
     assert {case.scene.partition("/")[0] for case in cases()} >= scenes
 
 
-def test_rows_fall_without_the_effect_they_test(rows):
-    """One of each source and result; ``sandbox validate --teeth`` tries all."""
-    tried = teeth(list({(row.source, row.result): row for row in rows if row.holds}.values()))
+def test_rows_fall_without_the_effect_they_test(rows, monkeypatch):
+    """One of each source and result; ``sandbox validate --teeth`` tries all. Few need more than that it is left out."""
+    with monkeypatch.context() as quick:
+        quick.setattr("sandbox.lab.teeth._FACTORS", {0.0: "off"})
+        first = teeth(list({(row.source, row.result): row for row in rows if row.holds}.values()))
+    assert first
+    tried = teeth([one.row for one in first if not one.has_teeth])
     assert [f"{one.row.scene} {one.row.name} {one.row.result}" for one in tried if not one.has_teeth] == []
 
 

@@ -74,8 +74,9 @@ class TestSaving:
         assert [bad for _, bad in own.game.notices] == [True]
 
 
-LOOP = "while True:\n    pass\n"
-IN_BUILD = "\n\ndef build(parameters):\n    while True:\n        pass\n"
+#: Code that never ends, and leaves the processor to others.
+LOOP = "import time\nwhile True:\n    time.sleep(0.01)\n"
+IN_BUILD = "\n\ndef build(parameters):\n    import time\n    while True:\n        time.sleep(0.01)\n"
 
 
 class TestCodeThatNeverEnds:

@@ -423,7 +423,7 @@ def test_a_batch_without_end_goes_on_one_at_a_time(monkeypatch: pytest.MonkeyPat
 
 
 def test_the_plain_method_runs_one_at_a_time(flown: list[int]):
-    accuracy = resolve(method="plain", step=1e-3)
+    accuracy = resolve(method="plain", step=5e-3)
     setups = [thrown(4.0 + 0.1 * i, duration=0.3) for i in range(25)]
     for setup, run in zip(setups, simulate_many(setups, accuracy), strict=True):
         assert isinstance(run, Run)
