@@ -22,11 +22,26 @@ function pixels(picture) {
   return context.getImageData(0, 0, picture.width, picture.height).data;
 }
 
+/** An image that fades towards its edges. */
+function faded(picture) {
+  const { width, height } = picture, canvas = new OffscreenCanvas(width, height), context = canvas.getContext("2d");
+  context.drawImage(picture, 0, 0);
+  context.globalCompositeOperation = "destination-in";
+  for (const end of [[width, 0], [0, height]]) {
+    const fade = context.createLinearGradient(0, 0, ...end);
+    for (const [at, opacity] of [[0, 0], [0.1, 1], [0.9, 1], [1, 0]]) fade.addColorStop(at, `rgb(0 0 0 / ${opacity})`);
+    context.fillStyle = fade;
+    context.fillRect(0, 0, width, height);
+  }
+  return canvas;
+}
+
 /** Decode the layers of views and the skins of looks, which come as addresses. */
 async function decode({ views, looks }) {
   const layers = views.map(async (view) => {
     for (const name of ["place", "along", "over"]) if (view[name]) view[name] = await image(view[name]);
     if (view.lens) view.lens.place = await image(view.lens.place);
+    if (view.near) view.near.place = faded(await image(view.near.place));
   });
   const skins = looks.filter(({ skin }) => skin).map(async (look) => (look.skin = pixels(await image(look.skin))));
   await Promise.all([...layers, ...skins]);

@@ -7,7 +7,10 @@
 
 const SLOWEST = -4, FASTEST = 3; // powers of two
 const VERDICT = 1000; // ms for which the verdict is large and coloured once it is in
+const CROSSES = [1.2, 2.2]; // times larger: between them the layer of what decides comes, and letters go
 const NEAR = 28; // px around the pointer in which a path is found
+
+const reduced = matchMedia("(prefers-reduced-motion: reduce)"); // then the camera stands still, and time passes evenly
 
 // ------------------------------------------------------------------------------------------------ numbers for people
 
@@ -61,6 +64,7 @@ class Player {
     this.whole = true;
     this.playing = false;
     this.t = data.told;
+    this.after = 0; // s since the end
     this.verdict("");
     this.pointed = null;
     this.hint.hidden = true;
@@ -157,12 +161,47 @@ class Player {
     context.globalAlpha = 1;
   }
 
+  /** The keyframe of the story's camera and pace at the time that is shown; null where it stands still. */
+  keyframe() {
+    const keys = this.data.story?.keys, t = this.t + this.after;
+    if (!keys?.length || this.whole || reduced.matches) return null;
+    let low = 0, high = keys.length - 1;
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (keys[middle][0] <= t) low = middle;
+      else high = middle;
+    }
+    const share = Math.min(1, Math.max(0, (t - keys[low][0]) / (keys[high][0] - keys[low][0] || 1)));
+    return keys[low].map((value, k) => value + share * (keys[high][k] - value));
+  }
+
+  /** How the layers are shown now: so many times larger, and moved by px. */
+  seen() {
+    const key = this.keyframe();
+    if (!key || key[3] === 1) return { larger: 1, across: 0, down: 0 };
+    const [, x, y, larger] = key, [, x0, y0] = this.data.story.keys[0], from = this.pixel(x, y), to = this.pixel(x0, y0);
+    return { larger, across: to[0] - from[0] * larger, down: to[1] - from[1] * larger };
+  }
+
+  /** The place in CSS px of the canvas of a place in px of the layer, as it is shown now. */
+  onScreen([x, y]) {
+    const { larger, across, down } = this.seen();
+    return [(x * larger + across) * this.shown, (y * larger + down) * this.shown];
+  }
+
   draw() {
-    const { context, view, data, whole } = this, unit = view.unit;
+    const { context, data, whole, view: layer } = this, { larger, across, down } = this.seen();
     const t = this.t, faint = whole || t >= data.told ? 1 : 0.3;
-    const density = this.canvas.width / view.size[0];
-    context.setTransform(density, 0, 0, density, 0, 0);
+    const density = this.canvas.width / layer.size[0], crossed = Math.min(1, Math.max(0, (larger - CROSSES[0]) / (CROSSES[1] - CROSSES[0])));
+    context.setTransform(density * larger, 0, 0, density * larger, density * across, density * down);
+    if (larger !== 1) this.view = { ...layer, unit: layer.unit / larger, least: layer.least / larger, lift: layer.lift && layer.lift / larger };
+    const { view } = this, { unit } = view;
     context.drawImage(view.place, 0, 0);
+    if (view.near && crossed) {
+      context.globalAlpha = crossed;
+      context.drawImage(view.near.place, ...view.near.corner, ...view.near.size);
+      context.globalAlpha = 1;
+    }
     this.driven(whole ? data.shown : t);
     for (const ball of data.balls.filter((ball) => ball.tied)) {
       const [x, y] = ball.path.state(t);
@@ -182,14 +221,20 @@ class Player {
       if (faint < 1) this.trace(ball.line, 0, Infinity, width, ball.colour, faint);
       this.trace(faint < 1 ? [...ball.line.filter((point) => point[2] < t), here] : ball.line, 0, Infinity, width, ball.colour, 1, rim);
     }
-    if (faint === 1 && view.along) context.drawImage(view.along, 0, 0);
+    context.globalAlpha = 1 - crossed;
+    if (faint === 1 && view.along && crossed < 1) context.drawImage(view.along, 0, 0);
+    context.globalAlpha = 1;
     for (const ghost of data.ghosts) this.ghost(ghost, whole ? ghost.told : t);
     if (!whole && $("arrows").checked) this.vectors(t);
     for (const ball of balls) this.ball(ball, t);
-    context.drawImage(view.over, 0, 0);
+    context.globalAlpha = 1 - crossed;
+    if (crossed < 1) context.drawImage(view.over, 0, 0);
+    context.globalAlpha = 1;
     if (view.lens && (faint < 1 || !view.along)) this.lens(() => this.nearBy(t, faint < 1 ? t : Infinity));
-    this.above();
     if (this.pointed) this.point();
+    this.view = layer;
+    context.setTransform(density, 0, 0, density, 0, 0);
+    this.above();
     this.now();
   }
 
@@ -473,6 +518,7 @@ class Player {
   seek(t) {
     this.whole = false;
     this.t = Math.min(Math.max(t, 0), this.data.duration);
+    this.after = 0;
     this.draw();
   }
 
@@ -488,9 +534,24 @@ class Player {
     if (!this.playing) return;
     const passed = Math.max(0, Math.min((now - this.last) / 1000, 0.1)), { t, data: { told, scored } } = this;
     this.last = now;
-    if (this.t + passed * 2 ** this.power >= this.data.duration) this.playing = false;
-    this.seek(this.t + passed * 2 ** this.power);
+    if (t >= this.data.duration) return this.rest(passed);
+    const slower = this.power ? 1 : this.keyframe()?.[4] ?? 1;
+    this.seek(this.t + (passed * 2 ** this.power) / slower);
+    if (this.t >= this.data.duration && !this.goesOn) this.playing = false;
     if (t < told && this.t >= told && scored !== null) this.verdict(scored ? "good" : "bad");
+    if (this.playing) requestAnimationFrame((next) => this.tick(next));
+  }
+
+  /** True if the camera is still on its way back after the end. */
+  get goesOn() {
+    return Boolean(this.data.story) && !reduced.matches && this.after < this.data.story.after;
+  }
+
+  /** After the end only the camera goes on. */
+  rest(passed) {
+    this.after += passed;
+    this.playing = this.goesOn;
+    this.draw();
     if (this.playing) requestAnimationFrame((next) => this.tick(next));
   }
 
@@ -577,7 +638,8 @@ class Player {
 
   /** The place under the pointer, in px of the layer. */
   under(event) {
-    return this.inside(event).map((value) => value / this.shown);
+    const { larger, across, down } = this.seen(), [x, y] = this.inside(event).map((value) => value / this.shown);
+    return [(x - across) / larger, (y - down) / larger];
   }
 
   left(event) {
@@ -615,7 +677,7 @@ class Player {
     this.hint.replaceChildren();
     if (name) this.hint.append(Object.assign(document.createElement("b"), { textContent: name }));
     for (const [label, text] of this.entries(ball, t)) this.hint.append(Object.assign(document.createElement("div"), { textContent: `${label} ${text}` }));
-    const left = px * this.shown, top = py * this.shown, wide = this.hint.offsetWidth, tall = this.hint.offsetHeight;
+    const [left, top] = this.onScreen([px, py]), wide = this.hint.offsetWidth, tall = this.hint.offsetHeight;
     this.hint.style.left = `${Math.min(Math.max(4, left + 16), this.canvas.clientWidth - wide - 4)}px`;
     this.hint.style.top = `${top - tall - 12 > 0 ? top - tall - 12 : top + 16}px`;
   }

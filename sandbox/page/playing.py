@@ -37,6 +37,8 @@ _LEAST_ROOM = 0.3
 SAMPLES = 240
 #: The poses a second of surfaces that move.
 _POSES_A_SECOND = 120
+#: Keyframes of the camera a second; what is seen larger than this at the decision has a layer of its own.
+_KEYS_A_SECOND, _WORTH_NEAR = 30, 1.5
 #: The ground's height is sampled at so many places.
 GROUND = 400
 #: Units of the numbers that the page itself writes.
@@ -62,6 +64,7 @@ def layout_data(view: View[Any]) -> dict[str, Any]:
         "along": picture(what_changed(paths, along), exact=True),
         "over": picture(what_changed(drawn, over), exact=True),
         "lens": _lens(view, tall),
+        "near": _near(view, tall),
     }
 
 
@@ -90,6 +93,26 @@ def stage_data(view: View[Any]) -> dict[str, Any]:
         "along": None,
         "over": picture(what_changed(place, over), exact=True, quick=True),
         "lens": lens,
+        "near": _near(view, tall, quick=True),
+    }
+
+
+def _near(view: View[Any], tall: int, quick: bool = False) -> dict[str, Any] | None:
+    """Return the place as the camera sees it where a run is decided, in a picture of so many rows, with the corner of
+    that and its size in px of the whole; None where that is hardly larger."""
+    camera, near = view.camera, view.closest
+    if isinstance(view, LongView) or near.scale < _WORTH_NEAR * camera.scale:
+        return None
+    if isinstance(view, AboveView):
+        view.lit = True
+    sheet = Sheet(view.size, view.on_dark, view.backdrop_of(near))
+    view.behind(sheet.painter, near, view.moment)
+    view.before(sheet.painter, near, view.moment)
+    corner, far = (camera.pixel(*near.world(*at)) for at in ((0.0, 0.0), (view.size[0], tall)))
+    return {
+        "place": picture(to_image(sheet.surface).crop((0, 0, view.size[0], tall)), quick=quick),
+        "corner": corner,
+        "size": (far[0] - corner[0], far[1] - corner[1]),
     }
 
 
@@ -202,6 +225,18 @@ def path_data(view: View[Any], run: SceneRun) -> dict[str, Any]:
         "told": view.story_end,
         "scored": bool(run.result.get(scores)) if scores else None,
     }
+
+
+def story_data(view: View[Any]) -> dict[str, Any]:
+    """Return the keyframes of the camera: times in s, the middle of what is seen in m, how many times larger it is than
+    at first, and how much slower time is; none for one that stands still."""
+    work = view.camerawork
+    if work is None:
+        return {"story": None}
+    still = work.story.share == 0.0
+    rows = [(t, x, y, 1.0 if still else larger, slower) for t, x, y, larger, slower in work.keyframes(_KEYS_A_SECOND)]
+    keys = [[float(f"{value:.5g}") for value in row] for row in rows]
+    return {"story": {"keys": keys, "after": work.goes_on}}
 
 
 def event_rows(run: SceneRun) -> list[tuple[str, ...]]:

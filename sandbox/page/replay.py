@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from sandbox.page.parts import css, filled, fonts, html, packed, rows, save, table
-from sandbox.page.playing import event_rows, force_data, layout_data, path_data, place_data
+from sandbox.page.playing import event_rows, force_data, layout_data, path_data, place_data, story_data
 from sandbox.parameters import Group, walk
 from sandbox.picture.sheet import CARD, drawn_at
 from sandbox.picture.view import View
@@ -45,6 +45,7 @@ def page_of(run: SceneRun, ghosts: Mapping[str, SceneRun] | None = None, options
         **place_data(view),
         **path_data(view, run),
         **force_data(view, run),
+        **story_data(view),
         "views": [layout for _, layout in views],
         "fonts": fonts(),
     }

@@ -33,6 +33,8 @@ class AboveView(View[P]):
     SPIN_NAMES = ("right", "left")
     #: The colour of the darkness at the picture's edges.
     DUSK: ClassVar[Colour | None] = None
+    #: True leaves that out, for a part that is put into another picture.
+    lit = False
 
     @cached_property
     def plan(self) -> Plan:
@@ -65,7 +67,7 @@ class AboveView(View[P]):
             painter.surface.blit(drawn(self.plan, camera, self.size), (0, 0))
         else:
             draw_moving(painter.surface, self.plan, camera)
-        if self.DUSK is not None:
+        if self.DUSK is not None and not self.lit:
             painter.surface.blit(dusk(self.size, self.DUSK), (0, 0))
 
     def shadow(self, painter: Painter, camera: Camera, name: str, t: float, at: Point, radius: float) -> None:

@@ -143,6 +143,11 @@ class BallDrawing(SceneOptions[P]):
         larger = len(self.balls) == 1 and radius > NOT_WORTH_NOTING * self.radii[name] * camera.scale
         self.looks[name].draw(painter, at, radius, self.turn(name, t), self.unit, larger)
 
+    @property
+    def least_in_frames(self) -> float:
+        """The least radius of a ball in a frame, in px."""
+        return self._least(in_frame=True)
+
     def _least(self, in_frame: bool) -> float:
         """The least radius of a ball in px: of one alone, larger in frames."""
         return self.min_radius * (_LARGER if in_frame and len(self.balls) == 1 else 1.0)

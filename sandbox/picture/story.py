@@ -187,6 +187,15 @@ class Camerawork:
         """The factor by which time is slower, at a time of the run in s."""
         return float(np.interp(t, self.times, self.pace))
 
+    def keyframes(self, fps: float) -> list[tuple[float, float, float, float, float]]:
+        """Return for so many moments in each s of the viewer the time in s of the run, the middle of what is seen along
+        and up in m, how many times larger it is than at first, and the factor by which time is slower."""
+        full, found = self._box_of(self.first)[2], []
+        for t, at in zip(self.film(fps), np.arange(0.0, self.lasts, 1.0 / fps), strict=True):
+            x, y, wide = (float(np.interp(at, self.keys, column)) for column in self.boxes.T)
+            found.append((t, x, y / self._up[1], full / wide, self.slower(t)))
+        return found
+
     def film(self, fps: float) -> list[float]:
         """The times of a film's frames, so many for each s of the viewer, whose clock goes on after the end."""
         seen = np.arange(0.0, self.lasts, 1.0 / fps)

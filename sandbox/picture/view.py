@@ -133,7 +133,7 @@ class View(BallDrawing[P]):
     @property
     def closest(self) -> Camera:
         """The camera of frames where it is nearest."""
-        return self.view(self.decided)
+        return self.view(self.camerawork.decided) if self.camerawork is not None else self.camera
 
     def slower(self, t: float) -> float:
         """The factor by which time is slower in a film, at time t in s of the run."""

@@ -20,7 +20,7 @@ import numpy as np
 from sandbox.errors import RunError, SandboxError
 from sandbox.files import json_ready
 from sandbox.page.parts import css
-from sandbox.page.playing import event_rows, force_data, path_data, path_until, place_data, stage_data
+from sandbox.page.playing import event_rows, force_data, path_data, path_until, place_data, stage_data, story_data
 from sandbox.page.replay import LAYOUTS
 from sandbox.parameters import Parameter, walk
 from sandbox.picture.energy_chart import bands_of, held_at_the_end
@@ -234,7 +234,13 @@ def shot(ask: Ask) -> Reply:
         if session is not None:
             sessions.recorded(ask, session, run)
         standing = _standing(session)
-        more = {**force_data(view, run), "event_rows": event_rows(run), "energy": _energy(run), **standing}
+        more = {
+            **force_data(view, run),
+            **story_data(view),
+            "event_rows": event_rows(run),
+            "energy": _energy(run),
+            **standing,
+        }
         numbers = {key: run.result[key] for key, fact in scene.facts.items() if fact.label and fact.unit}
         kept = {
             "verdict": scene.verdict(run),

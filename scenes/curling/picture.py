@@ -45,7 +45,7 @@ class Picture(LongView[Parameters]):
     @property
     def story(self) -> Story:
         """The house, as the stone comes to rest or meets another."""
-        return Story(self.aims[0], self.decided, 0.0)
+        return Story(Box(-RINGS[0], -RINGS[0], RINGS[0], RINGS[0]), self.decided, 0.0)
 
     @property
     def whole(self) -> Box:

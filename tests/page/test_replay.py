@@ -116,6 +116,27 @@ def test_what_is_seen_from_near_by_is_played(browser, pages):
     assert browser.complaints() == []
 
 
+def test_the_camera_goes_with_the_story_as_in_frames(browser, pages):
+    name = "soccer-curl/dive"
+    browser.open(pages(name))
+    view = run_of(name).scene.picture(run_of(name), LAYOUTS[0][0])
+    for t in (0.0, 0.4, 0.8, view.camerawork.decided, 1.2, view.run.duration):
+        x, y = map(float, view.run.state("ball", t)[:2])
+        larger, slower, at = browser.run(
+            """(([t, x, y]) => {
+              player.seek(t);
+              const at = player.onScreen(player.pixel(x, y)).map((value) => value / player.shown);
+              return [player.seen().larger, player.keyframe()[4], at];
+            })(arguments[0])""",
+            [t, x, y],
+        )
+        camera = view.view(t)
+        assert larger == pytest.approx(camera.scale / view.camera.scale, rel=0.05)
+        assert at == pytest.approx(camera.pixel(x, y), abs=0.02 * view.size[0])
+        assert slower == pytest.approx(view.slower(t), rel=0.2)
+    assert browser.complaints() == []
+
+
 def test_a_headline_stays_beside_a_pinball_table():
     view = run_of("pinball").scene.picture(run_of("pinball"), LAYOUTS[0][0])
     stage, (table,) = stage_data(view), view.aims
@@ -183,7 +204,8 @@ def test_it_plays_by_mouse_keyboard_and_touch(browser, pages):
     assert amount(landing, "s") in browser.text("#events li.past")[0]
     # a path is read by pointing at it, and a click goes there
     t, (x, y, *_) = 3.0, run.state("ball", 3.0)
-    px, py = browser.run(f"player.spot(player.main, {x}, {y}).map((value) => value * player.shown)")
+    browser.run("player.seek(2.5)")  # the camera has not left it yet
+    px, py = browser.run(f"player.onScreen(player.spot(player.main, {x}, {y}))")
     canvas = driver.find_element(By.ID, "picture")
     box = canvas.rect
     ActionChains(driver).move_to_element_with_offset(
