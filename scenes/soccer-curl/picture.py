@@ -42,6 +42,8 @@ BOARD, BOARD_LENGTH, FAR = 0.4, 6.0, 1000.0
 HEIGHT, BEHIND, ROOM, ASIDE = 2.44, 0.75, 1.3, 0.4
 #: Way in m after which a keeper who dives lies stretched out.
 LEANS = 0.3
+#: A ball so near to the keeper, in m, is his; else the goal decides.
+IN_REACH = 2.5
 #: The poster follows a ball that was stopped for so long, in s.
 AFTERMATH = 0.6
 #: And one that has passed the goal line for so long, in s.
@@ -128,9 +130,9 @@ class Picture(AboveView[Parameters]):
         touched, keeper, at = first_touch(self.run), self.parameters.keeper, self.moment
         if touched is not None and (self.run.result["flight_time"] is None or touched.t < at):
             return self.meeting(share=0.3, spot=2.0, at=touched.t)
-        if not keeper.present:
+        x, y = stands = self.keeper_at(at) if keeper.present else (0.0, 0.0)
+        if not keeper.present or dist(stands, self.run.state("ball", at)[:2]) > IN_REACH:
             return self.meeting(*self.aims, share=0.6, spot=4.0, at=at)
-        x, y = self.keeper_at(at)
         reach = keeper.radius
         return Story(Box(x - reach, y - reach, x + reach, y + reach), at, 0.22)
 
