@@ -27,16 +27,31 @@ class Match:
     facts: ClassVar[tuple[str, ...]] = ()  # that ``after`` reads
     shown: ClassVar[str] = "one metre"  # how much of the path the players see, as in a task
 
+    opponents: ClassVar[bool] = False  # whether a computer can play it: ``worth`` says what is good
+
     players: tuple[str, str] = PLAYERS
     turn: int = 0  # 0 or 1, whose it is
     said: str = ""  # what came of the last shot, in a sentence
     foul: str = ""  # what was against the rules in it
     finished: bool = False
     winner: int | None = None  # 0 or 1; None for a draw, and before the end
+    opponent: int = 0  # how strong the computer is that plays second, from 1 to 3; 0 if a person does
 
     def after(self: _Same, outcome: Outcome) -> _Same:
         """The match after the shot of the player whose turn it is."""
         raise NotImplementedError
+
+    def worth(self, outcome: Outcome) -> float:
+        """The worth of a shot with these facts to the player whose turn it is: more is better."""
+        after = self.after(outcome)
+        if after.finished:
+            return 2.0 if after.winner == self.turn else -2.0
+        return -1.0 if after.foul else float(after.turn == self.turn)
+
+    @property
+    def by_computer(self) -> bool:
+        """True if the computer has the next shot."""
+        return bool(self.opponent) and self.turn == 1 and not self.finished
 
     @property
     def scores(self) -> tuple[str, str]:
@@ -93,8 +108,12 @@ class Shootout(Match):
     fact: ClassVar[str] = ""  # true if a shot scored
     shots: ClassVar[int] = 5
     words: ClassVar[tuple[str, str]] = ("missed", "scored")
+    opponents: ClassVar[bool] = True
 
     taken: tuple[tuple[bool, ...], tuple[bool, ...]] = ((), ())  # by each player, in order: whether it scored
+
+    def worth(self, outcome: Outcome) -> float:
+        return float(bool(outcome[self.fact]))
 
     def after(self, outcome: Outcome) -> Shootout:
         scored, taken = bool(outcome[self.fact]), list(self.taken)

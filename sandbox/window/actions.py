@@ -324,6 +324,14 @@ def switch_sound(view: View, by: float) -> None:
         view.game.messages.tell("sound on" if view.sound.on else "sound off")
 
 
+def switch_confetti(view: View, by: float) -> None:
+    """Celebrate a success, or do not, now and next time."""
+    memory = view.game.memory
+    memory.calm = not memory.calm
+    memory.save()
+    view.game.messages.tell("no confetti" if memory.calm else "confetti after a success")
+
+
 # More
 
 

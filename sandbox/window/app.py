@@ -93,14 +93,17 @@ class App:
             sleep(LOOKS if perf_counter() - self.last_event > _QUIET else 1 / FRAMES)
 
     def close(self) -> None:
-        """End the background threads."""
+        """End the background threads, and remember the window's size."""
+        self.game.memory.size = self.view.screen.windowed
+        self.game.memory.save()
         self.view.background.close()
         self.view.writer.close()
 
     @property
     def busy(self) -> bool:
         """True if the next frame should come soon, though nothing happens in the window."""
-        return self.game.running and (self.game.busy or (self.view.busy and not self.hidden))
+        moving = self.view.busy or self.view.drawing.shows_how
+        return self.game.running and (self.game.busy or (moving and not self.hidden))
 
     def tick(self, dt: float) -> bool:
         """Handle events, advance by ``dt`` s, and draw if something changed; returns whether it did."""
@@ -221,7 +224,7 @@ def play(
         first = replay.read(Path(shown), scene).changes if recorded else Changes(shown, dict(changes))
         session = Session(first.source, first.values)
         played = Game(session, worker, helper=helper, memory=Memory(usual_place()), best=BestList(usual_file()))
-        with opened(f"{session.title} – Sports sandbox") as screen:
+        with opened(f"{session.title} – Sports sandbox", played.memory.size) as screen:
             if recorded:
                 played.opening.open_replay(Path(shown), scene)
             app = App(played, screen, Sound())
@@ -267,8 +270,9 @@ def _load_there(worker: Processes, source: str, changes: Mapping[str, Any]) -> N
 
 
 @contextmanager
-def opened(title: str) -> Iterator[pygame.Surface]:
-    """A window that can be resized, as large as suits the desktop. Raises RequestError if there is no display."""
+def opened(title: str, before: tuple[int, int] | None = None) -> Iterator[pygame.Surface]:
+    """A window that can be resized, as large as suits the desktop, or as it was ``before``, in px. Raises RequestError
+    if there is no display."""
     os.environ.setdefault("SDL_WINDOWS_DPI_AWARENESS", "permonitorv2")  # no scaling on high-resolution displays
     if sys.platform == "linux" and not any(os.environ.get(name) for name in _SEEN_BY):
         raise RequestError(_NO_DISPLAY)
@@ -278,7 +282,7 @@ def opened(title: str) -> Iterator[pygame.Surface]:
             if "SDL_VIDEODRIVER" not in os.environ and pygame.display.get_driver() in _HEADLESS_DRIVERS:
                 raise RequestError(_NO_DISPLAY)
             desktop = min(pygame.display.get_desktop_sizes())  # of several the smallest: it may be moved there
-            screen = pygame.display.set_mode(size_for(desktop), pygame.RESIZABLE)
+            screen = pygame.display.set_mode(size_for(desktop, before), pygame.RESIZABLE)
         except pygame.error:
             raise RequestError(_NO_DISPLAY) from None
         pygame.display.set_caption(title)

@@ -67,8 +67,11 @@ class Cards:
         if self.shown.hides_path:
             text, colour, entries = "Where will it go?", _CARD["text"], [("aimed", shot.aimed)]
         if playback is not None and not playback.over:
-            text, colour, entries = f"{playback.t:.2f} s", _CARD["text"], stage.picture_of(shot).live(playback.t)
-            forces = ()  # they are among them
+            picture = stage.picture_of(shot)
+            text, colour, entries, forces = f"{playback.t:.2f} s", _CARD["text"], picture.live(playback.t), ()
+            if not self.shown.in_lab:
+                without = {"time", *(name for name, *_ in picture.vectors.entries(playback.t))}
+                text, entries = shot.aimed, [entry for entry in entries if entry[0] not in without]
         live = self.game.watching.live is not None
         if playback is not None and live:
             text, _ = stage.picture_of(shot).progress(playback.t)
@@ -136,14 +139,14 @@ class Cards:
             else:
                 forms = map_forms(sheet, known, shot.aim, lambda cells: self.targets.cards.update({"map": cells}))
                 layout.put("map", forms, corner, "topright")
-        if "charts" in shown.on and not shown.hides_path and game.watching.live is None:
+        if shown.sees("charts") and not shown.hides_path and game.watching.live is None:
             charts: Charts = self._once("charts", (shot, game.memory.look), lambda: Charts(shot, stage.picture))
             t = shown.time if game.watching.playback is not None else None
             left = sheet.frame.left, layout.room.bottom
             at, anchor = (corner, "topright") if shot.upright else (left, "bottomleft")
             rect = layout.put("charts", charts.forms(sheet, t), at, anchor)
             self.targets.cards |= {"charts": rect} if rect is not None else {}
-        if "cost" in shown.on:
+        if shown.sees("cost"):
             level = game.session.value("accuracy.level")
             text = f"frame {1e3 * self.screen.frame_cost:.1f} ms; run {1e3 * game.path.cost:.1f} ms, {level}"
             note("cost", (text, _CARD["accent"]))
@@ -159,7 +162,7 @@ class Cards:
         shown, camera, mouse = self.shown, self.viewpoint.camera, self.targets.mouse
         if camera is None or shown.hides_path:
             return
-        if shown.tape is not None:
+        if shown.tape is not None and shown.in_lab:
             shown.tape.draw(sheet, layout, camera, shot.upright)
         reads = self.targets.on_picture and not pygame.mouse.get_pressed()[2]
         if not reads or shown.overlay is not None or self.game.grasp.holds:

@@ -12,6 +12,7 @@ from sandbox.window import actions, keeping
 from sandbox.window.menu import Menu
 from sandbox.window.overlay import Board, Row
 from sandbox.window.prediction import Prediction
+from sandbox.window.shown import LABORATORY
 from sandbox.window.view import View
 
 
@@ -59,16 +60,24 @@ def do(view: View, command: str, by: float = 1) -> None:
     if name in HINTS:
         _list(view, name)
         return
-    found = _BY_NAME[name]
+    found, shown = _BY_NAME[name], view.shown
+    if name in OF_LAB and view.game.referee.contest is None and not shown.in_lab:
+        view.game.memory.lab = True
+        if name in shown.on:
+            shown.remember()
+            return
     if view.game.referee.contest is not None:
         aiming = view.game.watching.playback is None
-        if name in FIXED or (name in GIVE_AWAY and aiming):
-            view.game.messages.tell("not while you play for something" if name in FIXED else "not before the shot")
+        fixed = name in FIXED or (name in {"lab", *OF_LAB} and not view.game.referee.contest.takes_marks)
+        if fixed or (name in GIVE_AWAY and aiming):
+            view.game.messages.tell("not while you play for something" if fixed else "not before the shot")
             return
     if found.do is None:
-        view.shown.on ^= {name}
+        shown.on ^= {name}
+        if name in OF_LAB:
+            shown.remember()
         view.lay_out()
-    elif found.group == "Panel" and not view.shown.has_panel:
+    elif found.group == "Panel" and not shown.has_panel:
         do(view, "panel")
     else:
         found.do(view, by if name == command else -by)
@@ -137,6 +146,8 @@ TABLE: tuple[_Command, ...] = (
     _Command("pan_down", ("alt up", "alt down"), "", "See",
             lambda view, by: view.viewpoint.pan(0, actions.PAN * by), repeats=True),
     _Command("fit", ("ctrl 0",), "see all of the shot", "See", lambda view, by: view.viewpoint.look(None)),
+    _Command("lab", ("4",), "laboratory: clock, forces, arrows, charts, tape", "See",
+            lambda view, by: view.shown.switch_lab()),
     _Command("arrows", ("o",), "arrows: velocity and forces", "See"),
     _Command("charts", ("w",), "charts over time", "See"),
     _Command("graphs", ("alt w",), "charts over time, large, with earlier shots", "See", actions.open_graphs),
@@ -171,6 +182,7 @@ TABLE: tuple[_Command, ...] = (
     _Command("text_size", ("alt +", "alt -"), "larger, smaller text", "More", actions.change_text_size),
     _Command("contrast", ("alt c",), "high contrast", "More",
             lambda view, by: view.set_look(view.game.memory.look[0], not view.game.memory.look[1])),
+    _Command("calm", ("5",), "confetti after a success, or none", "More", actions.switch_confetti),
     _Command("cost", ("f3",), "what a frame and a run cost", "More"),
     _Command("fullscreen", ("f11",), "full screen", "More", lambda view, by: view.toggle_full_screen()),
     _Command("help", ("h",), "all keys", "More", _help),
@@ -188,6 +200,8 @@ TABLE: tuple[_Command, ...] = (
 #: What would tell how a shot comes out before it is made: not while a contest is aimed; and what changes
 #: the contest, or would write only a part of it.
 GIVE_AWAY = frozenset(("predict", "fan", "wider", "map", "charts", "graphs", "energy", "compare"))
+#: What belongs to the laboratory, and opens it.
+OF_LAB = frozenset((*LABORATORY, "graphs", "energy"))
 FIXED = frozenset(("find", "accuracy", "reset", "rack", "undo", "save_scene", "copy"))
 GROUPS: tuple[str, ...] = tuple(dict.fromkeys(command.group for command in TABLE))
 #: What the bar's buttons say that open a list of a group of commands; its others say what the help does.

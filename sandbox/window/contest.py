@@ -28,6 +28,8 @@ from sandbox.tasks.match import PLAYERS, Match
 
 #: What the player may set, by key: bounds, in the parameter's unit.
 _Limits = Mapping[str, tuple[float, float]]
+#: How strong an opponent at the computer may be, and how many times as wide as a practised player's its scatter is.
+STRENGTHS = {"easy": 4.0, "medium": 2.0, "hard": 1.0}
 #: Labels and texts of a card.
 Entries = list[tuple[str, str]]
 
@@ -328,8 +330,11 @@ class AtTaskOfDay(AtTask):
 class AtMatch(Contest):
     """A match of two, by the rules of a game of a scene, each with the aim of a practised player."""
 
-    def __init__(self, folder: Path, game: str, match: Match | None = None, seed: int | None = None) -> None:
-        """Raises RequestError for a game that the scene does not have, and a module that is none."""
+    def __init__(
+        self, folder: Path, game: str, match: Match | None = None, seed: int | None = None, opponent: int = 0
+    ) -> None:
+        """Against a person, or an ``opponent`` at the computer, by its strength from 1 to 3. Raises RequestError for a
+        game that the scene does not have, and a module that is none."""
         known = game_names(folder)
         if game not in known:
             raise RequestError(
@@ -337,7 +342,8 @@ class AtMatch(Contest):
             )
         self.folder, self.game = folder, game
         rules = game_of(folder, game)
-        self.match = rules() if match is None else match
+        players = (PLAYERS[0], "Computer") if opponent else PLAYERS
+        self.match = rules(players=players, opponent=opponent) if match is None else match
         self.random = np.random.default_rng(seed)
         here = source_of(load(folder.name if is_installed(folder) else str(folder)))
         self.base = load("/".join(filter(None, (here, rules.preset))))
@@ -358,9 +364,14 @@ class AtMatch(Contest):
         return found
 
     def aimed(self, scene: Scene) -> Scene:
-        spread = players_spread(scene).items()
+        spread = players_spread(scene, self.width).items()
         aimed = {key: known.within(float(self.random.normal(known.value, sd))) for key, (known, sd) in spread}
         return scene.changed(aimed, "aim")
+
+    @property
+    def width(self) -> float:
+        """The scatter of the player whose turn it is, in that of a practised one."""
+        return [*STRENGTHS.values()][self.match.opponent - 1] if self.match.by_computer else 1.0
 
     @property
     def in_hand(self) -> bool:
@@ -383,7 +394,8 @@ class AtMatch(Contest):
         self.said = self.match.said
 
     def anew(self) -> AtMatch:
-        return AtMatch(self.folder, self.game, replace(game_of(self.folder, self.game)(), players=self.match.players))
+        new = replace(game_of(self.folder, self.game)(), players=self.match.players, opponent=self.match.opponent)
+        return AtMatch(self.folder, self.game, new)
 
     @property
     def over(self) -> bool:

@@ -36,6 +36,8 @@ _CARD = palette("card")
 
 #: Opacity (of 255) of what dims a picture without a path.
 _DIMMED = 150
+#: The shot's direction is taken so far along its path, in px on 720 rows.
+_AHEAD = 20.0
 
 
 class Drawing:
@@ -110,6 +112,8 @@ class Drawing:
         self.cards.draw_cards(sheet, self.layout, stage, shot)
         self._draw_banner(sheet, shot)
         self._draw_contest(sheet, stage, shot)
+        if self.shows_how:
+            self._show_how(sheet, stage, shot)
         if "ghosts" in self.shown.on and self.game.grasp.pull is None:
             stage.label_ghosts(sheet, self.game.ghosts, shot, self.layout)
 
@@ -132,6 +136,8 @@ class Drawing:
         if referee.glow:
             at = stage.ball_at(shot, min(self.shown.time, referee.decided), deciding_ball(shot, referee.decided))
             scoreboard.draw_glow(sheet, at, referee.glow)
+            if not self.game.memory.calm:
+                scoreboard.draw_confetti(sheet, at, referee.glow)
         if contest is not None and referee.is_over and referee.tells and referee.again != "slow":
             best, place, mouse = self.game.best, self.game.place, self.targets.mouse
             forms = scoreboard.end_forms(sheet, contest, best, place, mouse, self.targets.cards)
@@ -140,6 +146,22 @@ class Drawing:
                 rect = pygame.Rect((0, 0), forms[0].size)
                 rect.midtop = at
                 forms[0].draw(rect)
+
+    @property
+    def shows_how(self) -> bool:
+        """True if a hand shows a new player how to shoot: until the first shot, while nothing else is done."""
+        game, contest = self.game, self.game.referee.contest
+        idle = game.watching.playback is None and not game.grasp.holds and self.shown.overlay is None
+        pulled = contest is None or not (contest.aimed_by_panel or contest.missing)
+        return "shoot" in game.memory.hints and idle and pulled and game.referee.work is None
+
+    def _show_how(self, sheet: Canvas, stage: Stage, shot: Shot) -> None:
+        """A hand that pulls back from the ball, away from where it will go, and lets go."""
+        line = stage.line(shot)
+        far = np.hypot(*(line - line[0]).T)
+        ahead = line[int(np.argmax(far > _AHEAD * sheet.unit))] - line[0]
+        if np.any(ahead):
+            hand.draw_demonstration(sheet, tuple(line[0]), tuple(-ahead / np.hypot(*ahead)), self.game.still)
 
     def _draw_no_path(self, sheet: Canvas, stage: Stage) -> None:
         """The place, dark and without a path."""
@@ -228,7 +250,7 @@ class Drawing:
         sheet.surface.set_clip(None)
         stage.draw_measured(sheet)
         stage.draw_balls(sheet, shot, t, shown.until(shot))
-        if "arrows" not in shown.on:
+        if not shown.sees("arrows"):
             return ()
         vectors: Vectors = self._once("vectors", shot, lambda: Vectors(shot.run, shot.ball))
         vectors.draw(sheet, stage.ball_at(shot, t), 9 * sheet.unit, t)

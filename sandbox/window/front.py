@@ -22,7 +22,7 @@ from sandbox.tasks.games import game_names, game_of
 from sandbox.text import title_of, with_noun
 from sandbox.toml import read_toml
 from sandbox.window.best import BestList
-from sandbox.window.contest import AtMatch, AtTask, AtTaskOfDay, Contest
+from sandbox.window.contest import STRENGTHS, AtMatch, AtTask, AtTaskOfDay, Contest
 from sandbox.window.decathlon import EVENTS, Decathlon
 from sandbox.window.game import Game
 from sandbox.window.menu import tile_of
@@ -48,7 +48,7 @@ class Entry(NamedTuple):
     game: str = ""
     title: str = ""
     about: str = ""
-    level: int = 0  # of a task
+    level: int = 0  # of a task; of a game the strength of the computer, 0 for two players
 
 
 class _Sport(NamedTuple):
@@ -116,6 +116,9 @@ def entries_of(sport: _Sport) -> list[Entry]:
         try:
             rules = game_of(sport.folder, name)
             entries.append(Entry("game", sport.name, name, f"{rules.title}, for two", rules.goal))
+            for level, strength in enumerate(STRENGTHS if rules.opponents else (), 1):
+                title = f"{rules.title} against the computer, {strength}"
+                entries.append(Entry("game", sport.name, name, title, rules.goal, level))
         except RequestError as error:
             entries.append(Entry("game", sport.name, name, title_of(name), str(error)))
     entries.append(Entry("predict", sport.name, "", "Predict first", "Mark where it will land, then see"))
@@ -139,7 +142,7 @@ def begin(game: Game, entry: Entry) -> None:
 
     def new_contest() -> Contest:
         if entry.kind == "game":
-            return AtMatch(installed_folders().get(entry.source, Path(entry.source)), entry.game)
+            return AtMatch(installed_folders().get(entry.source, Path(entry.source)), entry.game, opponent=entry.level)
         if entry.kind == "predict":
             return Prediction(load_scene(entry.source))
         if entry.kind == "day":

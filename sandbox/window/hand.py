@@ -10,7 +10,7 @@ import pygame
 
 from sandbox.picture.camera import Camera
 from sandbox.picture.painter import Point
-from sandbox.picture.palette import palette
+from sandbox.picture.palette import Colour, palette
 from sandbox.sport.amounts import round_number_above
 from sandbox.window.canvas import Canvas
 from sandbox.window.handles import Grip
@@ -26,6 +26,10 @@ _NEAR, _SEEN = 13.0, 70.0
 _ASIDE = 26.0
 #: The wind's handle is this far from its foot, in px on 720 rows per m/s; and its foot from the upper right corner.
 _WIND, _FOOT = 4.0, (42.0, 13.0)
+
+#: A demonstration of a pull: when the hand begins to pull, for how long, when it lets go, and when it begins again, in
+#: s; and how far it pulls, in px on 720 rows.
+_HOLDS, _PULLS, _LETS_GO, _BEAT, _REACH = 0.5, 0.9, 1.7, 2.5, 120.0
 
 #: A drag that snaps goes in steps of at least so many px, and otherwise in steps of about so many.
 _SNAPS, _FINE = 12.0, 0.25
@@ -118,3 +122,33 @@ def draw_pull(sheet: Canvas, layout: Layout, start: tuple[float, float], pull: t
     sheet.painter.disc(hand, 8.5 * sheet.unit, _CARD["shadow"], 0.8)
     sheet.painter.disc(hand, 6.5 * sheet.unit, _CARD["accent"])
     _label(sheet, layout, text, hand, below=pull[1] >= 0)
+
+
+def draw_demonstration(sheet: Canvas, ball: Point, away: Point, t: float) -> None:
+    """A hand that takes hold of the ball at a place in px, pulls it ``away`` (a direction), and lets go, over and over;
+    at the time t in s."""
+    unit, beat = sheet.unit, t % _BEAT
+    pulled = min(max((beat - _HOLDS) / _PULLS, 0.0), 1.0)
+    pulled = pulled * pulled * (3.0 - 2.0 * pulled)
+    held, fade = beat < _LETS_GO, min(1.0, beat / 0.25, (_BEAT - beat) / 0.35)
+    room = sheet.frame.inflate(-40 * unit, -40 * unit)
+    x = min(max(ball[0] + _REACH * unit * pulled * away[0], room.left), room.right)
+    y = min(max(ball[1] + _REACH * unit * pulled * away[1], room.top), room.bottom)
+    if held and pulled > 0.0:
+        sheet.painter.line([ball, (x, y)], 3.0 * unit, _CARD["accent"], 0.9 * fade)
+    if held:
+        sheet.painter.ring((x, y), 13 * unit, 2.2 * unit, _CARD["accent"], fade)
+    for wider, colour in ((2.6 * unit, _CARD["shadow"]), (0.0, _CARD["text"])):
+        _pointing(sheet, (x, y), unit, wider, colour, fade, held)
+
+
+def _pointing(sheet: Canvas, tip: Point, unit: float, wider: float, colour: Colour, fade: float, held: bool) -> None:
+    """A hand whose finger points to a place in px; open if nothing is ``held``."""
+    x, y = tip[0], tip[1] + (0.0 if held else -6.0 * unit)
+    bones = [((1, 2), (7, 24), 7.0), ((8, 20), (12, 26), 8.0), ((13, 21), (17, 27), 8.0), ((18, 23), (21, 29), 7.0),
+             ((-2, 24), (4, 33), 7.0), ((8, 30), (17, 34), 17.0)]  # fmt: skip
+    for (x0, y0), (x1, y1), width in bones:
+        ends = [(x + x0 * unit, y + y0 * unit), (x + x1 * unit, y + y1 * unit)]
+        sheet.painter.line(ends, width * unit + 2 * wider, colour, fade)
+        for end in ends:
+            sheet.painter.disc(end, 0.5 * width * unit + wider, colour, fade)

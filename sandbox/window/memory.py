@@ -32,6 +32,10 @@ class Memory:
         self.file = file
         self.recent: list[str] = []
         self.followed: list[str] = []
+        self.lab = False  # whether the values of a laboratory are shown: clock, forces, arrows, charts, tape
+        self.in_lab: list[str] = []  # what else is switched on there
+        self.calm = False  # whether nothing celebrates a success
+        self.size: tuple[int, int] | None = None  # of the window, in px
         self.look = 1.0, False  # how much larger letters are, and whether the contrast is high
         self.still = False  # the camera stands still
         with suppress(OSError, ValueError, TypeError, AttributeError, RequestError):
@@ -41,6 +45,10 @@ class Memory:
             self.look = min(max(float(larger), 1.0), 2.0), bool(contrast)
             self.still = bool(kept.get("still"))
             self.followed = [hint for hint in kept.get("followed", []) if isinstance(hint, str)]
+            self.lab, self.calm = bool(kept.get("lab", False)), bool(kept.get("calm", False))
+            self.in_lab = [name for name in kept.get("in_lab", self.in_lab) if isinstance(name, str)]
+            width, height = kept.get("size") or (0, 0)  # an older file has none
+            self.size = (int(width), int(height)) if width and height else None
 
     def opened(self, source: str) -> None:
         """A scene was opened; a file is remembered by its whole path."""
@@ -67,5 +75,5 @@ class Memory:
             with suppress(OSError):
                 self.file.parent.mkdir(parents=True, exist_ok=True)
                 with atomic_write(self.file, kept=False) as file:
-                    kept = {"recent": self.recent, "followed": self.followed, "look": self.look, "still": self.still}
-                    json.dump(kept, file)
+                    kept = ("recent", "followed", "look", "still", "lab", "in_lab", "calm", "size")
+                    json.dump({name: getattr(self, name) for name in kept}, file)

@@ -11,6 +11,7 @@ import pygame
 from sandbox.window import aim, commands
 from sandbox.window.hand import ShownGrip
 from sandbox.window.measure import Tape
+from sandbox.window.referee import COMPUTER
 from sandbox.window.scoreboard import CHOICES
 from sandbox.window.view import View
 
@@ -111,7 +112,7 @@ class Pointer:
         if not view.stages.ready:
             game.messages.tell("the scene is still loading")
             return None
-        if "tape" in view.shown.on:
+        if view.shown.sees("tape"):
             return self._lay(at)
         if pygame.key.get_mods() & pygame.KMOD_CTRL:
             return self._pan
@@ -129,6 +130,8 @@ class Pointer:
             return lambda to: self._drag_handle(shown, at, to)
         elif (pad := view.targets.pad) is not None and pad.rect.collidepoint(at):
             return self._begun(lambda to: game.aiming.nudge(pad.changes(to)), at)
+        elif game.watching.playback is None and game.referee.computers_turn:
+            game.messages.tell(COMPUTER)
         elif game.watching.playback is None:
             return self._pull(at)
         elif game.referee.contest is not None and game.referee.tells and not game.referee.is_over:

@@ -11,9 +11,10 @@ from sandbox.errors import SandboxError
 from sandbox.scene import Scene, deciding
 from sandbox.window.aiming import Aiming
 from sandbox.window.background import Workers
-from sandbox.window.contest import Contest, source_of
+from sandbox.window.contest import AtMatch, Contest, source_of
 from sandbox.window.history import History
 from sandbox.window.messages import Messages
+from sandbox.window.opponent import Opponent
 from sandbox.window.shots import STEP, Shot
 from sandbox.window.worker import computed, unpacked
 
@@ -21,6 +22,8 @@ from sandbox.window.worker import computed, unpacked
 _BEFORE, _SLOWER, AFTER = 0.5, 0.25, 0.2
 #: How long a success glows, in s, and how long the end of each of the best shots stays.
 GLOW, _PAUSE = 1.6, 1.2
+#: What a player is told who would shoot for the computer.
+COMPUTER = "the computer has this shot"
 
 
 class Referee:
@@ -36,6 +39,7 @@ class Referee:
         self.pending: Shot | None = None  # it is watched, and not counted yet
         self.decided = 0.0  # s: when what is watched is decided
         self.again = ""  # what is shown again: nothing; "slow", then "still", what decided a success; one of the "best"
+        self.opponent: Opponent | None = None  # that looks for its shot
         self.glow = 0.0  # s that a success goes on glowing
         self.cheers = 0  # successes that were not heard yet
         self._cheered = False
@@ -48,7 +52,13 @@ class Referee:
     @property
     def busy(self) -> bool:
         """True if something goes on by itself."""
-        return self.work is not None or self.pending is not None or bool(self.again) or self.glow > 0.0
+        return (
+            self.work is not None
+            or self.opponent is not None
+            or self.pending is not None
+            or bool(self.again)
+            or self.glow > 0.0
+        )
 
     @property
     def visible_state(self) -> tuple[Any, ...]:
@@ -86,9 +96,35 @@ class Referee:
         """Play for nothing."""
         if self.work is not None:
             self.workers.path.abandon(self.work)
+        self._dismiss()
         self.contest, self.work, self.pending, self.again, self.glow = None, None, None, "", 0.0
         self._before = None
         self.session.limits, self.shots = None, []
+
+    @property
+    def computers_turn(self) -> bool:
+        """True if an opponent at the computer has the next shot."""
+        return isinstance(self.contest, AtMatch) and self.contest.match.by_computer
+
+    def _dismiss(self) -> None:
+        """The opponent looks no longer for a shot."""
+        if self.opponent is not None and self.opponent.work is not None:
+            self.workers.helper.abandon(self.opponent.work)
+        self.opponent = None
+
+    def _let_computer_play(self) -> None:
+        """Have the opponent at the computer look for its shot, and then make it."""
+        contest, aimed = self.contest, self.path.shot
+        if not isinstance(contest, AtMatch) or aimed is None or not self.path.settled:
+            return
+        if self.opponent is None:
+            seed = int(contest.random.integers(2**31))
+            self.opponent = Opponent(self.session, contest.match, contest.width, aimed.upright, self.workers, seed)
+        self.opponent.advance()
+        if self.opponent.values is not None:
+            self.aiming.set(self.opponent.values)
+            self.opponent = None
+            self._submit()
 
     def _put_up(self, scene: Scene) -> None:
         """Show the next shot, to be aimed."""
@@ -124,16 +160,22 @@ class Referee:
             return False
         if self.work is not None or self.watching.playback is not None or contest.over:
             return True
-        if contest.missing:
-            self.messages.tell(contest.missing)
+        if self.computers_turn or contest.missing:
+            self.messages.tell(COMPUTER if self.computers_turn else contest.missing)
             return True
+        self._submit()
+        return True
+
+    def _submit(self) -> None:
+        """Have the shot that is aimed computed, or play it live."""
+        contest = self.contest
+        assert contest is not None
         self._scene, self._before = contest.aimed(self.session.scene), self.watching.shots.count
         if self.session.controls.held:
             scene, changes = self._scene, self.session.changes
             self.messages.reporting_errors(lambda: self.watching.play(scene, changes))
         else:
             self.work = self.workers.path.submit(computed, self._scene)
-        return True
 
     def advance(self, dt: float) -> None:
         """``dt`` s have passed."""
@@ -141,6 +183,8 @@ class Referee:
         if self.work is not None and self.work.done():
             self._take()
         playback = self.watching.playback
+        if self.computers_turn and playback is None and self.work is None:
+            self._or_leave(self._let_computer_play)
         if self.contest is None or playback is None:
             return
         if self._before is not None and playback.shot.number > self._before and self.watching.live is None:

@@ -4,7 +4,7 @@ the end the stars, the best scores and what can be done next."""
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from math import cos, pi, sin
+from math import cos, modf, pi, sin
 
 import pygame
 
@@ -24,6 +24,8 @@ _Buttons = dict[str, pygame.Rect]
 _STAR, SMALL_STAR = 30.0, 8.0
 #: Radius of a glow at its end, in px on 720 rows, and how many rays it has.
 _RADIUS, _RAYS = 110.0, 12
+#: The number of pieces of confetti, their colours, and how they fall, in px/s^2 on 720 rows.
+_FLAKES, _PAPER, _FALLS = 42, (_CARD["accent"], _CARD["good"], _CARD["text"], *palette("trace")["colours"][:4]), 520.0
 
 #: What can be done at the end, by the command that does it: its key and what it is called.
 CHOICES = {
@@ -77,6 +79,22 @@ def draw_glow(sheet: Canvas, at: tuple[float, float], left: float) -> None:
         turn = 2.0 * pi * (ray + 0.5) / _RAYS
         ends = [(at[0] + length * far * cos(turn), at[1] - length * far * sin(turn)) for length in (0.55, 0.85)]
         sheet.painter.line(ends, 4 * sheet.unit, _CARD["accent"], 0.9 * fade)
+
+
+def draw_confetti(sheet: Canvas, at: tuple[float, float], left: float) -> None:
+    """Paper that flies up from a success at a place in px and falls, ``left`` s before it is gone."""
+    t, unit, fade = GLOW - left, sheet.unit, min(1.0, 3.0 * left / GLOW)
+    for flake in range(_FLAKES):
+        turn, fast, spin = (modf(flake * golden)[0] for golden in (0.618034, 0.754878, 0.569840))
+        way, speed = pi * (0.2 + 0.6 * turn), (160.0 + 260.0 * fast) * unit
+        x = at[0] + speed * cos(way) * t
+        y = at[1] - speed * sin(way) * t + 0.5 * _FALLS * unit * t * t
+        angle, wide = 2.0 * pi * (spin + (1.0 + spin) * t), 5.0 * unit
+        tall = 2.5 * unit * abs(cos(3.0 * angle)) + 1.0  # it tumbles
+        along, across = (wide * cos(angle), wide * sin(angle)), (-tall * sin(angle), tall * cos(angle))
+        corners = [(x + a * along[0] + b * across[0], y + a * along[1] + b * across[1])
+                   for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]  # fmt: skip
+        sheet.painter.polygon(corners, _PAPER[flake % len(_PAPER)], fade)
 
 
 def draw_mark(sheet: Canvas, spots: Sequence[tuple[float, float]], upright: bool) -> None:

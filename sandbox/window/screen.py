@@ -17,11 +17,13 @@ _SHARE, _EDGES = 2 / 3, (16, 80)
 SMALLEST = (480, 400)
 
 
-def size_for(desktop: tuple[int, int]) -> tuple[int, int]:
-    """The size of a new window on a desktop, both in px."""
+def size_for(desktop: tuple[int, int], before: tuple[int, int] | None = None) -> tuple[int, int]:
+    """The size of a new window on a desktop, both in px: the one that it had ``before``, as far as there is room."""
+    usual = before or [max(usual, round(_SHARE * room)) for usual, room in zip(_SIZE, desktop, strict=True)]
+    least = SMALLEST if before else (1, 1)
     width, height = (
-        max(1, min(max(usual, round(_SHARE * room)), room - edges))
-        for usual, room, edges in zip(_SIZE, desktop, _EDGES, strict=True)
+        max(1, min(max(least, px), room - edges))
+        for least, px, room, edges in zip(least, usual, desktop, _EDGES, strict=True)
     )
     return width, height
 
@@ -73,6 +75,11 @@ class Screen:
             return False
         self.surface = surface
         return True
+
+    @property
+    def windowed(self) -> tuple[int, int]:
+        """The size of the window when it does not fill the screen, in px."""
+        return self._windowed if pygame.display.is_fullscreen() else self.size
 
     def toggle_full_screen(self) -> None:
         """Switch between full screen and the window."""

@@ -14,6 +14,8 @@ from sandbox.window.shots import Shot
 #: How much of the path is shown while aiming; and how tasks call it.
 AHEAD = ("all", "to the first contact", "the first metre", "nothing")
 _OF_TASKS = dict(zip(SHOWN, AHEAD, strict=True))
+#: Switches of the laboratory: nothing of them is seen outside it.
+LABORATORY = frozenset(("arrows", "charts", "tape", "cost"))
 #: The fan can be made this many times wider or narrower.
 _WIDEST = 16.0
 
@@ -23,7 +25,7 @@ class Shown:
 
     def __init__(self, game: Game) -> None:
         self.game = game
-        self.on = {"ghosts"}  # commands that are switched on
+        self.on = {"ghosts", *(LABORATORY & {*game.memory.in_lab})}  # commands that are switched on
         self._ahead = AHEAD[0]
         self.fan_width = 1.0  # times the usual spread
         self.tape: Tape | None = None
@@ -36,10 +38,42 @@ class Shown:
         return self._ahead if contest is None else _OF_TASKS[contest.shown]
 
     @property
+    def in_lab(self) -> bool:
+        """True if the values of a laboratory are shown: clock, forces, arrows, charts; not while one plays for
+        something, unless that is a prediction."""
+        contest = self.game.referee.contest
+        return self.game.memory.lab and (contest is None or contest.takes_marks)
+
+    def sees(self, name: str) -> bool:
+        """True if a switch is on, and where the laboratory has it, if one is there."""
+        return name in self.on and (name not in LABORATORY or self.in_lab)
+
+    def switch_lab(self) -> None:
+        """Show the values of a laboratory, with arrows and charts if nothing else was chosen, or do not: now and next
+        time."""
+        self.game.memory.lab = not self.game.memory.lab
+        if self.game.memory.lab and not self.on & LABORATORY:
+            self.on |= {"arrows", "charts"}
+        self.remember()
+
+    def remember(self) -> None:
+        """Keep for the next time what is switched on in the laboratory; the tape is laid anew."""
+        self.game.memory.in_lab = sorted(self.on & (LABORATORY - {"tape"}))
+        self.game.memory.save()
+
+    @property
     def visible_state(self) -> tuple[Any, ...]:
         """All that can be seen of it."""
         overlay = self.overlay
-        return frozenset(self.on), self.ahead, self.fan_width, self.tape, overlay, overlay and overlay.picture_count
+        return (
+            frozenset(self.on),
+            self.in_lab,
+            self.ahead,
+            self.fan_width,
+            self.tape,
+            overlay,
+            overlay and overlay.picture_count,
+        )
 
     def open(self, overlay: Overlay | None) -> None:
         """Show something over the picture, in place of what is there."""

@@ -96,7 +96,8 @@ class View:
     def switched(self) -> set[str]:
         """The commands whose switches are on, and the scene that is played."""
         sound = {"sound"} if self.sound is not None and self.sound.on else set()
-        return self.shown.on | sound | {self.game.session.source}
+        lab = {"lab"} if self.shown.in_lab else set()
+        return {name for name in self.shown.on if self.shown.sees(name)} | sound | lab | {self.game.session.source}
 
     # Time
 
@@ -139,7 +140,7 @@ class View:
     def needs_drawing(self, happened: bool) -> bool:
         """True if what would be drawn differs from what was drawn last."""
         seen = self.game.visible_state, self.shown.visible_state, self.stages.chosen, self.viewpoint.camera
-        needed = happened or self.changed or seen != self._drawn
+        needed = happened or self.changed or seen != self._drawn or self.drawing.shows_how
         self._drawn, self.changed = seen, False
         return needed
 

@@ -18,7 +18,8 @@ from sandbox import tasks
 from sandbox.errors import RequestError
 from sandbox.scene import simulate
 from sandbox.scene.finding import installed_folder, installed_folders
-from sandbox.window import commands, keeping
+from sandbox.tasks.games import game_of
+from sandbox.window import commands, keeping, opponent
 from sandbox.window.app import play
 from sandbox.window.banner import LASTS
 from sandbox.window.best import MOST, Best, BestList, usual_file
@@ -28,7 +29,7 @@ from sandbox.window.front import START_HERE, TILE, Front, entries_of, events, fi
 from sandbox.window.menu import TILE_FILE
 from sandbox.window.panel import SLIDER_OF
 from sandbox.window.prediction import Prediction
-from sandbox.window.referee import AFTER, decided_at, deciding_ball
+from sandbox.window.referee import AFTER, COMPUTER, decided_at, deciding_ball
 from sandbox.window.shots import LONGEST_FRAME, SHOWN
 from tests.own_scene import DROP, HANG, copy_of
 
@@ -58,7 +59,9 @@ default = 0.3
 def passes(player: Player, enough: Callable[[], bool]) -> None:
     """Time passes until it is enough, without drawing; then one frame."""
     for _ in range(5000):
-        under_way = [player.game.referee.work, *(job.work for job in player.game.jobs.waiting)]
+        referee = player.game.referee
+        under_way = [referee.work, *(job.work for job in player.game.jobs.waiting)]
+        under_way += [referee.opponent.work] if referee.opponent is not None else []
         wait([work for work in under_way if work is not None], 60.0)
         player.game.advance(LONGEST_FRAME)
         if enough():
@@ -482,6 +485,46 @@ class TestAMatch:
             AtMatch(installed_folder("golf"), "chess")
         with pytest.raises(RequestError, match="tennis has no game chess; it has none"):
             AtMatch(installed_folder("tennis"), "chess")
+
+
+class TestAgainstTheComputer:
+    def test_it_takes_its_shot_by_itself_and_nobody_else_does(self, player, monkeypatch):
+        monkeypatch.setattr(opponent, "_TRIED", 24)
+        player = player("soccer-curl", (640, 400))
+        game, referee = player.game, player.game.referee
+        referee.begin(AtMatch(installed_folder("soccer-curl"), "penalty-kicks", seed=1, opponent=3))
+        player.settle()
+        contest = referee.contest
+        assert (contest.match.players, contest.width, referee.computers_turn) == (("Player 1", "Computer"), 1.0, False)
+        contest.match = replace(contest.match, turn=1)  # it begins
+        for aims in (player.key, lambda key: player.press((300, 200))):
+            aims(pygame.K_SPACE)
+            assert game.notices[-1][0] == COMPUTER
+        passes(player, lambda: len(referee.shots) == 1)
+        passes(player, lambda: referee.tells and referee.again != "slow")
+        assert (contest.match.turn, contest.said) == (0, "Computer scored: 0 to 1")
+
+    def test_its_strength_is_its_scatter_and_its_keeper(self):
+        strengths = range(1, 4)
+        contests = [AtMatch(installed_folder("soccer-curl"), "penalty-kicks", opponent=each) for each in strengths]
+        late = [contest.scene.parameters.keeper.dive.reaction for contest in contests]
+        assert late == sorted(late, reverse=True)
+        assert (
+            late[1] == AtMatch(installed_folder("soccer-curl"), "penalty-kicks").scene.parameters.keeper.dive.reaction
+        )
+        for contest in contests:
+            contest.match = replace(contest.match, turn=1)
+        assert [contest.width for contest in contests] == [4.0, 2.0, 1.0]
+        assert [contest.anew().match.opponent for contest in contests] == [1, 2, 3]
+
+    def test_what_a_shot_is_worth_to_it(self):
+        match = game_of(installed_folder("billiards"), "eight-ball")(balls={"cue": (0.0, 0.0), "1": (0.5, 0.0)})
+        legal = {"first_contact": "1", "potted": ["1"], "scratch": False, "rails": 1, "touches": ["1"], "driven": 0}
+        outcome = {**legal, "positions": {"cue": (0.2, 0.0)}}
+        assert match.worth(outcome) == 1.0  # its turn again
+        assert match.worth({**outcome, "potted": []}) == 0.0
+        assert match.worth({**outcome, "scratch": True}) == -1.0
+        assert match.worth({**outcome, "potted": ["8"]}) == -2.0  # too early: lost
 
 
 class TestPredictFirst:

@@ -21,7 +21,7 @@ ROWS = (
     {"aim", "export", "handles", "overlay", "pad", "replay", "score_map"},
     {"hand", "menu", "table", "worker"},
     {"find", "path", "watching"},
-    {"aiming"},
+    {"aiming", "opponent"},
     {"grasp", "opening", "referee"},
     {"banner"},
     {"game", "scoreboard"},

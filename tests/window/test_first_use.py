@@ -16,6 +16,7 @@ from sandbox.window.app import App
 from sandbox.window.game import Game
 from sandbox.window.memory import HINTS, MOST, Memory, usual_place
 from sandbox.window.menu import THUMBNAIL, thumbnail, tile_of
+from sandbox.window.screen import SMALLEST, size_for
 from sandbox.window.session import Session
 
 from .test_play import Unanswered
@@ -41,6 +42,47 @@ def test_hints_go_when_they_are_followed_and_do_not_come_back(remembering):
     remembering.key(pygame.K_ESCAPE)
     assert set(said(remembering)) & set(HINTS.values()) == {HINTS["drag"]}
     assert Memory(game.memory.file).hints.keys() == {"drag"}
+
+
+def test_a_hand_shows_the_pull_until_the_first_shot(remembering):
+    game, view, pictures = remembering.game, remembering.view, []
+    for game.still in (0.6, 1.5):
+        view.draw()
+        pictures.append(pygame.image.tobytes(view.screen.canvas, "RGB"))
+    assert pictures[0] != pictures[1]  # it moves
+    assert (view.drawing.shows_how, remembering.app.busy) == (True, True)
+    remembering.press((400, 300))
+    assert not view.drawing.shows_how
+    remembering.release((400, 300))
+    remembering.key(pygame.K_SPACE)
+    assert not view.drawing.shows_how
+
+
+def test_the_laboratory_is_behind_one_key_and_remembered(remembering):
+    laboratory = {"time", "drag", "gravity"}
+    remembering.key(pygame.K_SPACE)
+    remembering.frames(2)
+    assert remembering.game.watching.playback.playing
+    assert not laboratory & said(remembering)
+    assert "speed" in said(remembering)
+    remembering.key(pygame.K_4)
+    assert laboratory <= said(remembering)
+    assert remembering.view.switched >= {"lab", "arrows", "charts"}
+    kept = Memory(remembering.game.memory.file)
+    assert (kept.lab, kept.in_lab) == (True, ["arrows", "charts"])
+    remembering.key(pygame.K_4)
+    assert not laboratory & said(remembering)
+    remembering.key(pygame.K_o)  # what belongs to it opens it
+    assert laboratory <= said(remembering)
+
+
+def test_the_windows_size_is_remembered_as_far_as_there_is_room(remembering):
+    remembering.app.close()
+    kept = Memory(remembering.game.memory.file)
+    assert kept.size == (900, 560)
+    assert size_for((1920, 1080), kept.size) == (900, 560)
+    assert size_for((800, 600), (1280, 720)) == (784, 520)
+    assert size_for((1920, 1080), (10, 10)) == SMALLEST
 
 
 def test_the_dark_start_says_that_it_loads(written):

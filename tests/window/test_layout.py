@@ -70,7 +70,7 @@ def test_nothing_covers_anything_in_any_scene_and_size(source, monkeypatch):
         for size in SIZES:
             pygame.display.set_mode(size, pygame.RESIZABLE)
             for panel in (set(), {"panel"}):
-                view.shown.on = {"ghosts", "fan", "map", "charts", "cost", *panel}
+                app.game.memory.lab, view.shown.on = True, {"ghosts", "fan", "map", "charts", "cost", *panel}
                 view.resized()
                 view.lay_out()
                 for _ in range(200):

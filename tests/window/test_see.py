@@ -554,7 +554,7 @@ class TestTheLists:
         assert player.view.shown.overlay is None
         assert player.game.grasp.pull is None
         player.key(pygame.K_o)
-        assert player.view.switched == {"ghosts", "charts", "arrows", PUTT}
+        assert player.view.switched == {"ghosts", "charts", "arrows", "lab", PUTT}
 
     def test_help_and_menu_can_be_clicked_with_the_panel_open(self, player):
         player = player(PUTT, (640, 400))

@@ -35,6 +35,7 @@ class EightBall(Pool):
     preset = "eight-ball-break"
     rack = "eight-ball"
     behind_after_break = True
+    opponents = True
 
     groups: tuple[str, str] = ("", "")  # of each player
 

@@ -23,9 +23,13 @@ class NearestThePin(Match):
     goal = "Three balls each, in turn: the one nearest to the pin wins"
     preset = "9-iron"
     facts = ("distance_to_pin", "holed", "ended")
+    opponents = True
 
     best: tuple[float | None, float | None] = (None, None)  # m from the pin, of each
     shots: int = 0  # of both
+
+    def worth(self, outcome: Outcome) -> float:
+        return -1e3 if outcome["ended"] == "water" else 0.0 if outcome["holed"] else -outcome["distance_to_pin"]
 
     def after(self, outcome: Outcome) -> NearestThePin:
         wet = outcome["ended"] == "water"

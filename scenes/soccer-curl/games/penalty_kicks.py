@@ -10,6 +10,14 @@ from typing import Any
 
 from sandbox.tasks.match import Shootout
 
+#: The computer's keeper by its strength: how late he dives, in s, and how fast, in m/s. The second is the scene's, as a
+#: person's is; the others are assumed.
+KEEPERS = {
+    1: {"keeper.dive.reaction": 0.34, "keeper.dive.speed": 3.2},
+    2: {},
+    3: {"keeper.dive.reaction": 0.19, "keeper.dive.speed": 4.4},
+}
+
 
 class PenaltyKicks(Shootout):
     """Five kicks each from 11 m; the keeper dives to where he sees the ball go."""
@@ -22,7 +30,9 @@ class PenaltyKicks(Shootout):
 
     @property
     def start(self) -> Mapping[str, Any]:
+        keeper = KEEPERS.get(self.opponent if self.turn == 0 else 0, {})
         return {
+            **keeper,
             "wall.present": False,
             "launch.angle": 0.0,  # deg: at the keeper
             "goal.distance": 11.0,  # m (Laws of the Game, law 14)
