@@ -21,6 +21,7 @@ from sandbox.window.cards import Cards, banner_forms
 from sandbox.window.fan_of_shot import FanOfShot
 from sandbox.window.game import Game
 from sandbox.window.layout import Form, Layout
+from sandbox.window.menu import tile_of
 from sandbox.window.messages import reason
 from sandbox.window.pad import Pad
 from sandbox.window.referee import deciding_ball
@@ -36,6 +37,8 @@ _CARD = palette("card")
 
 #: Opacity (of 255) of what dims a picture without a path.
 _DIMMED = 150
+#: That of what dims the small picture of a scene, enlarged, until its place is there.
+_LOADING = 190
 #: The shot's direction is taken so far along its path, in px on 720 rows.
 _AHEAD = 20.0
 
@@ -153,7 +156,8 @@ class Drawing:
         game, contest = self.game, self.game.referee.contest
         idle = game.watching.playback is None and not game.grasp.holds and self.shown.overlay is None
         pulled = contest is None or not (contest.aimed_by_panel or contest.missing)
-        return "shoot" in game.memory.hints and idle and pulled and game.referee.work is None
+        busy = game.referee.work is not None or game.referee.computers_turn
+        return "shoot" in game.memory.hints and idle and pulled and not busy
 
     def _show_how(self, sheet: Canvas, stage: Stage, shot: Shot) -> None:
         """A hand that pulls back from the ball, away from where it will go, and lets go."""
@@ -187,8 +191,12 @@ class Drawing:
             larger = max(px / before for px, before in zip(sheet.size, self._last.get_size(), strict=True))
             sheet.surface.blit(pygame.transform.smoothscale_by(self._last, larger), (0, 0))
         elif not self.stages.complete:
+            tile = tile_of(self.game.session.base.folder, sheet.size)
+            if tile is not None:
+                sheet.surface.blit(tile, (0, 0))
+                sheet.dim(_LOADING)
             middle = sheet.surface.get_rect().center
-            sheet.write(f"loading {self.game.session.title} ...", "large", middle, _CARD["quiet"], "center")
+            sheet.write(f"loading {self.game.session.title} ...", "large", middle, _CARD["text"], "center")
         if self.stages.undrawable is not None or self._no_path:
             sheet.dim(_DIMMED)
 

@@ -42,6 +42,8 @@ def headline_of(referee: Referee, contest: Contest) -> tuple[str, list[str], Col
     if referee.watching.playback is None:
         where = "elsewhere" if contest.in_hand else "anywhere"
         how = "set the sliders and press Space" if contest.aimed_by_panel else f"pull back {where} and let go"
+        if referee.computers_turn:
+            return contest.headline, ["it looks for a shot ..."], _CARD["text"]
         notes = [contest.stand] if contest.takes_marks else [contest.stand, how]
         return contest.headline, notes, _CARD["text"]
     if contest.over:

@@ -499,6 +499,7 @@ class TestAgainstTheComputer:
         contest.match = replace(contest.match, turn=1)  # it begins
         for aims in (player.key, lambda key: player.press((300, 200))):
             aims(pygame.K_SPACE)
+            assert "Computer to play" in said(player)
             assert game.notices[-1][0] == COMPUTER
         passes(player, lambda: len(referee.shots) == 1)
         passes(player, lambda: referee.tells and referee.again != "slow")
