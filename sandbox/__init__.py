@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from sandbox.lab.many import Runs, simulate_many
     from sandbox.lab.spread import Spread, spread
     from sandbox.lab.sweep import Sweep, sweep
-    from sandbox.physics.air import LogWind, UniformWind
+    from sandbox.physics.air import Gusts, LogWind, UniformWind
     from sandbox.physics.cloth import Cloth
     from sandbox.physics.forces import Drag, Gravity, Magnus, SpinDecay
     from sandbox.physics.ice import CurlingIce, Glide
@@ -66,7 +66,7 @@ _MODULES = {
     **dict.fromkeys(("Runs", "simulate_many"), "sandbox.lab.many"),
     **dict.fromkeys(("Spread", "spread"), "sandbox.lab.spread"),
     **dict.fromkeys(("Sweep", "sweep"), "sandbox.lab.sweep"),
-    **dict.fromkeys(("LogWind", "UniformWind"), "sandbox.physics.air"),
+    **dict.fromkeys(("Gusts", "LogWind", "UniformWind"), "sandbox.physics.air"),
     **dict.fromkeys(("Cloth",), "sandbox.physics.cloth"),
     **dict.fromkeys(("Drag", "Gravity", "Magnus", "SpinDecay"), "sandbox.physics.forces"),
     **dict.fromkeys(("CurlingIce", "Glide"), "sandbox.physics.ice"),
@@ -101,6 +101,7 @@ __all__ = [
     "Given",
     "Glide",
     "Gravity",
+    "Gusts",
     "InTurn",
     "LogWind",
     "Magnus",

@@ -33,7 +33,7 @@ from sandbox.parameters import (
     vector,
     vectors,
 )
-from sandbox.physics.air import LogWind, UniformWind
+from sandbox.physics.air import Gusts, LogWind, UniformWind
 from sandbox.physics.cloth import Cloth
 from sandbox.physics.coefficients import (
     GOLF_DRAG,
@@ -144,6 +144,7 @@ __all__ = [
     "Goal",
     "Gravity",
     "Group",
+    "Gusts",
     "Handle",
     "Held",
     "InTurn",

@@ -7,8 +7,9 @@ from types import new_class
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self
 
 from sandbox.parameters import Group, choice, quantity, vector
-from sandbox.physics.air import LogWind, UniformWind, moist_density
+from sandbox.physics.air import Gusts, LogWind, UniformWind, moist_density
 from sandbox.physics.coefficients import ANY_LIFT, Coefficient, Constant
+from sandbox.physics.elementwise import anywhere
 from sandbox.physics.forces import Wind
 
 if TYPE_CHECKING:
@@ -39,6 +40,19 @@ class OutdoorAir(Air):
     profile: Literal["uniform", "log"] = choice(..., "uniform wind, or one that grows with height above the ground")
     reference_height: float = quantity(..., "m", 0.1, 100, "height at which a log profile has the given wind")
     roughness: float = quantity(..., "m", 0.0001, 2, "roughness length of a log profile")
+    gusts: float = quantity(0.0, "m/s", 0, 30, "standard deviation of gusts along the wind, by Dryden's spectra")
+    gust_seed: int = quantity(0, "", 0, 1e9, "other gusts for each whole number")
+    temperature: float | None = quantity(None, "C", -60, 60, "in place of the density, that of dry air so warm")
+    elevation: float | None = quantity(None, "m", -500, 9000, "in place of the density, that of air so high at 20 C")
+
+    @property
+    def air(self) -> Air:
+        """The air; by temperature and elevation, one of which may be 20 C or the sea, at 1013.25 hPa without vapour."""
+        if self.temperature is None and self.elevation is None:
+            return self
+        kelvin = 293.15 if self.temperature is None else self.temperature + 273.15
+        density = moist_density(kelvin, 101325.0, 0.0, 0.0 if self.elevation is None else self.elevation)
+        return self.model_copy(update={"density": density, "temperature": None, "elevation": None})
 
 
 class Weather(AirByDensity):
@@ -62,11 +76,12 @@ class Weather(AirByDensity):
 
 def wind_in(air: AirByDensity) -> Wind | None:
     """The wind as a velocity field, or None for still air."""
-    if air.wind == (0.0, 0.0):
+    gusts = air.gusts if isinstance(air, OutdoorAir) else 0.0
+    if air.wind == (0.0, 0.0) and not anywhere(gusts > 0.0):
         return None
-    if isinstance(air, OutdoorAir) and air.profile == "log":
-        return LogWind(air.wind, air.reference_height, air.roughness)
-    return UniformWind(*air.wind)
+    outdoors = isinstance(air, OutdoorAir) and air.profile == "log"
+    mean = LogWind(air.wind, air.reference_height, air.roughness) if outdoors else UniformWind(*air.wind)
+    return Gusts(mean, gusts, air.reference_height, int(air.gust_seed)) if anywhere(gusts > 0.0) else mean
 
 
 class Model(Group):

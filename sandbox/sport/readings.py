@@ -62,7 +62,7 @@ def coefficient_at_start(force: str) -> Callable[[Run, Any], float | None]:
     """A fact: the coefficient of a force by its cause, such as "drag", as the first ball starts; None without air."""
 
     def coefficient(run: Run, parameters: Any) -> float | None:
-        ball, air = run.setup.balls[0], parameters.air
+        ball, air = run.setup.balls[0], parameters.air.air
         ux, uy = (v - wind for v, wind in zip(ball.velocity, air.wind, strict=True))
         pressure = 0.5 * air.density * pi * ball.radius**2 * (ux * ux + uy * uy)
         pulls = [each(0.0, ball.position, ball.velocity, ball.spin) for each in ball.forces if cause(each) == force]

@@ -154,7 +154,8 @@ def _ahead(at: Sideways, h: float, rate: Sideways) -> Sideways:
 def _rates(run: Run, parameters: Flight) -> Callable[[float, State], _Rates]:
     """Return a function of time (s) and state that gives the coefficients."""
     ball, air = run.setup.balls[0], parameters.launch.in_plane(parameters.air.air)
-    across = wind_in(air.model_copy(update={"wind": (getattr(air, "crosswind", None) or 0.0, 0.0)}))
+    mean = {"wind": (getattr(air, "crosswind", None) or 0.0, 0.0), "gusts": 0.0}
+    across = wind_in(air.model_copy(update={key: value for key, value in mean.items() if hasattr(air, key)}))
     drag = next((force for force in ball.forces if isinstance(force, Drag)), None)
     lift = next((force for force in ball.forces if isinstance(force, Magnus)), None)
     if lift is not None and isinstance(lift.coefficient, Scaled):

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from math import log
+from math import atan, log, pi
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sandbox.physics.air import VISCOSITY, LogWind, UniformWind, density_share, moist_density, viscosity
+from sandbox.physics.air import VISCOSITY, Gusts, LogWind, UniformWind, density_share, moist_density, viscosity
 
 
 @pytest.mark.parametrize(
@@ -62,6 +62,32 @@ def test_log_wind_takes_arrays():
     one_by_one = [wind(0.0, (0.0, float(h))) for h in heights]
     for number, expected in enumerate(one_by_one):
         assert (x[number], y[number]) == pytest.approx(expected, rel=1e-15)
+
+
+GUSTS = Gusts(UniformWind(-8.0, 0.0), sd=1.5, height=10.0, seed=3)
+
+
+def test_gusts_have_the_variance_of_drydens_spectra():
+    """Over a band, along: ``2 sd^2 / pi atan(L k)``; upwards: ``sd_w^2 / pi (2 atan(h k) - h k / (1 + (h k)^2))``."""
+    c = 0.177 + 0.000823 * 10.0 / 0.3048
+    ends = [10.0 / (10.0 / c**1.2) * end for end in (0.1, 30.0)]  # h k
+    along = 1.5**2 * 2.0 / pi * (atan(30.0) - atan(0.1))
+    low, high = (2.0 * atan(x) - x / (1.0 + x * x) for x in ends)
+    x = np.linspace(0.0, 40_000.0, 20_001)
+    u, w = GUSTS(0.0, (x, np.full_like(x, 50.0)))
+    assert np.var(u) == pytest.approx(along, rel=0.03)
+    assert np.var(w) == pytest.approx((1.5 * c**0.4) ** 2 / pi * (high - low), rel=0.03)
+    assert np.mean(u) == pytest.approx(-8.0, abs=0.05)
+
+
+def test_gusts_are_carried_along_by_the_wind():
+    assert GUSTS(2.0, (30.0, 40.0)) == pytest.approx(GUSTS(0.0, (30.0 + 16.0, 40.0)), rel=1e-12)
+
+
+def test_gusts_are_the_same_for_a_seed_and_none_at_the_ground():
+    assert Gusts(UniformWind(-8.0, 0.0), 1.5, 10.0, 3)(1.0, (9.0, 5.0)) == GUSTS(1.0, (9.0, 5.0))
+    assert Gusts(UniformWind(-8.0, 0.0), 1.5, 10.0, 4)(1.0, (9.0, 5.0)) != GUSTS(1.0, (9.0, 5.0))
+    assert GUSTS(1.0, (9.0, 0.1)) == (-8.0, 0.0)
 
 
 def test_moist_air_by_the_gas_law():
