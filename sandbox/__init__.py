@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from sandbox.lab.aim import Aim, aim
     from sandbox.lab.fit import Fit, fit
     from sandbox.lab.many import Runs, simulate_many
+    from sandbox.lab.session import Session, session
     from sandbox.lab.spread import Spread, spread
     from sandbox.lab.sweep import Sweep, sweep
     from sandbox.physics.air import Gusts, LogWind, UniformWind
@@ -64,6 +65,7 @@ _MODULES = {
     **dict.fromkeys(("Aim", "aim"), "sandbox.lab.aim"),
     **dict.fromkeys(("Fit", "fit"), "sandbox.lab.fit"),
     **dict.fromkeys(("Runs", "simulate_many"), "sandbox.lab.many"),
+    **dict.fromkeys(("Session", "session"), "sandbox.lab.session"),
     **dict.fromkeys(("Spread", "spread"), "sandbox.lab.spread"),
     **dict.fromkeys(("Sweep", "sweep"), "sandbox.lab.sweep"),
     **dict.fromkeys(("Gusts", "LogWind", "UniformWind"), "sandbox.physics.air"),
@@ -118,6 +120,7 @@ __all__ = [
     "Scene",
     "SceneRun",
     "Segment",
+    "Session",
     "Setup",
     "Sliding",
     "Slope",
@@ -143,6 +146,7 @@ __all__ = [
     "load",
     "pymunk_space",
     "regular",
+    "session",
     "simulate",
     "simulate_many",
     "spread",

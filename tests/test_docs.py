@@ -115,7 +115,7 @@ def test_commands_of_the_readme_can_be_given(command: str):
     shown = CliRunner().invoke(app, [name, "--help"], env={"COLUMNS": "200"}).output
     assert [arg for arg in args if arg.startswith("--") and arg not in shown] == []
     scene = args[0] if args and not args[0].startswith("--") else None
-    if scene is None or name == "new" or scene in ("./beachvolley", "my-shot.toml"):
+    if scene is None or name == "new" or scene in ("./beachvolley", "my-shot.toml", "shots.csv"):
         return
     known = {parameter.key for parameter in walk(sandbox.load(scene).parameters)}
     settings = [args[i + 1] for i, arg in enumerate(args) if arg in ("--set", "--vary", "--over")]
@@ -205,7 +205,7 @@ def test_code_of_the_page_on_environments_runs(monkeypatch: pytest.MonkeyPatch, 
     assert (one, many) == ("True True True\n", "(64,) True\n")
 
 
-@pytest.mark.parametrize("page", ["from-your-video.md", "from-your-launch-monitor.md"])
+@pytest.mark.parametrize("page", ["from-your-video.md", "from-your-launch-monitor.md", "session.md"])
 def test_measurements_are_fitted_as_the_page_says(page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys):
     for file in (ROOT / "docs" / "tracks").glob("*.[ct][sx][vt]"):
         (tmp_path / file.name).write_bytes(file.read_bytes())

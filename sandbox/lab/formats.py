@@ -94,6 +94,7 @@ class Form:
     needs: tuple[str, ...] = ()  # columns without which a table is none of this device
     club: tuple[str, ...] = ()  # columns with the club, or the kind of pitch
     beside: tuple[str, ...] = ()  # results that are compared only if the user names them
+    across: str = ""  # the column, in ft, of where a pitch crosses the plate, to the side
     length_unit: str = ""  # the column that names the unit of lengths
     zeros: bool = False  # 0 stands for what was not measured
     leave_out: tuple[Rule, ...] = ()  # rows that the scene does not describe

@@ -161,7 +161,7 @@ def mapped(scene: Scene, table: Table, column_map: ColumnMap, choices: Choices =
     before = list(selection.rows)
     _check_values(scene, column_map, selection, given, measured)
     if len(found) >= _TOLD_APART:
-        _leave_out_repeated(table, selection)
+        leave_out_repeated(table, selection)
     kept = np.isin(before, selection.rows)
     given, measured = ({key: one.of(kept) for key, one in some.items()} for some in (given, measured))
     unused = table.others({name.lower() for name in (*column_map.used, *(one.name for one in where))})
@@ -245,7 +245,7 @@ def _rows(table: Table, column_map: ColumnMap, where: Sequence[Condition], stric
     for source in column_map.sources:
         if source.key in SIDEWAYS:
             columns = [table.column(name) for name in source.expression.columns]
-            some = [row for row in selection.rows if not _are_missing(columns, row)]
+            some = [row for row in selection.rows if not are_missing(columns, row)]
             selection.need_numbers(columns, some)
     for rule in rules:
         column = _column(table, rule.column)
@@ -256,12 +256,12 @@ def _rows(table: Table, column_map: ColumnMap, where: Sequence[Condition], stric
     return selection
 
 
-def _are_missing(columns: Sequence[Column], row: int) -> bool:
+def are_missing(columns: Sequence[Column], row: int) -> bool:
     """True for a row in which any of the columns has no cell."""
     return any(column.cells[row].strip().lower() in {*_MISSING, "nan"} for column in columns)
 
 
-def _leave_out_repeated(table: Table, selection: Selection) -> None:
+def leave_out_repeated(table: Table, selection: Selection) -> None:
     """Leave out each row that has all cells of an earlier one: a file that was joined from two has shots twice."""
     seen: dict[tuple[str, ...], int] = {}
     for row in list(selection.rows):
@@ -360,7 +360,7 @@ def _numbers(table: Table, source: Source, column: Column, rows: Sequence[int], 
     """The numbers of a column in some rows; 0 for a missing one of what takes a shot out of the plane."""
     if source.key not in SIDEWAYS:
         return table.numbers(column, rows)
-    lacking = [row for row in rows if _are_missing([column], row)]
+    lacking = [row for row in rows if are_missing([column], row)]
     if lacking:
         notes.append(f"{column.name} is missing in {rows_text([row + 1 for row in lacking])}: taken as 0")
     return np.array([0.0 if row in set(lacking) else table.number(column, row) for row in rows])

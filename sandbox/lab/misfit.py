@@ -20,6 +20,7 @@ from sandbox.lab.runs import Progress, no_progress
 from sandbox.lab.selection import LeftOut, reasons, used
 from sandbox.lab.statistics import Numbers, round_number
 from sandbox.lab.table_file import Column as TableColumn
+from sandbox.lab.table_file import Table as FileTable
 from sandbox.text import with_noun
 
 #: A column of more different numbers than this is cut into bins; there are 4 to 11 of them.
@@ -52,7 +53,7 @@ class Compared:
 
 
 @dataclass(frozen=True)
-class _Misfit:
+class Misfit:
     """The results of all launches, and the groups of a column."""
 
     scene: str
@@ -74,7 +75,7 @@ def misfit(
     by: str | None = None,
     strict: bool = False,
     progress: Progress = no_progress,
-) -> _Misfit:
+) -> Misfit:
     """Run all launches; ``changes`` override what the table gives, and ``by`` is a column, or what one stands for.
 
     A launch that has no such result in the scene is left out. Raises RequestError; with ``strict`` also for such a
@@ -105,10 +106,10 @@ def misfit(
     rows = np.array(found.rows)
     results = tuple(_compared(name, one, rows, computed[name]).of(kept) for name, one in found.measured.items())
     if column is None:
-        return _Misfit(scene.title, results, left_out, shots.notes)
+        return Misfit(scene.title, results, left_out, shots.notes)
     unused = tuple(name for name in found.unused if name != column.name)
     notes = replace(shots, found=replace(found, unused=unused)).notes
-    return _Misfit(scene.title, results, left_out, notes, column.name, _groups(shots, column, rows[kept]))
+    return Misfit(scene.title, results, left_out, notes, column.name, groups_of(table, column, rows[kept]))
 
 
 def _compared(name: str, one: Quantity, rows: np.ndarray, computed: np.ndarray) -> Compared:
@@ -120,9 +121,9 @@ def _compared(name: str, one: Quantity, rows: np.ndarray, computed: np.ndarray) 
     return Compared(name, unit, rows, one.written, own)
 
 
-def _groups(shots: Shots, column: TableColumn, rows: np.ndarray) -> dict[str, np.ndarray]:
+def groups_of(table: FileTable, column: TableColumn, rows: np.ndarray) -> dict[str, np.ndarray]:
     """The launches of each word or number in these rows; of many numbers, those in each of some bins."""
-    table, places = shots.found.table, (rows - 1).tolist()
+    places = (rows - 1).tolist()
     if any(table.fault(column, place) for place in places):
         cells = np.array([column.cells[place].strip() for place in places])
         return {word or "(empty)": cells == word for word in dict.fromkeys(cells.tolist())}
@@ -141,7 +142,7 @@ def _groups(shots: Shots, column: TableColumn, rows: np.ndarray) -> dict[str, np
 # ------------------------------------------------------------------------------------------------------------- report
 
 
-def report_of(found: _Misfit) -> Report:
+def report_of(found: Misfit) -> Report:
     """A table by result, one of the groups for each result, and measured against computed as a chart."""
     head = f"{found.scene}: {with_noun(found.count, 'shot')}, computed minus measured"
     shots = used(found.count + len(found.left_out), found.left_out, "shot")
@@ -160,7 +161,7 @@ def report_of(found: _Misfit) -> Report:
     )
 
 
-def document(found: _Misfit) -> dict[str, Any]:
+def document(found: Misfit) -> dict[str, Any]:
     """The numbers by result, in the unit of each, with those of the groups, and every launch."""
     return {
         "scene": found.scene,
@@ -226,13 +227,13 @@ def _row(name: str, one: Compared) -> tuple[Any, ...]:
     )
 
 
-def _by_group(found: _Misfit) -> Iterator[Table]:
+def _by_group(found: Misfit) -> Iterator[Table]:
     for one in found.results if found.groups else ():
         rows = [_row(name, one.of(kept)) for name, kept in found.groups.items()]
         yield Table(_columns(found.by), rows, f"{one.result.replace('_', ' ')} by {found.by}")
 
 
-def _each(found: _Misfit) -> Table:
+def _each(found: Misfit) -> Table:
     """All launches one by one."""
     rows = [
         (str(row), one.result.replace("_", " "), measured, computed, computed - measured, one.unit)
@@ -244,7 +245,7 @@ def _each(found: _Misfit) -> Table:
     return Table([Column("row"), words("result"), *numbers, words()], rows, "launches", detail=True)
 
 
-def _chart(found: _Misfit) -> Chart:
+def _chart(found: Misfit) -> Chart:
     """Computed over measured values of each result, with the line on which they are alike."""
     panels = [
         Panel(partial(_dots, found, one), f"measured ({one.unit})" if one.unit else "measured", "computed",
@@ -254,7 +255,7 @@ def _chart(found: _Misfit) -> Chart:
     return Chart(panels, "Computed and measured", across=min(2, len(panels)), height=3.6)
 
 
-def _dots(found: _Misfit, one: Compared, axes: Any, colours: Mapping[str, Any]) -> None:
+def _dots(found: Misfit, one: Compared, axes: Any, colours: Mapping[str, Any]) -> None:
     both = np.concatenate([one.measured, one.computed])
     ends = [both.min(), both.max()]
     axes.plot(ends, ends, color=colours["card"]["quiet"], linewidth=1.2, zorder=1)

@@ -4,17 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import atan2, ceil, degrees, floor, sqrt
+from math import atan2, ceil, degrees, floor, log, sqrt
 from statistics import NormalDist
 
 import numpy as np
 
 #: Standard deviations to either side that hold 95 % of a normal distribution.
 _Z95 = NormalDist().inv_cdf(0.975)
-
-#: Squared size, in standard deviations, of the ellipse that holds 95 % of a normal distribution in two directions:
-#: ``-2 ln 0.05``.
-_ELLIPSE95 = -2.0 * float(np.log(0.05))
 
 #: The shares of the shots whose quantiles are given.
 QUANTILES = (0.025, 0.05, 0.25, 0.5, 0.75, 0.95, 0.975)
@@ -100,9 +96,15 @@ class Share:
 
 @dataclass(frozen=True)
 class Ellipse:
-    """The ellipse that holds 95 % of a normal distribution with the covariance of these points."""
+    """The ellipse that holds a ``share`` of a normal distribution with the covariance of these points."""
 
     points: np.ndarray  # m, shape (points, 2)
+    share: float = 0.95
+
+    @property
+    def _size(self) -> float:
+        """Squared size in standard deviations, in two directions: ``-2 ln(1 - share)``."""
+        return -2.0 * log(1.0 - self.share)
 
     @property
     def center(self) -> tuple[float, float]:
@@ -114,7 +116,7 @@ class Ellipse:
     def axes(self) -> tuple[float, float]:
         """Half the length of the long and of the short axis, in m."""
         (short, long), _ = self._principal
-        return sqrt(_ELLIPSE95 * max(long, 0.0)), sqrt(_ELLIPSE95 * max(short, 0.0))
+        return sqrt(self._size * max(long, 0.0)), sqrt(self._size * max(short, 0.0))
 
     @property
     def angle(self) -> float:
@@ -124,16 +126,16 @@ class Ellipse:
 
     @property
     def inside(self) -> float:
-        """The share of the points that are in it: 0.95 if they are normally distributed."""
+        """The share of the points that are in it: ``share`` if they are normally distributed."""
         (short, long), axes = self._principal
         away = (self.points - self.points.mean(axis=0)) @ axes
-        return float(((away**2 / np.maximum([short, long], 1e-300)).sum(axis=1) <= _ELLIPSE95).mean())
+        return float(((away**2 / np.maximum([short, long], 1e-300)).sum(axis=1) <= self._size).mean())
 
     def outline(self, points: int = 121) -> np.ndarray:
         """Points on it in m, shape (points, 2)."""
         turn = np.linspace(0.0, 2.0 * np.pi, points)
         (short, long), axes = self._principal
-        sizes = np.sqrt(_ELLIPSE95 * np.maximum([short, long], 0.0))
+        sizes = np.sqrt(self._size * np.maximum([short, long], 0.0))
         return np.asarray(self.center + (np.column_stack([np.cos(turn), np.sin(turn)]) * sizes) @ axes.T)
 
     @property

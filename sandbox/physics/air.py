@@ -118,9 +118,9 @@ class Gusts:
 
     It is a sum of cosines with random phases, the same for the same ``seed`` (Shinozuka and Deodatis 1991, Appl. Mech.
     Rev. 44:191), and smooth in time and place. Waves longer than 60 L_u or shorter than L_u / 5 (13 m at a height of
-    10 m) are left out, with 8 % of the variance along the ground and 22 % of that upwards; so are gusts to the side, and
-    that scale and strength change with height. Below a height of 1 m gusts fade, to nothing below 10 cm (assumed): what
-    lies on the ground stays there.
+    10 m) are left out, with 8 % of the variance along the ground and 22 % of that upwards; so are gusts to the side,
+    and that scale and strength change with height. Below a height of 1 m gusts fade, to nothing below 10 cm (assumed):
+    what lies on the ground stays there.
 
     >>> from sandbox import Drag, Gusts, UniformWind
     >>> drag = Drag(coefficient=0.25, wind=Gusts(UniformWind(-5.0, 0.0), sd=1.0, height=10.0, seed=3))

@@ -76,12 +76,16 @@ class Weather(AirByDensity):
 
 def wind_in(air: AirByDensity) -> Wind | None:
     """The wind as a velocity field, or None for still air."""
-    gusts = air.gusts if isinstance(air, OutdoorAir) else 0.0
-    if air.wind == (0.0, 0.0) and not anywhere(gusts > 0.0):
+    outdoors = air if isinstance(air, OutdoorAir) else None
+    gusty = outdoors is not None and anywhere(outdoors.gusts > 0.0)
+    if air.wind == (0.0, 0.0) and not gusty:
         return None
-    outdoors = isinstance(air, OutdoorAir) and air.profile == "log"
-    mean = LogWind(air.wind, air.reference_height, air.roughness) if outdoors else UniformWind(*air.wind)
-    return Gusts(mean, gusts, air.reference_height, int(air.gust_seed)) if anywhere(gusts > 0.0) else mean
+    mean: UniformWind | LogWind = UniformWind(*air.wind)
+    if outdoors is not None and outdoors.profile == "log":
+        mean = LogWind(air.wind, outdoors.reference_height, outdoors.roughness)
+    if outdoors is None or not gusty:
+        return mean
+    return Gusts(mean, outdoors.gusts, outdoors.reference_height, int(outdoors.gust_seed))
 
 
 class Model(Group):

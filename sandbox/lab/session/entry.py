@@ -1,0 +1,3 @@
+"""Commands that sessions add."""
+
+COMMANDS = {"session": "sandbox.lab.session.command"}
