@@ -46,7 +46,7 @@ class OutdoorAir(Air):
     elevation: float | None = quantity(None, "m", -500, 9000, "in place of the density, that of air so high at 20 C")
 
     @property
-    def air(self) -> Air:
+    def air(self) -> Self:
         """The air; by temperature and elevation, one of which may be 20 C or the sea, at 1013.25 hPa without vapour."""
         if self.temperature is None and self.elevation is None:
             return self
