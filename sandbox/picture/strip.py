@@ -46,12 +46,23 @@ def strip_times(run: Run, until: float) -> list[float]:
     return sorted([0.0, *between, *shown, until])
 
 
+def full_rows(times: list[float]) -> tuple[list[float], int]:
+    """The times in s with as many more, in the longest gaps, as fill the rows of a strip; and the frames in a row."""
+    rows = ceil(len(times) / _ACROSS)
+    columns = ceil(len(times) / rows)
+    full = sorted(times)
+    while len(full) < rows * columns:
+        longest = int(np.argmax(np.diff(full))) if len(full) > 1 else 0
+        full.insert(longest + 1, (full[longest] + full[min(longest + 1, len(full) - 1)]) / 2)
+    return full, columns
+
+
 def film_strip(picture: View[Any], run: Run) -> pygame.Surface:
-    """The frames in rows, in the order in which one reads; each is as large as the picture."""
-    frames = [picture.frame(t) for t in strip_times(run, picture.story_end)]
+    """The frames in full rows, in the order in which one reads; each is as large as the picture."""
+    times, columns = full_rows(strip_times(run, picture.story_end))
+    frames = [picture.frame(t) for t in times]
     width, height = frames[0].get_size()
-    rows = ceil(len(frames) / _ACROSS)
-    columns = ceil(len(frames) / rows)
+    rows = len(frames) // columns
     margin, gap = round(_MARGIN * height), round(_GAP * height)
     wide, tall = columns * (width + gap) + gap, height + 2 * margin
     strip = blank((wide, rows * tall + (rows - 1) * gap))

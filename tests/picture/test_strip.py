@@ -7,7 +7,7 @@ import pygame
 import pytest
 
 import sandbox
-from sandbox.picture.strip import FILM, FRAMES, NEAR, film_strip, strip_times
+from sandbox.picture.strip import FILM, FRAMES, NEAR, film_strip, full_rows, strip_times
 from tests.scenes.play import run_of
 
 
@@ -55,7 +55,7 @@ def test_frames_stand_in_rows_that_fit_a_page(name):
     """In the order in which one reads, as evenly as may be, each whole and with holes above and below."""
     run = run_of(name)
     picture = run.scene.picture(run, (320, 180))
-    times = strip_times(run, picture.story_end)
+    times, _ = full_rows(strip_times(run, picture.story_end))
     strip = film_strip(picture, run)
     width, height = strip.get_size()
     assert width < 4.5 * 320
@@ -88,3 +88,12 @@ def _found(frame, pixels):
             return rect
         at = strip.find(part, at + 1)
     raise AssertionError("a frame is not in the strip as a whole")
+
+
+@pytest.mark.parametrize("count", [1, 4, 5, 7, 10, 13])
+def test_no_place_in_a_strip_stays_empty(count):
+    times, columns = full_rows([float(i) for i in range(count)])
+    assert len(times) % columns == 0
+    assert len(times) <= count + 3
+    assert set(range(count)) <= set(times)
+    assert times == sorted(set(times))
