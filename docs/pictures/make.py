@@ -5,17 +5,26 @@ from __future__ import annotations
 import os
 import sys
 import tempfile
+import tomllib
 from collections.abc import Sequence
+from math import dist
 from pathlib import Path
+from typing import Any
 
 os.environ |= {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
 
+import numpy as np
 import pygame
 from PIL import Image
 
 import sandbox
 from sandbox.cli import main as program
+from sandbox.picture.camera import Box, Camera
 from sandbox.picture.frames import to_image
+from sandbox.picture.long import LongView
+from sandbox.picture.painter import Painter, blank
+from sandbox.picture.places.plan import Ground, draw_moving
+from sandbox.picture.view import View
 from sandbox.scene.finding import installed_folders
 from sandbox.window.app import App
 from sandbox.window.canvas import Canvas
@@ -35,6 +44,11 @@ SIZE, GAP = (720, 405), 6  # px
 WINDOW, FRAME = (1280, 720), 1 / 60  # px, s
 #: The pull of the free throw that goes in, in px.
 PULL = (-111, 142)
+#: On a tile what decides and the ball fill this share of it, and the ball is so far away, in sides of what decides.
+FILLS, AWAY = 0.72, 0.7
+#: The ground's row from the side, as a share of the height; the least radius of the ball in px of twice the tile; what
+#: lies around a place from above.
+GROUND, LEAST, DARK, EVERYWHERE = 0.82, 18.0, (22, 30, 38), Box(-1e3, -1e3, 1e3, 1e3)
 QUALITY = 88  # of JPEG: the smallest at which letters stay clean
 
 SWEEP = ("sweep", "basketball", "--over", "launch.speed=6.8:8.6:73", "--over", "launch.angle=40:70:61")
@@ -117,13 +131,63 @@ def tiles(names: Sequence[str] = ()) -> None:
     for name, folder in sorted(installed_folders().items()):
         if names and name not in names:
             continue
-        scene = sandbox.load(name)
-        stage = Stage(Shot(scene, sandbox.simulate(scene)), (3 * TILE[0], 3 * TILE[1]))
-        sheet = Canvas(stage.backdrop.copy())
-        stage.draw_path(sheet, stage.shot)
-        stage.draw_balls(sheet, stage.shot, stage.story)
-        small = to_image(sheet.surface).resize(TILE, Image.Resampling.LANCZOS)
+        chosen = tomllib.loads((folder / "tile.toml").read_text("utf-8"))
+        scene = sandbox.load("/".join(filter(None, (name, chosen.get("shot", "")))))
+        view = scene.picture(sandbox.simulate(scene), (2 * TILE[0], 2 * TILE[1]))
+        surface = _hero(view, **{key: chosen[key] for key in ("larger", "moment", "wide") if key in chosen})
+        small = to_image(surface).resize(TILE, Image.Resampling.LANCZOS)
         small.save(folder / TILE_FILE, quality=QUALITY, optimize=True, progressive=True)
+
+
+def _hero(view: View[Any], larger: float = 1.0, moment: float = 0.0, wide: float = 0.0) -> pygame.Surface:
+    """What decides a run, and the ball on its way there, so large that both are known at a glance; or the ball at a
+    ``moment`` in s, with so many m around it."""
+    story, (width, height), ball = view.story, view.size, view.ball
+    if story is None and not wide:
+        return _whole(Shot(view.run.scene, view.run))
+    if story is None or wide:
+        t, places = moment, np.array([np.add(view.run.state(ball, moment)[:2], side * wide / 2) for side in (-1, 1)])
+    else:
+        ball = story.balls[-1][0] if story.balls else ball
+        end, t = view.run.state(ball, story.at)[:2], story.at
+        while t > 0.0 and dist(view.run.state(ball, t)[:2], end) < AWAY * story.side / larger:
+            t -= 0.002
+        places = np.array([story.place[:2], story.place[2:], view.run.state(ball, t)[:2]])
+    low, high = places.min(axis=0), places.max(axis=0)
+    scale = larger * FILLS * min(width / (high[0] - low[0]), height / (high[1] - low[1]))
+    if wide:
+        scale = width / wide
+    (x, y), level = (low + high) / 2, view.camera.at[1]
+    top = (y if wide else high[1]) - level
+    on_ground = view.floor is not None and top * scale < (GROUND - 0.08) * height
+    foot = GROUND * height if on_ground else height / 2 + (y - level) * scale
+    camera = Camera((x, level), (width / 2, foot), scale)
+    if view.floor is None:
+        surface = blank(view.size)
+        draw_moving(surface, (Ground(EVERYWHERE, getattr(view, "ROOM_COLOUR", DARK)), *view.plan), camera)
+    else:
+        surface = view.backdrop_of(camera)
+    painter = Painter(surface)
+    view.behind(painter, camera, t)
+    view.draw_driven(painter, camera, t)
+    view.trail(painter, camera, ball, t)
+    for name in view.present(t):
+        radius = max(view.radii[name] * camera.scale, LEAST if name == ball else view.min_radius)
+        at = view.spots(camera, np.array([view.position_of(name, t)]), radius, name)[0]
+        view.shadow(painter, camera, name, t, at, radius)
+        view.looks[name].draw(painter, at, radius, view.turn(name, t), view.unit)
+    if not isinstance(view, LongView):
+        view.before(painter, camera, t)
+    return surface
+
+
+def _whole(shot: Shot) -> pygame.Surface:
+    """A shot with its path, of a scene in which no moment decides."""
+    stage = Stage(shot, (3 * TILE[0], 3 * TILE[1]))
+    sheet = Canvas(stage.backdrop.copy())
+    stage.draw_path(sheet, shot)
+    stage.draw_balls(sheet, shot, stage.story)
+    return sheet.surface
 
 
 def post(app: App, kind: int, **values: object) -> None:
