@@ -51,14 +51,14 @@ WAYS: dict[str, Sequence[str]] = {
 }
 
 
-#: Calls commands and prints the outcome of each; settings are timed by fewer repeats.
+#: Calls commands and prints the outcome of each; settings are timed less often, and extremes tried by two methods.
 CALLS = """
 import io, json, sys
 from contextlib import redirect_stderr, redirect_stdout
 from sandbox.cli import main
-from sandbox.lab import trade
+from sandbox.lab import stress, trade
 if __name__ == "__main__":
-    trade._PATIENCE, outcomes = 0.01, {}
+    trade._PATIENCE, stress.ALL, outcomes = 0.01, ("dormand-prince", "plain"), {}
     for name, *arguments in json.loads(sys.argv[1]):
         with redirect_stdout(io.StringIO()) as out, redirect_stderr(io.StringIO()) as err:
             code = main([name, *arguments])
