@@ -8,6 +8,7 @@ import numpy as np
 
 from sandbox.kit import (
     AboveView,
+    Area,
     Box,
     Look,
     Story,
@@ -24,7 +25,7 @@ COLOURS = scene_colours(__file__)
 #: Width in m of the boards around the lane, and radius of the post of a windmill.
 FRAME, POST = 0.09, 0.04
 #: So much of the lane is seen behind tee and hole, and behind where the ball turns round, in m.
-AROUND = 1.0
+AROUND = 0.65
 #: Shades of a ramp.
 BANDS = 24
 
@@ -32,6 +33,12 @@ BANDS = 24
 class Picture(AboveView[Parameters]):
     LOOK, TRACE, OTHER_TRACES = Look(COLOURS["ball"], seams(COLOURS["seam"])), COLOURS["trace"], COLOURS["earlier"]
     DRIVEN, CAVEAT = COLOURS["driven"], "boards and blades not validated"
+
+    @property
+    def area(self) -> Area:
+        """As wide as the picture: the lane is long."""
+        side = 0.03 * self.size[0]
+        return super().area._replace(left=side, right=self.size[0] - side)
 
     @property
     def datum(self) -> tuple[tuple[float, float], str]:
