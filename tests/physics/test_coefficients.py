@@ -143,6 +143,14 @@ def test_tour_fit_is_near_what_flow_simulations_find(reynolds: float, spin_ratio
     assert law.tour_fit_lift(reynolds, spin_ratio) == pytest.approx(lift, abs=0.07)
 
 
+@given(spin_ratio=st.floats(0.0, 3.0), more=st.floats(0.0, 3.0), reynolds=st.floats(0.0, 5e5))
+def test_monitor_fit_rises_with_the_spin_within_bounds(spin_ratio: float, more: float, reynolds: float):
+    for model in (law.monitor_fit_lift, law.monitor_fit_drag):
+        assert model(reynolds, spin_ratio + more) >= model(reynolds, spin_ratio)
+    assert law.monitor_fit_drag(2.0 * reynolds, 0.0) <= law.monitor_fit_drag(reynolds, 0.0)
+    assert 0.183 <= law.monitor_fit_drag(reynolds, spin_ratio) < 0.62
+
+
 # The formulas of the papers -------------------------------------------------------------------------------------------
 
 

@@ -25,14 +25,15 @@ from sandbox.physics.turf import STIMPMETER_SPEED
 from scenes.golf.course import kind_at
 from tests.scenes.play import playing
 
-YARD, FOOT, RPM = 0.9144, 0.3048, pi / 30.0
+YARD, FOOT, MPH, RPM = 0.9144, 0.3048, 0.44704, pi / 30.0
 RADIUS, G = 0.021335, 9.81
 REFERENCE = Path(__file__).parent.parent / "reference"
 FOLDER = Path(sandbox.__file__).parent.parent / "scenes" / "golf"
 PRESETS, PUBLISHED = FOLDER / "presets", FOLDER / "published"
 
-#: Air of the tour averages: dry, 25 C, sea level.
+#: Air of the tour averages, dry, 25 C, sea level; and the ball that was fitted to them.
 TOUR_AIR = {"air.density": 1.1839}
+BALL_OF_TOURS = {"ball.drag.model": "tour-fit", "ball.lift.model": "tour-fit"}
 
 VERDICTS = dict.fromkeys(sorted(path.stem for path in PRESETS.glob("*.toml")), "rest") | {
     "putt": "cup",
@@ -82,7 +83,7 @@ def misfit(tour: str, **changes: Any) -> np.ndarray:
 
 def test_a_ball_pulled_from_rolling_by_the_wind_slides_on():
     """Its path follows spin and speed only to the tolerance: the slip they differ by must not choose its direction."""
-    run = play(**{"air.wind": [-100.0, -100.0]})
+    run = play(**{"air.wind": [-100.0, -100.0], **BALL_OF_TOURS})
     phases = [arc.phase for arc in run.arcs["ball"] if arc.contact is not None]
     changes = [phase for phase, before in zip(phases, [None, *phases], strict=False) if phase is not before]
     assert changes == [Phase.SLIDING, Phase.ROLLING, Phase.SLIDING, Phase.ROLLING]
@@ -91,7 +92,21 @@ def test_a_ball_pulled_from_rolling_by_the_wind_slides_on():
 @pytest.mark.parametrize(("tour", "most"), [("PGA", [2.0, 1.9, 3.3]), ("LPGA", [2.5, 2.0, 4.1])])  # LPGA: not fitted
 def test_the_tour_averages_are_met(tour: str, most: list[float]):
     """The aim: at most 2.9 yd, 3.0 deg and 3.5 yd together, with one set of numbers for all clubs."""
-    assert np.all(misfit(tour) <= most)
+    assert np.all(misfit(tour, **BALL_OF_TOURS) <= most)
+
+
+def test_a_launch_monitors_drives_end_as_it_says():
+    """Those that were not fitted; by the tours' ball they are 7 yd short, 3.5 deg too steep and 6 mph too slow."""
+    rows = [row for row in table("monitor.csv") if row["kind"] == "model"]
+    units = {"carry": ("carry_yd", YARD), "apex": ("apex_ft", FOOT), "landing_angle": ("landing_angle_deg", 1.0),
+             "landing_speed": ("landing_speed_mph", MPH), "flight_time": ("time_s", 1.0)}  # fmt: skip
+    launches = {"launch.speed": ("ball_speed_mph", MPH), "launch.angle": ("launch_angle_deg", 1.0),
+                "launch.spin": ("spin_rpm", 1.0)}  # fmt: skip
+    points = {key: [float(row[column]) * unit for row in rows] for key, (column, unit) in launches.items()}
+    found = sandbox.simulate_many(sandbox.load("golf"), points, facts=tuple(units)).facts
+    off = [found[key] / unit - [float(row[column]) for row in rows] for key, (column, unit) in units.items()]
+    assert len(rows) == 16
+    assert np.all(np.sqrt(np.mean(np.square(off), axis=1)) <= [3.0, 3.0, 1.0, 1.5, 0.1])
 
 
 @pytest.mark.parametrize("row", table("golf_models.csv"), ids=lambda row: f"{row['model']} {row['tour']}")
@@ -413,7 +428,7 @@ def test_there_is_a_preset_for_every_club_of_the_tour():
 @pytest.mark.parametrize("name", [None, *(name for name, verdict in VERDICTS.items() if verdict == "rest")])
 def test_shots_that_are_meant_to_end_near_the_pin_do(name: str | None):
     found = play("golf" if name is None else f"golf/{name}").result
-    short_on_purpose = {"slice": 28.5, "headwind": 69.0, "topped": 139.0, "blow-up": 59.0}
+    short_on_purpose = {"slice": 29.5, "headwind": 70.0, "topped": 148.0, "blow-up": 82.5}
     assert found["distance_to_pin"] == pytest.approx(short_on_purpose.get(name or "", 3.5), abs=3.5)
 
 
@@ -508,17 +523,8 @@ def turning_earth(parameters: Any, forces: list[Any]) -> list[Any]:
     return [*forces, lambda t, position, velocity, spin: (-k * velocity[1], k * velocity[0])]
 
 
-def fading_lift(parameters: Any, forces: list[Any]) -> list[Any]:
-    """Half of the lift goes in the drag crisis."""
-
-    def faded(reynolds, spin_ratio):
-        return coefficients.tour_fit_lift(reynolds, spin_ratio) * (1.0 - 0.5 / (1.0 + (reynolds / 0.68e5) ** 8))
-
-    return [*forces[:2], Magnus(RADIUS, parameters.air.density, faded, viscosity=parameters.air.viscosity)]
-
-
 @pytest.mark.parametrize(
-    ("effect", "metres"), [(buoyant, 0.13), (thinner_higher_up, 0.22), (turning_earth, 0.04), (fading_lift, -2.6)]
+    ("effect", "metres"), [(buoyant, 0.163), (thinner_higher_up, 0.164), (turning_earth, 0.055)]
 )
 def test_what_is_left_out_is_worth_what_the_docstring_says(effect: Any, metres: float):
     unchanged = carry_with(lambda parameters, forces: forces)
