@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -71,7 +72,7 @@ def validate(
 
         if teeth:
             raise RequestError("--teeth: says what the published numbers test; it cannot be combined with --against")
-        given = read_against(against, scene, choices)
+        given = read_against(against, scene, replace(choices, decided=tuple(changes)))
         tolerances = pairs("--within", within)
         if isinstance(given, Shots) and not tolerances:
             with bar("validate") as progress:

@@ -25,7 +25,8 @@ from sandbox.lab.formats import (
 from sandbox.lab.selection import LeftOut, Selection, rows_text, used
 from sandbox.lab.table_file import Column, Table, split_unit
 from sandbox.lab.where import Condition, conditions
-from sandbox.scene import Scene
+from sandbox.parameters import walk
+from sandbox.scene import Scene, load
 from sandbox.text import nearest, shortened
 
 #: No result of a shot is as large as this in any unit: some monitors write -21474836480 for what they did not measure.
@@ -65,6 +66,7 @@ class Choices:
     without: tuple[str, ...] = ()  # columns that are not used
     strict: bool = False  # refuse a row with a fault, which is otherwise left out
     beside: bool = False  # read results too that a monitor has of its own, such as the roll
+    decided: tuple[str, ...] = ()  # parameters that are set or varied: not taken as usual where a table lacks them
 
     def __bool__(self) -> bool:
         """True if anything is chosen."""
@@ -166,7 +168,29 @@ def mapped(scene: Scene, table: Table, column_map: ColumnMap, choices: Choices =
     given, measured = ({key: one.of(kept) for key, one in some.items()} for some in (given, measured))
     unused = table.others({name.lower() for name in (*column_map.used, *(one.name for one in where))})
     rows = tuple(row + 1 for row in selection.rows)
+    given |= _usual(scene, given, choices.decided, notes)
     return Mapped(table, given, measured, rows, tuple(notes), selection.left_out, unused, column_map.columns)
+
+
+def _usual(
+    scene: Scene, given: Mapping[str, Quantity], decided: Sequence[str], notes: list[str]
+) -> dict[str, Quantity]:
+    """What the scene takes as usual where a table has no such column, and the parameter is neither decided nor
+    changed."""
+    usual = getattr(scene.module, "usual", None)
+    if usual is None or not given:
+        return {}
+    own, default = ({one.key: one.value for one in walk(each.parameters)} for each in (scene, load(scene.name)))
+    known = {*given, *decided, *(key for key, value in own.items() if value != default.get(key))}
+    some = {key: one.values for key, one in given.items()}
+    found = {key: values for key, values in usual(some, known).items() if key not in known}
+    if found:
+        notes.append(f"no column for {', '.join(found)}: taken as usual for such shots")
+    count, declared = len(next(iter(given.values())).values), declared_units(scene)
+    return {
+        key: Quantity(full := np.broadcast_to(values, count), ("",) * count, full, declared[key])
+        for key, values in found.items()
+    }
 
 
 def _check_values(

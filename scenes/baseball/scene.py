@@ -10,9 +10,10 @@ where the ball would come down.
 
 from __future__ import annotations
 
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from math import inf
-from typing import Literal
+from typing import Any, Literal
 
 from sandbox.kit import (
     APEX,
@@ -96,13 +97,21 @@ class BattedBall(SidewaysLaunch):
     """The ball as it leaves the bat."""
 
     sidespin: float = quantity(..., "rpm", -20000, 20000, "about an upright axis, to the right; not if axis is given")
+    spray: float | None = quantity(
+        None, "deg", -80, 80, "off straight away to the opposite field, in place of sidespin: that of an average ball"
+    )
+
+    @property
+    def side(self) -> float:
+        """The sidespin in rpm, of an average ball if the spray is given (Nathan 2016, trajectory calculator)."""
+        return self.sidespin if self.spray is None else 849.0 + 94.0 * self.spray
 
     @property
     def active_spin(self) -> float:
         """The spin in rpm of both, with the sign of the backspin."""
         if self.axis is not None:
             return self.spin
-        both = (self.spin * self.spin + self.sidespin * self.sidespin) ** 0.5
+        both = (self.spin * self.spin + self.side * self.side) ** 0.5
         return where(self.spin < 0.0, -both, both)
 
     @property
@@ -117,7 +126,7 @@ class BattedBall(SidewaysLaunch):
 
     @property
     def side_share(self) -> float:
-        return super().side_share if self.axis is not None else self.sidespin / (self.active_spin or inf)
+        return super().side_share if self.axis is not None else self.side / (self.active_spin or inf)
 
     def square_to(self, ball: Ball) -> complex:
         return super().square_to(ball) if self.axis is not None else 1.0 + 0.0j
@@ -158,7 +167,21 @@ def as_hit(parameters: Parameters) -> Parameters:
     """The parameters of the ball as it flies: a bat gives no sidespin."""
     if parameters.start == "launch":
         return parameters
-    return parameters.model_copy(update={"launch": parameters.launch.model_copy(update={"sidespin": 0.0})})
+    return parameters.model_copy(update={"launch": parameters.launch.model_copy(update={"sidespin": 0.0, "spray": None})})
+
+
+#: Sidespin in rpm with which a ball flies as far as balls do on average whose spray scatters by 25 deg, as that of fly
+#: balls does: tests/reference/fly_balls.py.
+USUAL_SIDESPIN = 2190.0
+
+
+def usual(given: Mapping[str, Any], known: Collection[str]) -> Mapping[str, Any]:
+    """The spin of average balls in a table that has only speed and angle, by those (Nathan 2016), in rpm.
+
+    Without it they would all be hit straight away, and come down 17 ft too far.
+    """
+    found = {} if {"launch.axis", "launch.spray"} & {*known} else {"launch.sidespin": USUAL_SIDESPIN}
+    return found if "launch.angle" not in given else found | {"launch.spin": -763.0 + 120.0 * given["launch.angle"]}
 
 
 def build(parameters: Parameters) -> Setup:

@@ -37,7 +37,7 @@ def test_the_command_draws_and_prints(tmp_path, monkeypatch, capsys):
     assert "wrote soccer-coefficients.png" in capsys.readouterr().out
     assert call(["coefficients", "golf", "--json", "--plot", "own.png"]) == 0
     assert (tmp_path / "own.png").exists()
-    assert json.loads(capsys.readouterr().out)["lift"]["chosen"] == "tour-fit"
+    assert json.loads(capsys.readouterr().out)["lift"]["chosen"] == "monitor-fit"
 
 
 def test_a_scene_without_air_is_refused(capsys):

@@ -296,7 +296,8 @@ def test_a_device_has_units_where_the_file_has_none(tmp_path, carries):
 def test_statcast_and_columns_by_hand(tmp_path):
     speeds, angles = [42.0, 45.0, 47.0], [24.0, 28.0, 31.0]
     points = {"launch.speed": speeds, "launch.angle": angles}
-    far = sandbox.simulate_many(sandbox.load("baseball", {"launch.spin": 2100.0}), points, facts=("distance",))
+    spun = sandbox.load("baseball", {"launch.spin": 2100.0, "launch.sidespin": 2190.0})
+    far = sandbox.simulate_many(spun, points, facts=("distance",))
     rows = list(zip(speeds, angles, far["distance"].tolist(), strict=True))
     lines = [f"F,{v / 0.44704},{a},{d / 0.3048},2300\n" for v, a, d in rows]
     head = "type,launch_speed,launch_angle,hit_distance_sc,release_spin_rate\n"

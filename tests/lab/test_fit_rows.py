@@ -197,7 +197,7 @@ def test_ground_balls_are_left_out_by_rule(tmp_path: Path):
     """Their distance is where they were fielded: with them the spin would stop at the end of its range."""
     speeds, angles = [42.0, 45.0, 47.0, 44.0], [24.0, 28.0, 31.0, 19.0]
     points = {"launch.speed": speeds, "launch.angle": angles}
-    far = sandbox.simulate_many(sandbox.load("baseball", {"launch.spin": 2100.0}), points, facts=("distance",))
+    far = sandbox.simulate_many(sandbox.load("baseball", {"launch.spin": 2100.0, "launch.sidespin": 2190.0}), points, facts=("distance",))
     rows = [f"{v / 0.44704},{a},{d / 0.3048 + 1},fly_ball\n"
             for v, a, d in zip(speeds, angles, far["distance"].tolist(), strict=True)]  # fmt: skip
     rows += ["104.2,-12,9,ground_ball\n", "101.0,4,140,line_drive\n", "98,15,120,ground_ball\n"]
@@ -473,9 +473,9 @@ def test_a_parameter_that_is_not_set_starts_in_the_middle():
 
 def test_a_density_that_is_not_set_is_fitted(tmp_path: Path):
     points = {"launch.speed": [42.0, 44.0, 45.0], "launch.angle": [30.0, 28.0, 27.0]}
-    far = sandbox.simulate_many(sandbox.load("baseball", {"air.density": 1.12}), points, facts=("distance",))[
-        "distance"
-    ]
+    usual = {"launch.spin": [2837.0, 2597.0, 2477.0], "launch.sidespin": [2190.0] * 3}  # rpm, of average balls
+    scene = sandbox.load("baseball", {"air.density": 1.12})
+    far = sandbox.simulate_many(scene, points | usual, facts=("distance",))["distance"]
     table = {"v": points["launch.speed"], "up": points["launch.angle"], "far": far.tolist()}
     columns = {"launch.speed": "v [m/s]", "launch.angle": "up [deg]", "distance": "far [m]"}
     found = sandbox.fit("baseball", table, {"air.density": (1.0, 1.3)}, columns=columns)

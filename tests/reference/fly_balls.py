@@ -7,6 +7,9 @@ such a launch (Nathan, trajectory calculator), with backspin -763 + 120 per degr
 the opposite field, sidespin 849 + 94 per degree of spray that way, all in rpm. Nothing is fitted. The air is the
 scene's.
 
+A table without spray gets the sidespin, printed here, with which these balls fly as far as they would on average if
+their spray scattered by 25 deg, as it does (``usual`` in scenes/baseball/scene.py).
+
 It prints the errors, what they are for who does not know the spray (the spin of a ball straight away) and without
 sidespin, and the means of groups of some eight balls as rows of
 scenes/baseball/published/fly.csv.
@@ -20,9 +23,15 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from statistics import mean, stdev
 
+from numpy.polynomial.hermite_e import hermegauss
+from scipy.optimize import brentq
+
 import sandbox
 
 FOOT = 0.3048  # m
+
+#: Standard deviation of the spray of these balls, in deg.
+SCATTER = 25.0
 
 #: Balls of less than this launch angle in deg are told apart from the others.
 HIGH = 30
@@ -36,6 +45,7 @@ class FlyBall:
     angle: float  # deg
     opposite: float  # deg to the opposite field from straight away
     distance: float  # ft
+    season: str
 
     @property
     def backspin(self) -> float:
@@ -57,6 +67,7 @@ def read() -> list[FlyBall]:
             float(row["launch_angle_deg"]),
             float(row["spray_deg"]) * (1.0 if row["bats"] == "R" else -1.0),
             float(row["distance_ft"]),
+            row["season"],
         )
         for row in rows
     ]
@@ -79,6 +90,17 @@ def straight_away(balls: Sequence[FlyBall]) -> list[FlyBall]:
     return [replace(ball, opposite=0.0) for ball in balls]
 
 
+def usual_sidespin(balls: Sequence[FlyBall]) -> float:
+    """The sidespin in rpm that takes as much of the distance as that of a normal spray does on average."""
+    places, weights = hermegauss(9)
+
+    def far(opposite: float) -> float:
+        return mean(errors([replace(ball, opposite=opposite) for ball in balls]))
+
+    usually = float(sum(weights * [far(SCATTER * place) for place in places]) / sum(weights))
+    return 849.0 + 94.0 * brentq(lambda opposite: far(opposite) - usually, 0.0, 40.0, xtol=0.1)
+
+
 def groups(balls: Sequence[FlyBall]) -> list[list[FlyBall]]:
     """Some eight balls each, of like launch angle and speed."""
     found = []
@@ -94,6 +116,9 @@ def described(name: str, off: Sequence[float]) -> str:
 
 def main() -> None:
     balls = read()
+    print(f"usual sidespin: {usual_sidespin(balls):.0f} rpm")
+    for season in ("2019", "2020"):
+        print(described(season, errors([ball for ball in balls if ball.season == season])))
     ways = (("", balls, 1.0), (", spray unknown", straight_away(balls), 1.0), (", no sidespin", balls, 0.0))
     for words, thrown, share in ways:
         off = errors(thrown, share)

@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from pathlib import Path
 from statistics import mean, stdev
 
 import pytest
 
 import sandbox
+from sandbox.lab.against import Shots, read_against
+from sandbox.lab.mapped import choices_of
+from sandbox.lab.misfit import misfit
+from sandbox.lab.statistics import Numbers
 from tests.reference.fly_balls import errors, groups, read, straight_away
 from tests.scenes.play import results_of
 
@@ -25,6 +31,28 @@ def test_tracked_fly_balls_are_right_on_average():
     unknown = errors(straight_away(balls))
     assert (mean(unknown), stdev(unknown)) == pytest.approx((17.3, 17.7), abs=0.1)  # of who does not know the spray
     assert sum(map(len, groups(balls))) == 85
+
+
+def test_the_spray_gives_an_average_balls_sidespin():
+    """849 rpm straight away and 94 more per degree to the opposite field."""
+    assert hit(launch__spray=10.0) == hit(launch__sidespin=1789.0)
+    assert hit(launch__spray=-20.0) == hit(launch__sidespin=-1031.0)
+
+
+def test_a_table_without_spray_is_right_on_average():
+    """The 85 balls without their spray and spin; straight away, as before, they are 17 ft too far."""
+    columns = {"launch.speed": "exit_speed_mph [mph]", "launch.angle": "launch_angle_deg [deg]", "distance": "distance_ft [ft]"}
+    table = Path(__file__).parent.parent / "reference" / "fly_balls.csv"
+
+    def off(**changes: float) -> Numbers:
+        dotted = {key.replace("__", "."): value for key, value in changes.items()}
+        shots = read_against(table, "baseball", replace(choices_of(columns, (), (), False), decided=tuple(dotted)))
+        assert isinstance(shots, Shots)
+        return misfit(shots, dotted).results[0].off
+
+    assert off().mean == pytest.approx(1.3, abs=0.3)
+    assert off(launch__spray=0.0).mean == pytest.approx(17.3, abs=0.1)
+    assert off(launch__spin=2500.0, launch__sidespin=849.0).mean == pytest.approx(22.2, abs=0.1)
 
 
 def test_sidespin_costs_distance_on_either_side():

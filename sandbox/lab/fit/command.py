@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -114,6 +115,7 @@ def fit(
         fps,
         dict(map(parse_ball, balls)),
     )
+    choices = replace(choices, decided=(*changes, *(span.key for span in spans)))
     data = read_data(chosen, tracks, Reading(film, parse_free("--free", free), choices))
     if save is not None:
         check_saving("--save", save, has_points=not isinstance(data, Launches))

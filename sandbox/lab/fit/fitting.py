@@ -7,6 +7,7 @@ parameters through bounces too, and differences of neighbouring runs are good de
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -70,7 +71,7 @@ def fit(
     check_mapping("vary", vary, '{"launch.speed": (5, 15)}')
     film = Film(None if scale is None else parse_scale(scale), (float(origin[0]), float(origin[1])), fps, balls or {})
     frees = parse_free("free", [free] if isinstance(free, str) else free)
-    how = Reading(film, frees, choices_of(columns, where, without, strict))
+    how = Reading(film, frees, replace(choices_of(columns, where, without, strict), decided=tuple(vary)))
     if isinstance(track, Mapping):
         measured = data_of(chosen, [("", table_of(track))], how)
     else:
