@@ -536,7 +536,8 @@ def stepanek_drag(reynolds: Any, spin_ratio: Any) -> Any:
 @TENNIS_DRAG.law(
     "gossard-fit",
     "fitted to 71 tracked flights of table tennis balls of Gossard et al. 2023 (arXiv 2303.03879) by "
-    "tests/reference/fit_table_tennis.py, and without spin to a filmed throw (Mencke et al. 2020, *Am. J. Phys.* 88:934)",
+    "tests/reference/fit_table_tennis.py, and without spin to a throw that Mencke et al. 2020, *Am. J. Phys.* 88:934, "
+    "filmed",
     {(2e4, 0.0): 0.456, (2e4, 0.145): 0.5344},
     mark="ours",
     reynolds=(1.3e4, 4e4),

@@ -167,7 +167,9 @@ def as_hit(parameters: Parameters) -> Parameters:
     """The parameters of the ball as it flies: a bat gives no sidespin."""
     if parameters.start == "launch":
         return parameters
-    return parameters.model_copy(update={"launch": parameters.launch.model_copy(update={"sidespin": 0.0, "spray": None})})
+    return parameters.model_copy(
+        update={"launch": parameters.launch.model_copy(update={"sidespin": 0.0, "spray": None})}
+    )
 
 
 #: Sidespin in rpm with which a ball flies as far as balls do on average whose spray scatters by 25 deg, as that of fly

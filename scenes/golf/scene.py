@@ -6,8 +6,8 @@ bounces on turf that gives way (Penner 2002), sliding, rolling, slopes, water, a
 ball skips over; the drift of a flight with a tilted spin axis (hook, slice) or wind across, to its landing.
 
 Leaves out, with the effect on the carry of the default drive: air that thins with height (0.2 m), buoyancy (0.2 m), the
-turning Earth (less than 0.1 m). And, not measured: what goes sideways on the ground (the break of a green), the deformation of the ball, the flagstick, grain and
-moisture of the grass.
+turning Earth (less than 0.1 m). And, not measured: what goes sideways on the ground (the break of a green), the
+deformation of the ball, the flagstick, grain and moisture of the grass.
 """
 
 from __future__ import annotations

@@ -62,7 +62,7 @@ class Picture(NetView[Parameters]):
 
     @property
     def caveat(self) -> str:
-        return "not validated: lift, and strokes" if self.parameters.court.table else ""
+        return "not validated: strokes" if self.parameters.court.table else ""
 
     def look_of(self, name: str) -> Look:
         return LOOKS[self.parameters.court.table > 0.0]

@@ -197,7 +197,8 @@ def test_ground_balls_are_left_out_by_rule(tmp_path: Path):
     """Their distance is where they were fielded: with them the spin would stop at the end of its range."""
     speeds, angles = [42.0, 45.0, 47.0, 44.0], [24.0, 28.0, 31.0, 19.0]
     points = {"launch.speed": speeds, "launch.angle": angles}
-    far = sandbox.simulate_many(sandbox.load("baseball", {"launch.spin": 2100.0, "launch.sidespin": 2190.0}), points, facts=("distance",))
+    spun = sandbox.load("baseball", {"launch.spin": 2100.0, "launch.sidespin": 2190.0})
+    far = sandbox.simulate_many(spun, points, facts=("distance",))
     rows = [f"{v / 0.44704},{a},{d / 0.3048 + 1},fly_ball\n"
             for v, a, d in zip(speeds, angles, far["distance"].tolist(), strict=True)]  # fmt: skip
     rows += ["104.2,-12,9,ground_ball\n", "101.0,4,140,line_drive\n", "98,15,120,ground_ball\n"]

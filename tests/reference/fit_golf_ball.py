@@ -30,8 +30,8 @@ Numbers = np.ndarray
 
 
 class Shots(NamedTuple):
-    """Launches, shape (3, shots) in m/s, rad and rad/s; what became of them, shape (5, shots) with NaN where that is not
-    published; the density of the air in kg/m^3; and what counts as one unit of error in each result."""
+    """Launches, shape (3, shots) in m/s, rad and rad/s; what became of them, shape (5, shots) with NaN where
+    that is not published; the density of the air in kg/m^3; and what counts as one unit of error in each result."""
 
     launches: np.ndarray
     results: Numbers
@@ -89,7 +89,9 @@ def _rows(name: str) -> list[dict[str, str]]:
         return list(csv.DictReader(file))
 
 
-def _shots(rows: Sequence[dict[str, str]], launch: Sequence[str], results: dict[int, tuple[str, float]], density: float) -> Shots:  # fmt: skip
+def _shots(
+    rows: Sequence[dict[str, str]], launch: Sequence[str], results: dict[int, tuple[str, float]], density: float
+) -> Shots:
     launches = np.array([[float(row[column]) for row in rows] for column in launch])
     launches *= [[MPH], [np.pi / 180.0], [RPM]]
     found = np.full((5, len(rows)), np.nan)

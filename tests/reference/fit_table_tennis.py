@@ -16,6 +16,7 @@ from __future__ import annotations
 import csv
 import sys
 from collections.abc import Sequence
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -33,7 +34,7 @@ SHORTEST = 0.12
 
 
 def bounce_at(x: np.ndarray) -> int | None:
-    """The number of the sample at which a track, shape (samples, 3), is lowest over the table; None without a bounce."""
+    """The number of the sample at which a track, shape (samples, 3), bounces off the table; None if it does not."""
     z = x[:, 2]
     for i in range(4, len(z) - 4):
         if z[i] <= z[i - 3 : i + 4].min() and z[i] < 0.06 and min(z[i - 3], z[i + 3]) - z[i] > 0.008:
@@ -119,7 +120,7 @@ def middle(values: np.ndarray) -> tuple[float, float]:
 
 def print_classes(columns: dict[str, np.ndarray], by: str, of: Sequence[str], bounds: Sequence[float]) -> None:
     """The medians of some columns in classes of another one."""
-    for low, high in zip(bounds[:-1], bounds[1:], strict=True):
+    for low, high in pairwise(bounds):
         within = (columns[by] >= low) & (columns[by] < high)
         if within.sum() > 2:
             medians = {name: middle(columns[name][within]) for name in of}

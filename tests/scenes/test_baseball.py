@@ -41,7 +41,11 @@ def test_the_spray_gives_an_average_balls_sidespin():
 
 def test_a_table_without_spray_is_right_on_average():
     """The 85 balls without their spray and spin; straight away, as before, they are 17 ft too far."""
-    columns = {"launch.speed": "exit_speed_mph [mph]", "launch.angle": "launch_angle_deg [deg]", "distance": "distance_ft [ft]"}
+    columns = {
+        "launch.speed": "exit_speed_mph [mph]",
+        "launch.angle": "launch_angle_deg [deg]",
+        "distance": "distance_ft [ft]",
+    }
     table = Path(__file__).parent.parent / "reference" / "fly_balls.csv"
 
     def off(**changes: float) -> Numbers:

@@ -18,9 +18,7 @@ from sandbox.engine import simulate
 from sandbox.engine.model.accuracy import resolve
 from sandbox.engine.paths.phase import Phase
 from sandbox.engine.paths.run import Run
-from sandbox.physics import coefficients
 from sandbox.physics.club import Head, strike
-from sandbox.physics.forces import Magnus
 from sandbox.physics.turf import STIMPMETER_SPEED
 from scenes.golf.course import kind_at
 from tests.scenes.play import playing
@@ -523,9 +521,7 @@ def turning_earth(parameters: Any, forces: list[Any]) -> list[Any]:
     return [*forces, lambda t, position, velocity, spin: (-k * velocity[1], k * velocity[0])]
 
 
-@pytest.mark.parametrize(
-    ("effect", "metres"), [(buoyant, 0.163), (thinner_higher_up, 0.164), (turning_earth, 0.055)]
-)
+@pytest.mark.parametrize(("effect", "metres"), [(buoyant, 0.163), (thinner_higher_up, 0.164), (turning_earth, 0.055)])
 def test_what_is_left_out_is_worth_what_the_docstring_says(effect: Any, metres: float):
     unchanged = carry_with(lambda parameters, forces: forces)
     assert carry_with(effect) - unchanged == pytest.approx(metres, rel=0.1, abs=0.01)
