@@ -15,10 +15,10 @@ from sandbox.engine.model.accuracy import LEVELS
 from sandbox.picture.energy_chart import energy_chart
 from sandbox.picture.graph import graph
 from sandbox.picture.palette import palette
-from sandbox.scene import listings, listings_in
+from sandbox.scene import Listing, listings, listings_in
 from sandbox.window import aim, keeping
 from sandbox.window.find import Found, Question, find, questions, range_text
-from sandbox.window.front import Entry, Front, begin
+from sandbox.window.front import Entry, Front, begin, sports
 from sandbox.window.measure import Tape
 from sandbox.window.menu import Menu
 from sandbox.window.overlay import Chart, Choice, Overlay, PictureChoice, Row
@@ -196,12 +196,18 @@ def _find_one(view: View, question: Question) -> None:
     game.jobs.ask(work, then, f"looking for shots at {question.name} with {ranges} ...; Esc stops it")
 
 
+def _in_order() -> Callable[[Listing], int]:
+    """A key that sorts scenes, each with its presets, as their tiles are."""
+    places = {sport.name: place for place, sport in enumerate(sports())}
+    return lambda listing: places[listing.name.partition("/")[0]]
+
+
 def open_menu(view: View, by: float, group: str = "") -> None:
     """All scenes as tiles; each with its presets, after those opened last and the user's own: a ``group`` of them first
     if one is named."""
     game = view.game
     groups: dict[str, list[Row]] = {}
-    for item in listings():
+    for item in sorted(listings(), key=_in_order()):
         groups.setdefault(item.name.partition("/")[0], []).append(Row(item.name, item.name, "", item.about))
     known = {row.action: row for rows in groups.values() for row in rows}
     own = [Row(item.name, item.name, "", item.about) for item in listings_in(Path())]

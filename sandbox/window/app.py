@@ -124,13 +124,13 @@ class App:
         return True
 
     def _sound(self, start: float, end: float) -> None:
-        """Play the impacts of this frame, and a success."""
+        """Play the impacts of this frame, and verdicts."""
         shot, referee = self.game.shot, self.game.referee
-        cheers, referee.cheers = referee.cheers, 0
+        calls, referee.calls = referee.calls, []
         if self.sound is None or shot is None:
             return
-        if cheers:
-            self.sound.success()
+        for good in calls:
+            self.sound.verdict(good)
         if end <= start:
             return
         balls = {ball.name for ball in shot.run.setup.balls}

@@ -41,7 +41,7 @@ class Referee:
         self.again = ""  # what is shown again: nothing; "slow", then "still", what decided a success; one of the "best"
         self.opponent: Opponent | None = None  # that looks for its shot
         self.glow = 0.0  # s that a success goes on glowing
-        self.cheers = 0  # successes that were not heard yet
+        self.calls: list[bool] = []  # verdicts that were not heard yet: whether each is a success
         self._cheered = False
         self._scene: Any = None  # that of the shot on its way
         self._before: int | None = None  # how many shots there were before it; None: there is none
@@ -217,13 +217,14 @@ class Referee:
         self._before, self.pending, self._cheered = None, shot, False
 
     def _cheer(self) -> None:
-        """A success glows, and is heard."""
+        """A verdict is heard, and a success glows."""
         assert self.pending is not None
         self._cheered = True
         contest, run = self.contest, self.pending.run
         found: list[bool] = []
-        if contest is not None and self._or_leave(lambda: found.append(contest.would_score(run))) and found[0]:
-            self.glow, self.cheers = GLOW, self.cheers + 1
+        if contest is not None and self._or_leave(lambda: found.append(contest.would_score(run))):
+            self.calls += found
+            self.glow = GLOW if found[0] else 0.0
 
     def _count(self) -> None:
         """Count the shot, and show what decided it again if it is a success."""

@@ -1,10 +1,10 @@
-"""Synthesised sound: a short knock at every impact, louder with speed, and three notes for a success. Without a sound
-device there is none."""
+"""Synthesised sound: a short knock at every impact, louder with speed; three notes that rise for a success, and two
+that fall, softly, for a miss. Without a sound device there is none."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
 import numpy as np
@@ -16,8 +16,10 @@ _LONGEST = 0.16  # s
 _LOUD, _QUIET = 20.0, 0.15
 #: Pitch in Hz of a knock against a fixed thing, and against a ball.
 DULL, _BRIGHT = 210.0, 1250.0
-#: The notes of a success in Hz (C, E and G), how far apart they begin, in s, and how long they sound.
-_NOTES, _APART, _CHIME = (523.25, 659.25, 783.99), 0.09, 0.9
+#: The notes of a success in Hz (C, E and G) and of a miss (E flat and C), how far apart they begin, in s, and how long
+#: they sound; and how loud a miss is.
+_GOOD, _BAD, _APART, _CHIME = (523.25, 659.25, 783.99), (155.56, 130.81), 0.09, 0.9
+_SOFTLY = 0.5
 
 
 def knock(pitch: float) -> np.ndarray:
@@ -33,11 +35,11 @@ def knock(pitch: float) -> np.ndarray:
     return np.ascontiguousarray(np.column_stack([samples, samples]))
 
 
-def _chime() -> np.ndarray:
-    """Three notes of a major chord, one after the other, each a bell that dies away; 16 bit, shape (samples, 2)."""
+def chime(notes: Sequence[float]) -> np.ndarray:
+    """Notes (Hz), one after the other, each a bell that dies away; 16 bit, shape (samples, 2)."""
     t = np.arange(round(_RATE * _CHIME)) / _RATE
     wave = np.zeros_like(t)
-    for number, pitch in enumerate(_NOTES):
+    for number, pitch in enumerate(notes):
         after = np.maximum(t - number * _APART, 0.0)
         note = np.sin(2 * np.pi * pitch * after) + 0.3 * np.sin(4 * np.pi * pitch * after)
         wave += note * np.exp(-after * 6) * (1 - np.exp(-after * 800))
@@ -67,12 +69,13 @@ class Sound:
 
     def __init__(self) -> None:
         self.knocks: list[pygame.mixer.Sound] = []
-        self.chime: pygame.mixer.Sound | None = None
+        self.chimes: list[pygame.mixer.Sound] = []  # of a miss, and of a success
         try:
             with _no_stderr():
                 pygame.mixer.init(_RATE, -16, 2, 512)
             self.knocks = [pygame.sndarray.make_sound(knock(pitch)) for pitch in (DULL, _BRIGHT)]
-            self.chime = pygame.sndarray.make_sound(_chime())
+            self.chimes = [pygame.sndarray.make_sound(chime(notes)) for notes in (_BAD, _GOOD)]
+            self.chimes[False].set_volume(_SOFTLY)
         except (pygame.error, NotImplementedError, ImportError):
             pass
         self.there = bool(self.knocks)  # whether there is a device
@@ -86,7 +89,7 @@ class Sound:
         knock.set_volume(min(1.0, (speed / _LOUD) ** 0.7))
         knock.play()
 
-    def success(self) -> None:
-        """A shot that a contest counts as a success."""
-        if self.on and self.chime is not None:
-            self.chime.play()
+    def verdict(self, good: bool) -> None:
+        """A shot that a contest counts as a success, or as none."""
+        if self.on and self.chimes:
+            self.chimes[good].play()

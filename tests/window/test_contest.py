@@ -251,7 +251,7 @@ class TestATask:
 
         def still() -> bool:
             playback = watching.playback
-            seen.append((playback.t, playback.rate, referee.glow, referee.cheers) if playback else (0.0, 1.0, 0.0, 0))
+            seen.append((playback.t, playback.rate, referee.glow, referee.calls) if playback else (0.0, 1.0, 0.0, []))
             return referee.again == "still"
 
         thrower.game.aiming.change({key.replace("__", "."): value for key, value in IN.items()})
@@ -260,13 +260,21 @@ class TestATask:
         passes(thrower, still)
         assert referee.contest.good
         assert {rate for _, rate, *_ in seen} == {1.0, 0.25}
-        first = next(t for t, _, glow, cheers in seen if glow and cheers)
+        first = next(t for t, _, glow, calls in seen if glow and calls == [True])
         assert first == pytest.approx(referee.decided, abs=0.05)
         floor = next(event.t for event in referee.shots[0].run.events if event.partner == "floor")
         assert referee.decided < floor  # in the ring
         assert watching.playback.t == pytest.approx(referee.decided + AFTER, abs=0.05)
         assert referee.contest.session.streak == 1
-        assert referee.cheers == 0  # it was heard
+        assert referee.calls == []  # it was heard
+
+    def test_a_miss_is_heard_and_does_not_glow(self, thrower):
+        referee = thrower.game.referee
+        thrower.game.aiming.change({"launch.speed": 5.0})
+        thrower.settle()
+        thrower.key(pygame.K_SPACE)
+        passes(thrower, lambda: referee.calls == [False])
+        assert (referee.glow, referee.calls) == (0.0, [])  # it was heard
 
     def test_stars_best_list_and_best_shots_at_the_end(self, thrower, tmp_path):
         game, referee = thrower.game, thrower.game.referee

@@ -13,6 +13,7 @@ from sandbox.cli.new import new_scene
 from sandbox.scene import listings
 from sandbox.scene.finding import installed_folders
 from sandbox.window.app import App
+from sandbox.window.front import sports
 from sandbox.window.game import Game
 from sandbox.window.memory import HINTS, MOST, Memory, usual_place
 from sandbox.window.menu import THUMBNAIL, thumbnail, tile_of
@@ -123,8 +124,8 @@ def test_the_menu_shows_thumbnails_texts_and_own_files(remembering, tmp_path, mo
     assert {"recent", "in this folder", "golf"} <= menu.groups.keys()
     assert [row.action for row in menu.groups["in this folder"]] == ["./ours", "./ours/still"]
     remembering.settle()
-    sports = [listing.name for listing in listings() if "/" not in listing.name]
-    assert [what.action for _, what in menu.places if not isinstance(what, str)] == sports[: menu.seen]  # tiles
+    names = [sport.name for sport in sports() if not sport.own]  # in the order of the tiles
+    assert [what.action for _, what in menu.places if not isinstance(what, str)] == names[: menu.seen]
     assert menu.across > 2
     assert menu.chosen.action == "golf"
     remembering.click(next(rect.center for rect, what in menu.places if what == "golf"))

@@ -15,6 +15,7 @@ import pytest
 import sandbox
 from sandbox.scene import Scene, listings
 from sandbox.window.commands import TABLE
+from sandbox.window.front import sports
 from sandbox.window.screen import SMALLEST
 from sandbox.window.shots import LONGEST_FRAME, STEP
 from tests.own_scene import HANG
@@ -331,15 +332,15 @@ class TestScenes:
         player = player("golf")
         player.key(pygame.K_l)
         player.key(pygame.K_DOWN)
-        sports = [listing.name for listing in listings() if "/" not in listing.name]
-        assert player.view.shown.overlay.chosen.action == sports[sports.index("golf") + 1]
+        names = [sport.name for sport in sports()]
+        assert player.view.shown.overlay.chosen.action == names[names.index("golf") + 1]
         player.key(pygame.K_UP)
         player.key(pygame.K_UP)
-        assert player.view.shown.overlay.chosen.action == sports[sports.index("golf") - 1]
+        assert player.view.shown.overlay.chosen.action == names[names.index("golf") - 1]
         player.key(pygame.K_LEFT)
         player.key(pygame.K_UP)
         chosen = player.view.shown.overlay.chosen.action
-        assert chosen.startswith(f"{sports[-1]}/")
+        assert chosen.startswith(f"{names[-1]}/")
         assert not chosen.startswith("golf")
         player.key(pygame.K_RETURN)
         assert player.game.session.title == chosen
