@@ -7,7 +7,7 @@ import sys
 import tempfile
 import tomllib
 from collections.abc import Sequence
-from math import dist
+from math import ceil, dist
 from pathlib import Path
 from typing import Any
 
@@ -19,11 +19,15 @@ from PIL import Image
 
 import sandbox
 from sandbox.cli import main as program
-from sandbox.picture.camera import Box, Camera
-from sandbox.picture.frames import to_image
+from sandbox.picture.camera import Box, Camera, Eye
+from sandbox.picture.frames import save_png, to_image
 from sandbox.picture.long import LongView
 from sandbox.picture.painter import Painter, blank
-from sandbox.picture.places.plan import Ground, draw_moving
+from sandbox.picture.palette import scene_colours
+from sandbox.picture.places.plan import Ground, Kit, draw_moving
+from sandbox.picture.places.plan import Person as Above
+from sandbox.picture.places.things import Person as Side
+from sandbox.picture.places.things import poses as all_poses
 from sandbox.picture.view import View
 from sandbox.scene.finding import installed_folders
 from sandbox.window.app import App
@@ -49,6 +53,10 @@ FILLS, AWAY = 0.72, 0.7
 #: The ground's row from the side, as a share of the height; the least radius of the ball in px of twice the tile; what
 #: lies around a place from above.
 GROUND, LEAST, DARK, EVERYWHERE = 0.82, 18.0, (22, 30, 38), Box(-1e3, -1e3, 1e3, 1e3)
+#: Whose kits the sheet of figures shows, and what of those kits have not; its squares in px and their ground.
+FIGURES = {"tennis": "player", "basketball": "thrower", "volleyball": "players", "soccer": "kicker"}
+SPARE = {"racket": (40, 46, 54), "rifle": (40, 46, 54)}
+FIGURE, ACROSS, FIGURE_GROUND = 150, 6, (92, 132, 104)
 QUALITY = 88  # of JPEG: the smallest at which letters stay clean
 
 SWEEP = ("sweep", "basketball", "--over", "launch.speed=6.8:8.6:73", "--over", "launch.angle=40:70:61")
@@ -181,6 +189,28 @@ def _hero(view: View[Any], larger: float = 1.0, moment: float = 0.0, wide: float
     return surface
 
 
+def figures() -> None:
+    """All poses of people, from the side in kits of some sports and from above, into ``docs/figures.png``."""
+    colours = {name: scene_colours(installed_folders()[name] / "picture.py") for name in (*FIGURES, "soccer-curl")}
+    rows = ceil(len(all_poses()) / ACROSS)
+    surface = blank((ACROSS * FIGURE, (rows + 1) * FIGURE))
+    surface.fill(FIGURE_GROUND)
+    painter = Painter(surface)
+    for i, pose in enumerate(all_poses()):
+        (row, column), name = divmod(i, ACROSS), list(FIGURES)[i % len(FIGURES)]
+        at, tall = ((column + 0.2) * FIGURE, (row + 0.9) * FIGURE), 0.58 * FIGURE
+        person = Side(0.0, 1.8, {**SPARE, **colours[name][FIGURES[name]]}, pose)
+        person.draw(painter, Eye(Camera((0.0, 0.0), at, tall / 1.8), at[0], at[1] - tall, 50.0))
+    above = colours["soccer-curl"]
+    kits = [Kit(**above["person"], shirt=shirt) for shirt in above["shirts"]]
+    forms: list[dict[str, Any]] = [{}, {"behind": 0.2}, {"arms": 0.9}, {"stretched": True}]
+    for column, form in enumerate(forms):
+        at = (column + 0.5) * FIGURE, (rows + 0.5) * FIGURE
+        kit = kits[min(column, len(kits) - 1)]
+        Above((0.0, 0.0), 0.0, kit, **form).draw(painter, Camera((0.0, 0.0), at, 0.45 * FIGURE))
+    save_png(surface, HERE.parent / "figures.png")
+
+
 def _whole(shot: Shot) -> pygame.Surface:
     """A shot with its path, of a scene in which no moment decides."""
     stage = Stage(shot, (3 * TILE[0], 3 * TILE[1]))
@@ -199,6 +229,8 @@ def post(app: App, kind: int, **values: object) -> None:
 if __name__ == "__main__":
     if sys.argv[1:2] == ["tiles"]:
         tiles(sys.argv[2:])
+    elif sys.argv[1:2] == ["figures"]:
+        figures()
     else:
-        for make in (sports, free_throws, compare, new_scene, window, tiles):
+        for make in (sports, free_throws, compare, new_scene, window, tiles, figures):
             make()

@@ -129,6 +129,11 @@ def _figures() -> dict[str, Any]:
     return tomllib.loads((ASSETS / "figures.toml").read_text("utf-8"))
 
 
+def poses() -> list[str]:
+    """The names of all poses."""
+    return list(_figures()["poses"])
+
+
 @cache
 def pose_of(name: str) -> _Pose:
     """The pose of this name. Raises ValueError for an unknown one."""
