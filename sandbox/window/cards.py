@@ -83,7 +83,8 @@ class Cards:
                 text, said, colour = headline_of(referee, contest)
                 notes = notes if self.game.grasp.holds else said
             else:
-                text, notes = contest.headline, [contest.stand, *notes]
+                stand = [] if contest.in_hand else [contest.stand]  # what is in hand, is so no longer
+                text, notes = contest.headline, [*stand, *notes]
             pulled = playback is None and self.game.session.may_change(_aim_keys(shot))
             entries = [
                 (*entry, _CARD["accent" if place == contest.marked else "text"])

@@ -94,6 +94,9 @@ class Contest:
         """An instruction for the player before he may shoot, "" if there is none."""
         return ""
 
+    def go_on(self) -> None:
+        """Turn to the next shot: what came of the last one was seen."""
+
     def put(self, place: tuple[float, float]) -> None:
         """Mark a place, in m."""
 

@@ -29,12 +29,10 @@ class Decathlon(Contest):
     def _event(self) -> AtTask:
         return AtTask(load(self.tasks[self.place]), seed=self.seed)
 
-    def _next(self) -> AtTask:
-        """The event of the next shot."""
+    def go_on(self) -> None:
         if self.event.over and not self.over:
             self.place += 1
             self.event = self._event()
-        return self.event
 
     @property
     def shown(self) -> str:  # type: ignore[override]
@@ -43,7 +41,7 @@ class Decathlon(Contest):
 
     @property
     def scene(self) -> Scene:
-        return self._next().scene
+        return self.event.scene
 
     @property
     def limits(self) -> Mapping[str, tuple[float, float]]:

@@ -143,8 +143,13 @@ class Referee:
         contest = self.contest
         if contest is not None:
             going_on = not contest.over
-            self._or_leave(lambda: self._put_up(contest.scene) if going_on else self.begin(contest.anew()))
+            self._or_leave(lambda: self._go_on(contest) if going_on else self.begin(contest.anew()))
         return True
+
+    def _go_on(self, contest: Contest) -> None:
+        """Put up the next shot of a contest."""
+        contest.go_on()
+        self._put_up(contest.scene)
 
     def _or_leave(self, action: Callable[[], object]) -> bool:
         """Do something with the contest, whose rules may be a user's own; one that fails is reported, and ends it."""

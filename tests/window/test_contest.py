@@ -331,6 +331,8 @@ class TestATask:
             )
             contest.aimed(run.scene)
             contest.record(run)
+            assert contest.event.task.name == contest.tasks[number // 3]  # what came of it can still be seen
+            contest.go_on()
         assert run.scene.name == "minigolf"
         assert (contest.over, contest.points, contest.outcome[0]) == (True, [400, 0], "400 points")
         assert contest.kept[:2] == (400.0, 0)
