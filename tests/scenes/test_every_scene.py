@@ -23,7 +23,11 @@ NAMES = [listing.name for listing in listings()]
 SCENES = [name for name in NAMES if "/" not in name]
 
 #: With what some others have an effect.
-NEEDS = {"billiards": {"rack": "nine-ball", "rack_scatter": 0.0002}}
+NEEDS: dict[str, dict[str, Any]] = {
+    "billiards": {"rack": "nine-ball", "rack_scatter": 0.0002},
+    "golf": {"air.gusts": 2.0},
+    "soccer": {"air.gusts": 2.0},
+}
 
 
 def other_values(parameter: Parameter) -> Iterator[Any]:
