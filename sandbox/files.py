@@ -164,16 +164,21 @@ def json_text(value: Any) -> str:
 
 def state_folder() -> Path:
     """The folder in which the program keeps what it remembers from one time to the next; it need not be there yet."""
-    return _own_folder("XDG_STATE_HOME", "state")
+    return _own_folder("XDG_STATE_HOME", ".local/state")
 
 
 def data_folder() -> Path:
     """The folder in which the program keeps what is the user's; it need not be there yet."""
-    return _own_folder("XDG_DATA_HOME", "share")
+    return _own_folder("XDG_DATA_HOME", ".local/share")
+
+
+def cache_folder() -> Path:
+    """The folder in which the program keeps what it can make again; it need not be there yet."""
+    return _own_folder("XDG_CACHE_HOME", ".cache")
 
 
 def _own_folder(variable: str, usual: str) -> Path:
-    home = os.environ.get(variable) or os.environ.get("LOCALAPPDATA") or Path.home() / ".local" / usual
+    home = os.environ.get(variable) or os.environ.get("LOCALAPPDATA") or Path.home() / usual
     return Path(home) / "sports-sandbox"
 
 

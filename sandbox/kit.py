@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 from sandbox.engine.model.ball import DISC, HOLLOW_SPHERE, SOLID_SPHERE, Ball, Body, Force, Torque
 from sandbox.engine.model.event import Event
 from sandbox.engine.model.motion import Given, InTurn, Motion, Placing, Sliding, Swinging, Turning
-from sandbox.engine.model.setup import Bounds, ContactModel, ForceRegion, Setup, Touches, Until
+from sandbox.engine.model.setup import Bounds, ContactModel, EndsBy, ForceRegion, Rule, Setup, Touches, Until
 from sandbox.engine.model.shapes import Ellipse, Polygon, Vector, box, capsule, regular
 from sandbox.engine.model.surface import Bounce, BounceLaw, Circle, ConstantBounce, Moving, Segment, Surface, Trap
 from sandbox.engine.paths.run import Run
@@ -133,6 +133,7 @@ __all__ = [
     "Directed",
     "Drag",
     "Ellipse",
+    "EndsBy",
     "Event",
     "Extent",
     "Fact",
@@ -163,6 +164,7 @@ __all__ = [
     "Polygon",
     "Release",
     "RequestError",
+    "Rule",
     "Run",
     "SceneParameters",
     "SceneRun",

@@ -16,7 +16,7 @@ from sandbox.engine import can_batch, simulate_many, simulate_together
 from sandbox.engine.many.flown import AllRuns, Flown
 from sandbox.engine.many.stacking import FEWEST, Stack, agree
 from sandbox.engine.model.accuracy import Accuracy, resolve
-from sandbox.engine.model.setup import Setup, Touches, Until, is_over
+from sandbox.engine.model.setup import Rule, Setup, Touches, Until, is_over
 from sandbox.engine.paths.run import Run
 from sandbox.errors import sys_exit_as_error
 from sandbox.lab.axes import Varied
@@ -272,6 +272,13 @@ class _AllFinal(Until):
             return False
         before = [events[:count] for count in range(len(events) - 1, 0, -1)] if others else []
         return all(any(map(condition.over, before)) for condition in others)
+
+    def rules(self) -> Sequence[Rule] | None:
+        parts = (*self.conditions, *(() if self.until is None else (self.until,)))
+        known = [part.rules() if isinstance(part, Until) else None for part in parts]
+        if len(self.conditions) != 1 or None in known:
+            return None
+        return [rule for rules in known if rules is not None for rule in rules]
 
     def passed(self, start: State, end: State) -> Any:
         own = self.until.passed(start, end) if isinstance(self.until, Until) else False

@@ -93,8 +93,18 @@ class LogWind:
         object.__setattr__(self, "_y", self.reference[1] / scale)
 
     def __call__(self, t: float, position: Any) -> tuple[Any, Any]:
-        profile = log(1.0 + clip(position[1], 0.0, self.ceiling) / self.roughness)
+        profile = log_profile(position[1], self.roughness, self.ceiling)
         return self._x * profile, self._y * profile
+
+    @property
+    def row(self) -> tuple[float, float, float, float]:
+        """Its velocity in m/s over the profile's, and the arguments of ``log_profile``."""
+        return self._x, self._y, self.roughness, self.ceiling
+
+
+def log_profile(height: Any, roughness: Any, ceiling: Any) -> Any:
+    """``ln(1 + y / y0)`` at a height y in m, as in LogWind."""
+    return log(1.0 + clip(height, 0.0, ceiling) / roughness)
 
 
 class _Wave(NamedTuple):

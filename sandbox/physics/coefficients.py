@@ -600,7 +600,12 @@ class NathanDrag:
     turns: float = 0.0521
 
     def __call__(self, reynolds: Any, spin_ratio: Any) -> Any:
-        return 0.3008 + 0.0292e-3 * self.turns * reynolds * spin_ratio
+        return nathan_drag(reynolds, spin_ratio, self.turns)
+
+
+def nathan_drag(reynolds: Any, spin_ratio: Any, turns: Any) -> Any:
+    """The coefficient of NathanDrag."""
+    return 0.3008 + 0.0292e-3 * turns * reynolds * spin_ratio
 
 
 BASEBALL_DRAG.law(

@@ -25,9 +25,10 @@ E1, E3, E4, E5, E6, E7 = 71 / 57600, -71 / 16695, 71 / 1920, -17253 / 339200, 22
 
 def step_of(acceleration_at: AccelerationFunction, rotates: bool) -> Method:
     """Return the step of a ball, whose state is (x, y, vx, vy, spin); of a body if it ``rotates``: its
-    state has the angle, too. Components and dt are floats."""
+    state has the angle, too. Components and dt are floats; ``of`` is whatever else the acceleration is a function of.
+    """
 
-    def step(t: Any, state: State, acceleration: Acceleration, dt: Any) -> Step:
+    def step(t: Any, state: State, acceleration: Acceleration, dt: Any, *of: Any) -> Step:
         x1, y1, vx1, vy1, spin1 = state[:5]
         angle1 = state[5] if rotates else 0.0
         ax1, ay1, alpha1 = acceleration
@@ -40,8 +41,8 @@ def step_of(acceleration_at: AccelerationFunction, rotates: bool) -> Method:
         spin2 = spin1 + h1 * alpha1
         state = x2, y2, vx2, vy2, spin2
         if rotates:
-            state = *state, angle1 + h1 * spin1
-        ax2, ay2, alpha2 = acceleration_at(t + dt * C2, state)
+            state += (angle1 + h1 * spin1,)
+        ax2, ay2, alpha2 = acceleration_at(t + dt * C2, state, *of)
 
         h1, h2 = dt * A31, dt * A32
         x3 = x1 + h1 * vx1 + h2 * vx2
@@ -51,8 +52,8 @@ def step_of(acceleration_at: AccelerationFunction, rotates: bool) -> Method:
         spin3 = spin1 + h1 * alpha1 + h2 * alpha2
         state = x3, y3, vx3, vy3, spin3
         if rotates:
-            state = *state, angle1 + h1 * spin1 + h2 * spin2
-        ax3, ay3, alpha3 = acceleration_at(t + dt * C3, state)
+            state += (angle1 + h1 * spin1 + h2 * spin2,)
+        ax3, ay3, alpha3 = acceleration_at(t + dt * C3, state, *of)
 
         h1, h2, h3 = dt * A41, dt * A42, dt * A43
         x4 = x1 + h1 * vx1 + h2 * vx2 + h3 * vx3
@@ -62,8 +63,8 @@ def step_of(acceleration_at: AccelerationFunction, rotates: bool) -> Method:
         spin4 = spin1 + h1 * alpha1 + h2 * alpha2 + h3 * alpha3
         state = x4, y4, vx4, vy4, spin4
         if rotates:
-            state = *state, angle1 + h1 * spin1 + h2 * spin2 + h3 * spin3
-        ax4, ay4, alpha4 = acceleration_at(t + dt * C4, state)
+            state += (angle1 + h1 * spin1 + h2 * spin2 + h3 * spin3,)
+        ax4, ay4, alpha4 = acceleration_at(t + dt * C4, state, *of)
 
         h1, h2, h3, h4 = dt * A51, dt * A52, dt * A53, dt * A54
         x5 = x1 + h1 * vx1 + h2 * vx2 + h3 * vx3 + h4 * vx4
@@ -73,8 +74,8 @@ def step_of(acceleration_at: AccelerationFunction, rotates: bool) -> Method:
         spin5 = spin1 + h1 * alpha1 + h2 * alpha2 + h3 * alpha3 + h4 * alpha4
         state = x5, y5, vx5, vy5, spin5
         if rotates:
-            state = *state, angle1 + h1 * spin1 + h2 * spin2 + h3 * spin3 + h4 * spin4
-        ax5, ay5, alpha5 = acceleration_at(t + dt * C5, state)
+            state += (angle1 + h1 * spin1 + h2 * spin2 + h3 * spin3 + h4 * spin4,)
+        ax5, ay5, alpha5 = acceleration_at(t + dt * C5, state, *of)
 
         h1, h2, h3, h4, h5 = dt * A61, dt * A62, dt * A63, dt * A64, dt * A65
         x6 = x1 + h1 * vx1 + h2 * vx2 + h3 * vx3 + h4 * vx4 + h5 * vx5
@@ -84,8 +85,8 @@ def step_of(acceleration_at: AccelerationFunction, rotates: bool) -> Method:
         spin6 = spin1 + h1 * alpha1 + h2 * alpha2 + h3 * alpha3 + h4 * alpha4 + h5 * alpha5
         state = x6, y6, vx6, vy6, spin6
         if rotates:
-            state = *state, angle1 + h1 * spin1 + h2 * spin2 + h3 * spin3 + h4 * spin4 + h5 * spin5
-        ax6, ay6, alpha6 = acceleration_at(t + dt, state)
+            state += (angle1 + h1 * spin1 + h2 * spin2 + h3 * spin3 + h4 * spin4 + h5 * spin5,)
+        ax6, ay6, alpha6 = acceleration_at(t + dt, state, *of)
 
         h1, h3, h4, h5, h6 = dt * A71, dt * A73, dt * A74, dt * A75, dt * A76
         x7 = x1 + h1 * vx1 + h3 * vx3 + h4 * vx4 + h5 * vx5 + h6 * vx6
@@ -95,8 +96,8 @@ def step_of(acceleration_at: AccelerationFunction, rotates: bool) -> Method:
         spin7 = spin1 + h1 * alpha1 + h3 * alpha3 + h4 * alpha4 + h5 * alpha5 + h6 * alpha6
         end: State = x7, y7, vx7, vy7, spin7
         if rotates:
-            end = *end, angle1 + h1 * spin1 + h3 * spin3 + h4 * spin4 + h5 * spin5 + h6 * spin6
-        ax7, ay7, alpha7 = last = acceleration_at(t + dt, end)
+            end += (angle1 + h1 * spin1 + h3 * spin3 + h4 * spin4 + h5 * spin5 + h6 * spin6,)
+        ax7, ay7, alpha7 = last = acceleration_at(t + dt, end, *of)
 
         h1, h3, h4, h5, h6, h7 = dt * E1, dt * E3, dt * E4, dt * E5, dt * E6, dt * E7
         error: State = (
@@ -107,7 +108,7 @@ def step_of(acceleration_at: AccelerationFunction, rotates: bool) -> Method:
             h1 * alpha1 + h3 * alpha3 + h4 * alpha4 + h5 * alpha5 + h6 * alpha6 + h7 * alpha7,
         )
         if rotates:
-            error = *error, h1 * spin1 + h3 * spin3 + h4 * spin4 + h5 * spin5 + h6 * spin6 + h7 * spin7
+            error += (h1 * spin1 + h3 * spin3 + h4 * spin4 + h5 * spin5 + h6 * spin6 + h7 * spin7,)
         return end, last, error
 
     return step

@@ -36,7 +36,7 @@ def _of_several(of_float: Callable[..., Any], of_arrays: str) -> Callable[..., A
     return function
 
 
-exp, log, sin, cos, degrees = map(_either, ("exp", "log", "sin", "cos", "degrees"))
+exp, log, sin, cos, sqrt, degrees = map(_either, ("exp", "log", "sin", "cos", "sqrt", "degrees"))
 
 #: Length of (x, y); the angle of y and x; elementwise minimum and maximum.
 hypot, atan2, minimum, maximum = (
@@ -114,6 +114,7 @@ _OF_FLOATS: dict[Any, Any] = {
     log: math.log,
     sin: math.sin,
     cos: math.cos,
+    sqrt: math.sqrt,
     hypot: math.hypot,
     minimum: min,
     maximum: max,
@@ -126,10 +127,11 @@ _OF_FLOATS: dict[Any, Any] = {
 
 
 def of_floats(law: Any) -> Any:
-    """Return a function of sandbox.physics as it is for floats alone, as in a run of one ball: the same code, but where
-    it calls what may take arrays, it calls what takes floats, without a look at what it is given. So this is decided
-    once, and not in each call. Anything else, as a function of a scene's own, is returned as it is."""
-    ours = isinstance(law, FunctionType) and law.__module__.startswith("sandbox.physics.")
+    """Return a function of sandbox.physics or sandbox.engine as it is for floats alone, as in a run of one ball: the
+    same code, but where it calls what may take arrays, it calls what takes floats, without a look at what it is given.
+    So this is decided once, and not in each call. Anything else, as a function of a scene's own, is returned as it is.
+    """
+    ours = isinstance(law, FunctionType) and law.__module__.startswith(("sandbox.physics.", "sandbox.engine."))
     return _made_of_floats(law) if ours else law
 
 

@@ -16,7 +16,7 @@ from typing import Any, ClassVar, NamedTuple, Protocol
 from sandbox.physics.air import DENSITY, VISCOSITY, density_share
 from sandbox.physics.checks import check
 from sandbox.physics.coefficients import Coefficient, Constant, spin_ratio_lift
-from sandbox.physics.elementwise import anywhere, clip
+from sandbox.physics.elementwise import anywhere, clip, sqrt
 from sandbox.physics.of_ball import OfBall, on_ball
 
 Wind = Callable[[float, Any], tuple[Any, Any]]
@@ -28,7 +28,7 @@ Parts = Mapping[str, Any]
 IN_WIND: Parts = {"wind": None}
 
 #: Avoids division by a speed of zero; negligible compared with any other speed (m/s).
-_ALMOST_ZERO = 1e-30
+ALMOST_ZERO = 1e-30
 
 
 class MassLoss(Protocol):
@@ -294,6 +294,17 @@ class SpinDecay(OfBall):
         return through_air(None, None, self._k, ux, uy, spin)[2]
 
 
+def drag_rate(half_density_area: Any, value: Any, speed: Any) -> Any:
+    """Drag over the velocity relative to the air, ``-1/2 rho Cd A |u|`` in N s/m."""
+    return -half_density_area * value * speed
+
+
+def lift_rate(half_density_area: Any, value: Any, speed: Any, radius: Any, spin: Any) -> Any:
+    """Lift over the velocity relative to the air turned by a quarter to the left, ``1/2 rho Cl A |u|`` in N s/m with
+    the sign of the spin; 0 without spin."""
+    return half_density_area * value * speed * (radius * spin / (radius * abs(spin) + ALMOST_ZERO))
+
+
 def through_air(
     drag: _AirRow | None,
     lift: _AirRow | None,
@@ -306,20 +317,19 @@ def through_air(
 ) -> tuple[Any, Any, Any]:
     """Force in N, with what else acts, fx and fy, and torque in N m, on a ball with this velocity relative to the air:
     by drag, lift and spin decay (its k, in kg m), as far as they are given."""
-    speed, torque = (ux * ux + uy * uy) ** 0.5, 0.0
+    speed, torque = sqrt(ux * ux + uy * uy), 0.0
     if drag is not None:
         half_density_area, law, reynolds_per_speed, radius = drag
         if type(law) is Constant:
             value = law.value
         else:
-            value = law(reynolds_per_speed * speed, radius * abs(spin) / (speed + _ALMOST_ZERO))
-        k = -half_density_area * value * speed
+            value = law(reynolds_per_speed * speed, radius * abs(spin) / (speed + ALMOST_ZERO))
+        k = drag_rate(half_density_area, value, speed)
         fx, fy = fx + k * ux, fy + k * uy
     if lift is not None:
         half_density_area, law, reynolds_per_speed, radius = lift
-        size = radius * abs(spin)
-        k = half_density_area * law(reynolds_per_speed * speed, size / (speed + _ALMOST_ZERO)) * speed
-        k = k * (radius * spin / (size + _ALMOST_ZERO))  # sign of the spin, 0 without spin
+        value = law(reynolds_per_speed * speed, radius * abs(spin) / (speed + ALMOST_ZERO))
+        k = lift_rate(half_density_area, value, speed, radius, spin)
         fx, fy = fx - k * uy, fy + k * ux
     if decay is not None:
         torque = -decay * speed * spin

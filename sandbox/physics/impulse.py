@@ -54,6 +54,18 @@ def after_impulse(
     return (*plane, wx + turn * (sine * along * nx - upward * ny), wy + turn * (sine * along * ny + upward * nx))
 
 
+def plane_speeds(vx: Any, vy: Any, spin: Any, nx: Any, ny: Any, radius: Any) -> tuple[Any, Any]:
+    """As ``surface_speeds`` of a ball that is touched at the height of its centre: approach, and along."""
+    return -(vx * nx + vy * ny), vx * ny - vy * nx + radius * spin
+
+
+def after_plane_impulse(
+    vx: Any, vy: Any, spin: Any, nx: Any, ny: Any, radius: Any, factor: Any, push: Any, along: Any
+) -> tuple[Any, Any, Any]:
+    """As ``after_impulse`` of a ball that is touched at the height of its centre."""
+    return vx + push * nx + along * ny, vy + push * ny - along * nx, spin + 1.0 / (factor * radius) * along
+
+
 def exchange(approach: Any, slip: Any, factor: Any, restitution: Any, friction: Any) -> tuple[Any, Any]:
     """Impulses over the mass, in m/s, away from what a ball hits and along it: ``P = (1 + e) v``, of a speed of
     approach v, and ``Q = -s k / (1 + k)``, which ends a slip s, but no more than ``mu P``; k is the moment of inertia

@@ -7,6 +7,12 @@ from typing import Any, ClassVar
 
 from sandbox.physics.elementwise import anywhere, minimum, smooth
 
+#: Sideways over downwards.
+HOLD = 4.0
+
+#: The distance in m over which the force begins and ends.
+EDGE = 0.05
+
 
 @dataclass(frozen=True)
 class NetDrag:
@@ -16,11 +22,7 @@ class NetDrag:
     jumps. All of it is assumed: no measurement of a net was found.
     """
 
-    #: Sideways over downwards.
-    HOLD: ClassVar = 4.0
-
-    #: The distance in m over which the force begins and ends.
-    EDGE: ClassVar = 0.05
+    EDGE: ClassVar = EDGE
 
     mass: float  # kg
     damping: float  # 1/s
@@ -30,12 +32,21 @@ class NetDrag:
 
     def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
         (x, y), (across, top) = position, self.middle
-        below = minimum(top - y, self.length - (top - y))
-        if not anywhere(below > 0.0):
-            return 0.0, 0.0
-        beside = self.half_width - abs(x - across)
-        if not anywhere((below > 0.0) & (beside > -self.EDGE)):
-            return 0.0, 0.0
-        hold = smooth(below / self.EDGE) * smooth(1.0 + beside / self.EDGE)
-        k = -self.mass * self.damping * hold
-        return self.HOLD * k * velocity[0], k * velocity[1]
+        hold = net_hold(x, y, across, top, self.half_width, self.length)
+        return net_force(self.mass * self.damping * hold, *velocity)
+
+
+def net_hold(x: Any, y: Any, across: Any, top: Any, half_width: Any, length: Any) -> Any:
+    """The share of its force with which a net holds a ball at (x, y): 1 inside, 0 outside."""
+    below = minimum(top - y, length - (top - y))
+    if not anywhere(below > 0.0):
+        return 0.0
+    beside = half_width - abs(x - across)
+    if not anywhere((below > 0.0) & (beside > -EDGE)):
+        return 0.0
+    return smooth(below / EDGE) * smooth(1.0 + beside / EDGE)
+
+
+def net_force(rate: Any, vx: Any, vy: Any) -> tuple[Any, Any]:
+    """The force in N of a net that takes momentum at a rate in kg/s from a ball that falls."""
+    return HOLD * -rate * vx, -rate * vy

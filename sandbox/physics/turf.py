@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import atan2, cos, degrees, radians, sin
+from math import atan2, cos, degrees, radians, sin, sqrt
 
 #: Speed in m/s at which a stimpmeter releases the ball. USGA, Stimpmeter Instruction Booklet (6 ft/s); second-hand.
 STIMPMETER_SPEED = 1.83
@@ -31,7 +31,7 @@ def penner_tilt(normal_speed: float, tangential_speed: float, give: float = 1.0)
     ground: at most two thirds of the descent angle, and at most 45 deg. It affects balls that descend at less than
     about 35 deg; without it a topped ball would bounce straight up.
     """
-    speed = (normal_speed * normal_speed + tangential_speed * tangential_speed) ** 0.5
+    speed = sqrt(normal_speed * normal_speed + tangential_speed * tangential_speed)
     incidence = degrees(atan2(tangential_speed, normal_speed))
     return radians(min(give * 15.4 * (speed / 18.6) * (incidence / 44.4), (90.0 - incidence) / 1.5, 45.0))
 

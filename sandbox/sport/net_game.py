@@ -9,11 +9,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from sandbox.engine.model.setup import Until
-from sandbox.engine.model.surface import Bounce, Segment, Surface
+from sandbox.engine.model.bounce_laws import CourtBounce
+from sandbox.engine.model.setup import Rule, Until
+from sandbox.engine.model.surface import Segment, Surface
 from sandbox.engine.paths.run import Event, Run
 from sandbox.parameters import Group, group, quantity
-from sandbox.physics.court import cross_restitution
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Handle
 from sandbox.sport.facts import Fact, cached_per_run
@@ -60,17 +60,10 @@ class HardCourt(Court):
     slope: float = quantity(..., "", 0, 0.01, "restitution less for each degree that the ball arrives at steeper")
     tangential: float = quantity(..., "", 0, 1, "share of the slip that is reversed if the ball grips")
 
-
-@dataclass(frozen=True)
-class CourtBounce:
-    """The response of a hard court to an impact."""
-
-    court: HardCourt
-
-    def __call__(self, normal_speed: float, along_speed: float) -> Bounce:
-        court = self.court
-        restitution = cross_restitution(normal_speed, along_speed, court.restitution, court.slope)
-        return Bounce(restitution, court.friction, tangential=court.tangential)
+    @property
+    def bounce(self) -> CourtBounce:
+        """The response of the court to an impact."""
+        return CourtBounce(self.restitution, self.friction, self.slope, self.tangential)
 
 
 #: The parts of net and court that can be dragged.
@@ -97,8 +90,8 @@ class Bounces(Until):
 
     times: int = 1
 
-    def over(self, events: Sequence[Event]) -> bool:
-        return len(_bounces(events)) >= self.times
+    def rules(self) -> Sequence[Rule]:
+        return [Rule(times=self.times, but=("net",), bounces=True)]
 
 
 def is_down(parameters: Any) -> Until:

@@ -17,10 +17,11 @@ from sandbox.kit import (
     LAUNCH_ANGLE,
     LAUNCH_SPIN,
     Controls,
-    Event,
+    EndsBy,
     Fact,
     Group,
     Handle,
+    Rule,
     Run,
     SceneRun,
     Segment,
@@ -89,17 +90,16 @@ CONTROLS = Controls(
 )
 
 
+#: The pitch is over when it is caught, or on the ground.
+OVER = (Rule(("mitt", "ground")),)
+
+
 def build(parameters: Parameters) -> Setup:
     """The ball, the ground, and the mitt in which it ends."""
     back = parameters.plate.distance + MITT
     mitt = Segment((back, 0.0), (back, 1e3))  # wild pitches end there, too
     surfaces = [Surface("ground", level(), 0.5, 0.5), Surface("mitt", mitt, 0.0, 0.5)]
-    return Setup([parameters.launched(parameters.release.of(parameters.ball))], surfaces, 20.0, is_over)
-
-
-def is_over(event: Event) -> bool:
-    """True if the pitch is over: caught, or on the ground."""
-    return event.partner in ("mitt", "ground")
+    return Setup([parameters.launched(parameters.release.of(parameters.ball))], surfaces, 20.0, EndsBy(OVER))
 
 
 at_plate = passing_at(lambda it: it.plate.distance)  # the ball as it passes the front of the plate

@@ -29,7 +29,7 @@ from sandbox.kit import (
     LAUNCH,
     Circle,
     Controls,
-    Event,
+    EndsBy,
     Extent,
     Fact,
     Flight,
@@ -40,6 +40,7 @@ from sandbox.kit import (
     Moment,
     Passes,
     RequestError,
+    Rule,
     Run,
     SceneRun,
     Segment,
@@ -204,8 +205,8 @@ NARROWEST = 0.01
 #: A shot still moving after this time in s is ended.
 LONGEST = 60.0
 
-#: The run is over when the ball comes down on the floor no faster than this, in m/s: after a few bounces.
-TIRED = 3.0
+#: The run is over when the ball comes down on the floor no faster than 3 m/s: after a few bounces.
+TIRED = (Rule(("floor",), fastest=3.0),)
 
 #: Thickness of the bracket over that of the tube: a ball between ring and board rests on the tube. Assumed.
 BRACKET_SHARE = 0.5
@@ -226,12 +227,7 @@ def build(parameters: Parameters) -> Setup:
     drag = [NetDrag(mass, net.damping, hoop.middle, 0.5 * hoop.inner_diameter, net.length)] if net.slows else []
     shot = parameters.launched((0.0, parameters.held), *drag)
     regions = [region for it in drag for region in net_regions(it)]
-    return Setup([shot], court(parameters), LONGEST, is_tired, force_regions=regions)
-
-
-def is_tired(event: Event) -> bool:
-    """True if the ball hardly bounces any more."""
-    return event.partner == "floor" and event.speed <= TIRED
+    return Setup([shot], court(parameters), LONGEST, EndsBy(TIRED), force_regions=regions)
 
 
 def court(parameters: Parameters) -> list[Surface]:

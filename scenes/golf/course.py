@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import Literal
 
-from sandbox.kit import Bounce, Group, RequestError, Segment, Surface, Vector, choice, group, groups, quantity, vectors
-from sandbox.physics.turf import penner_bounce, stimp_resistance
+from sandbox.engine.model.bounce_laws import PennerTurf
+from sandbox.kit import Group, RequestError, Segment, Surface, Vector, choice, group, groups, quantity, vectors
+from sandbox.physics.turf import stimp_resistance
 
 #: The course extends this far in m, behind and beyond: farther than a shot gets.
 FAR = 2e5
@@ -97,19 +97,6 @@ class Pin(Group):
     def around(self, width: float) -> Vector:
         """The ends in m of what is so wide, with the pin in its middle."""
         return self.distance - 0.5 * width, self.distance + 0.5 * width
-
-
-@dataclass(frozen=True)
-class PennerTurf:
-    """The response of turf to an impact: Penner's restitution times ``bounce``, and a tilt times ``give``."""
-
-    bounce: float
-    friction: float
-    give: float
-
-    def __call__(self, normal_speed: float, tangential_speed: float) -> Bounce:
-        restitution, tilt = penner_bounce(normal_speed, tangential_speed, self.give)
-        return Bounce(min(1.0, self.bounce * restitution), self.friction, tilt)
 
 
 def surfaces(ground: Ground, pin: Pin, radius: float) -> list[Surface]:

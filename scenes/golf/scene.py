@@ -38,6 +38,7 @@ from sandbox.kit import (
     NoForce,
     OutdoorAir,
     RequestError,
+    Rule,
     Run,
     SceneRun,
     Setup,
@@ -175,6 +176,9 @@ class ComesDown(Until):
 
     def over(self, events: Sequence[Event]) -> bool:
         return events[-1].kind != "leave" and events[-1].t > 0.0
+
+    def rules(self) -> Sequence[Rule]:
+        return [Rule(after=0.0)]
 
 
 def struck(club: Club, ball: Ball) -> Ball:

@@ -20,7 +20,6 @@ from sandbox.kit import (
     SOCCER_LIFT,
     Circle,
     Controls,
-    Event,
     Extent,
     Fact,
     Flight,
@@ -28,6 +27,7 @@ from sandbox.kit import (
     Moment,
     OutdoorAir,
     Passes,
+    Rule,
     Run,
     SceneRun,
     Segment,
@@ -37,6 +37,7 @@ from sandbox.kit import (
     Spread,
     State,
     Surface,
+    Until,
     Vector,
     apex,
     before,
@@ -180,14 +181,13 @@ def build(parameters: Parameters) -> Setup:
 
 
 @dataclass(frozen=True)
-class OutOfPlay:
+class OutOfPlay(Until):
     """The ball reaches the boards, or the ground on their other side."""
 
     farthest: float  # m, place of the boards behind the goal
 
-    def __call__(self, event: Event) -> bool:
-        inside = BOARDS_BEHIND < event.x < self.farthest
-        return event.partner == "boards" or (event.partner == "ground" and not inside)
+    def rules(self) -> Sequence[Rule]:
+        return [Rule(("boards",)), Rule(("ground",), left=BOARDS_BEHIND, right=self.farthest)]
 
 
 #: The ball as it first passes the middle of the wall, and that of the goal line.

@@ -107,7 +107,7 @@ def build(parameters: Parameters) -> Setup:
     if parameters.start == "racket":
         struck = struck_by(racket, "racket", RUBBER if racket.face_of == "rubber" else STRINGS, played)
         played = parameters.launch.tilted(struck)
-    bounce = net_game.CourtBounce(court)
+    bounce = court.bounce
     top = Segment((0.0, 0.0), (court.length, 0.0)) if court.table > 0.0 else level()
     surfaces = [Surface("court", top, bounce(1.0, 0.0).restitution, court.friction, law=bounce)]
     surfaces.append(net_game.net_of(parameters))

@@ -87,32 +87,39 @@ class StepControl:
             if _stiff(state, end, acceleration, last, h):
                 return False, 0.5 * h, end, last
             return True, min(2.0 * h, self.step) if h >= wanted else wanted, end, last
-        if len(error) == 5:
-            ex, ey, evx, evy, spin = error
-            off = abs(ex) + abs(ey) + abs(evx) + abs(evy) + _SPIN_WEIGHT * radius * abs(spin)
-        else:
-            off = size(error, radius)
-        most = self.local_error
-        if off < inf:
-            change = SAFETY * (most / (off + TINY)) ** self.exponent
-            following = h * (SHORTER if change < SHORTER else LONGER if change > LONGER else change)
-        else:
-            following = h * AFTER_NONFINITE
-        if not off <= most:
-            return False, following, end, last
-        # a step that was cut, as by a border of a region, says nothing against a longer one after it
-        was_cut = h < (1.0 - ROUNDING) * wanted and following < wanted
-        return True, wanted if was_cut else following, end, last
+        off = size_of_ball(error, radius) if len(error) == 5 else size(error, radius)
+        fits, following = judged(off, self.local_error, self.exponent, h, wanted)
+        return fits, following, end, last
+
+
+def judged(off: float, most: float, exponent: float, h: float, wanted: float) -> tuple[bool, float]:
+    """True if a step of ``h`` s, a part of the ``wanted`` one, with an error of ``off`` is accepted, where ``most`` is,
+    both in m; and the step in s to try next, after it or in its place. ``exponent`` is 1 over the order."""
+    if off < inf:
+        change = SAFETY * (most / (off + TINY)) ** exponent
+        following = h * (SHORTER if change < SHORTER else LONGER if change > LONGER else change)
+    else:
+        following = h * AFTER_NONFINITE
+    if not off <= most:
+        return False, following
+    # a step that was cut, as by a border of a region, says nothing against a longer one after it
+    was_cut = h < (1.0 - ROUNDING) * wanted and following < wanted
+    return True, wanted if was_cut else following
 
 
 def size(error: State, radius: float) -> float:
     """Local error in m: that of the position, plus that of the velocity over a second; of a body's turning and a ball's
     rolling, too."""
-    ex, ey, evx, evy, spin = error[:5]
-    off = abs(ex) + abs(ey) + abs(evx) + abs(evy) + _SPIN_WEIGHT * radius * abs(spin)
+    off = size_of_ball(error[:5], radius)
     if len(error) == 5:
         return off
     return off + radius * sum(map(abs, error[4:6] if len(error) == 6 else error[5:]))
+
+
+def size_of_ball(error: State, radius: float) -> float:
+    """The same of a ball that flies."""
+    ex, ey, evx, evy, spin = error
+    return abs(ex) + abs(ey) + abs(evx) + abs(evy) + _SPIN_WEIGHT * radius * abs(spin)
 
 
 def shortest(t: float) -> float:
@@ -139,22 +146,30 @@ def allowed(limits: StepLimits, t: float, h: float, state: State, acceleration: 
     """Return a step from t of h s or less: not across a discontinuity or a region's border, where it would be rejected,
     or lose its order; and no longer than forces that depend on time, or a region, allow."""
     _, scale, jumps, regions = limits
-    if h > LONGEST:
-        h = min(h, max(min(_time_nearby(state, acceleration), LONGER_SHARE * t), LONGEST))
+    h = not_too_long(t, h, state, acceleration)
     if h > scale:
         h = scale
     for at in jumps:
         if AT_DISCONTINUITY < at - t < h:
             h = at - t
-    return _allowed_near(regions, h, state, acceleration) if regions else h
+    return allowed_near(regions, h, state, acceleration) if regions else h
 
 
-def _allowed_near(regions: Sequence[ForceRegion], h: float, state: State, acceleration: Acceleration) -> float:
+def not_too_long(t: float, h: float, state: State, acceleration: Acceleration) -> float:
+    """Return a step from t of h s or less, which is longer than LONGEST only where nothing moves far."""
+    if h > LONGEST:
+        return min(h, max(min(_time_nearby(state, acceleration), LONGER_SHARE * t), LONGEST))
+    return h
+
+
+def allowed_near(regions: Sequence[ForceRegion], h: float, state: State, acceleration: Acceleration) -> float:
     """Return a step of h s or less that ends where a ball comes to the border of a region, and is no longer than its
     step inside."""
     x, y, vx, vy = state[:4]
     ax, ay = acceleration[:2]
-    for left, bottom, right, top, longest in regions:
+    for i in range(len(regions)):  # a row of numbers where it is compiled
+        region = regions[i]
+        left, bottom, right, top, longest = region[0], region[1], region[2], region[3], region[4]
         whole, half = h, 0.5 * h  # the parabola that is predicted lies among its ends and a point between them
         end_x, between_x = x + h * (vx + half * ax), x + half * vx
         if (x > right and between_x > right and end_x > right) or (x < left and between_x < left and end_x < left):
@@ -180,7 +195,7 @@ def _time_nearby(state: State, acceleration: Acceleration) -> float:
     """Return a time in s in which it moves no farther than NEARBY at a constant acceleration; FAR without any."""
     speed, change = abs(state[2]) + abs(state[3]), abs(acceleration[0]) + abs(acceleration[1])
     reach = FAR if change == 0.0 else NEARBY
-    return float(min(0.5 * reach / (speed + TINY), (reach / (change + TINY)) ** 0.5))
+    return min(0.5 * reach / (speed + TINY), sqrt(reach / (change + TINY)))
 
 
 def _time_to_travel(distance: float, speed: float, change: float, soonest: float) -> float:

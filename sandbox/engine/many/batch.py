@@ -14,6 +14,8 @@ from typing import Any
 
 import numpy as np
 
+from sandbox.engine.kernel.library import compiled
+from sandbox.engine.kernel.rows import tables
 from sandbox.engine.kernel.step_control import StepControl, StepLimits
 from sandbox.engine.many.arc_rows import END, START, T0, T1, X, Y, arc_of, cut, resting_columns, stepped
 from sandbox.engine.many.batch_contact import BatchContacts
@@ -24,6 +26,7 @@ from sandbox.engine.many.batch_steps import allowed, attempt, shortest
 from sandbox.engine.many.continuation import ENDED, BatchExit, ExitReason
 from sandbox.engine.many.flown import Flown
 from sandbox.engine.many.in_flight import InFlight
+from sandbox.engine.many.legs import Legs
 from sandbox.engine.many.outlines import BatchSurfaces
 from sandbox.engine.many.stacking import FEWEST, Stack, selector
 from sandbox.engine.model.accuracy import Accuracy
@@ -78,6 +81,9 @@ class Batch:
         self._outlines = BatchSurfaces(setups, accuracy.skin)
         self._contacts = BatchContacts(self._flying, self._outlines, self._record, accuracy.settle)
         self._impacts = BatchImpacts(self._flying, self._outlines, self._record)
+        fly_all = compiled()
+        rows = None if fly_all is None else tables(setups.whole, accuracy, len(setups))
+        self._legs = None if fly_all is None or rows is None else Legs(fly_all, rows, self._flying, self._record)
         self._step = self._control.integrator.step_of_many(self._contacts.acceleration_at)
         self._duration = np.broadcast_to(setups.whole.duration, len(setups))  # s
         self._until = selector(setups.whole.until)
@@ -86,12 +92,15 @@ class Batch:
         """Fly all shots to their end, or until they leave the batch."""
         started, flying = perf_counter(), self._flying
         with np.errstate(all="ignore"):
-            some = np.arange(0, len(flying), max(1, len(flying) // _WATCHED))
-            check_forces(self.setups, flying, some, accelerations(flying.acceleration_at, flying.t, flying.state))
+            if self._legs is None:
+                some = np.arange(0, len(flying), max(1, len(flying) // _WATCHED))
+                check_forces(self.setups, flying, some, accelerations(flying.acceleration_at, flying.t, flying.state))
             self._begin()
+            self._fly_legs()
             rounds = 0
             while len(flying) >= FEWEST and self._record.pieces < MOST_PIECES:
                 self._advance_all(rounds % len(flying))
+                self._fly_legs()
                 rounds += 1
         on_the_way = np.where(flying.motion_ended, ExitReason.CONTACT_CHANGE, ExitReason.IN_FLIGHT)
         flying.exit = np.where(flying.met >= 0, ExitReason.AFTER_IMPACT, on_the_way)
@@ -115,15 +124,24 @@ class Batch:
         )
         self._drop()
 
+    def _fly_legs(self) -> None:
+        """Let shots that are on nothing fly in the compiled kernel, if it takes them, as far as it does."""
+        if self._legs is not None and len(self._flying):
+            touching = self._legs.fly()
+            if len(touching):
+                self._impacts.collide(touching)
+            self._drop()
+
     def _advance_all(self, watched: int) -> None:
         """Take one step of each shot, up to the first touch, which is resolved; the forces of the lane that is
         ``watched`` are checked."""
         flying = self._flying
         known = accelerations(flying.acceleration_at, flying.t, flying.state)
-        check_forces(self.setups, flying, np.array([watched]), known)
+        if self._legs is None:
+            check_forces(self.setups, flying, np.array([watched]), known)
         self._contacts.find_next_motions(known)
         known = known[:, self._drop()]
-        if not len(flying):
+        if not len(flying) or (self._legs is not None and not (flying.surface >= 0).any()):
             return
         self._contacts.hold()
         if self._contacts.any_held:
@@ -144,13 +162,14 @@ class Batch:
         fits, following, after, last = attempt(
             self._control, self._step, flying.t, flying.state, known, h, flying.next_step, ball.radius
         )
-        flying.repeats = ~fits
-        counts[STEPS, flying.shot] += 1
-        counts[REFINED, flying.shot] += ~fits
-        accepted = fits & flying.setup.bounds.hold(after)
-        stuck = ~accepted & (fits | (following < shortest(flying.t)))
+        here = np.ones(len(flying), dtype=bool) if self._legs is None else flying.surface >= 0  # others fly in legs
+        flying.repeats = here & ~fits
+        counts[STEPS, flying.shot] += here
+        counts[REFINED, flying.shot] += flying.repeats
+        accepted = here & fits & flying.setup.bounds.hold(after)
+        stuck = here & ~accepted & (fits | (following < shortest(flying.t)))
         flying.exit[stuck] = ExitReason.IN_FLIGHT  # which raises the error
-        wanted, flying.next_step = flying.next_step, np.where(stuck, h, following)
+        wanted, flying.next_step = flying.next_step, np.where(here, np.where(stuck, h, following), flying.next_step)
         lanes = accepted.nonzero()[0]
         ends: Any = flying.state, known, after, last
         arc = hermite_arc(flying.t[lanes], h[lanes], *(part[:, lanes] for part in ends))

@@ -13,9 +13,8 @@ from sandbox.engine.many.batch_record import IMPACTS, BatchRecord
 from sandbox.engine.many.continuation import ExitReason
 from sandbox.engine.many.in_flight import InFlight
 from sandbox.engine.many.outlines import BatchSurfaces
-from sandbox.engine.model.event import Event
 from sandbox.engine.model.tolerances import CLOSING
-from sandbox.physics.impulse import after_impulse, exchange, surface_speeds
+from sandbox.physics.impulse import after_plane_impulse, exchange, plane_speeds
 from sandbox.physics.integrators import Acceleration
 
 
@@ -55,10 +54,8 @@ class BatchImpacts:
         self._record.counts[IMPACTS, shots] += 1
         flying.state[2:, lanes] = motion[:, resolved]
         flying.met[lanes], flying.normal[:, lanes] = surface, np.array(near[1:4])[:, resolved]
-        numbers = shots, surface, flying.t[lanes], approach[resolved], x[resolved], y[resolved]
-        ball, *surfaces = self._record.names
-        for shot, what, t, speed, *at in zip(*(each.tolist() for each in numbers), strict=True):
-            self._record.events[shot].append(Event(t, "impact", ball, surfaces[what], speed, *at))
+        rows = flying.t[lanes], surface, approach[resolved], x[resolved], y[resolved]
+        self._record.add_impacts(shots, np.array(rows).T)
 
     def _bounces(
         self, shots: np.ndarray, surface: np.ndarray, approach: np.ndarray, along: np.ndarray, resolved: np.ndarray
@@ -81,9 +78,9 @@ class BatchImpacts:
         self, lanes: np.ndarray, nx: np.ndarray, ny: np.ndarray, bounces: np.ndarray, kick: Any
     ) -> Acceleration:
         """The velocities (m/s) and spins (rad/s) after impacts on surfaces with these normals, which ``kick`` (N s)."""
-        motion, shots = tuple(self._flying.state[2:, lanes]), self._flying.shot[lanes]
+        (vx, vy, spin), shots = self._flying.state[2:, lanes], self._flying.shot[lanes]
         r, factor = self._radius[shots], self._factor[shots]
-        approach, slip, _ = surface_speeds(motion, nx, ny, r)
+        approach, slip = plane_speeds(vx, vy, spin, nx, ny, r)
         restitution, friction, _, tangential = bounces.T
         push, rub = exchange(approach, (1.0 + tangential) * slip, factor, restitution, friction)
-        return after_impulse(motion, nx, ny, r, factor, (push + kick / self._mass[shots], rub, 0.0))
+        return after_plane_impulse(vx, vy, spin, nx, ny, r, factor, push + kick / self._mass[shots], rub)

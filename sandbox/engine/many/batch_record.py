@@ -42,6 +42,12 @@ class BatchRecord:
         self._paths.append((shots, rows))
         self.pieces += len(shots)
 
+    def add_impacts(self, shots: np.ndarray, rows: np.ndarray) -> None:
+        """Add an impact of each of these shots: rows of the time in s, the surface, the speed in m/s, x and y in m."""
+        ball, *surfaces = self.names
+        for shot, (t, what, speed, x, y) in zip(shots.tolist(), rows.tolist(), strict=True):
+            self.events[shot].append(Event(t, "impact", ball, surfaces[int(what)], speed, x, y))
+
     def last_arc(self, shot: int) -> list[Arc]:
         """The last arc of a shot, if it has one."""
         for shots, rows in reversed(self._paths):

@@ -98,6 +98,35 @@ class ContactModel:
         return PHENOLIC.between(radius, other) if self.stiffness is None else self.stiffness
 
 
+class Rule(NamedTuple):
+    """Ends a run when something with one of these ``names``, or anything but what is in ``but``, is touched for the
+    ``times``-th time, later than ``after`` (s), no faster than ``fastest`` (m/s), at no place with ``left < x < right``
+    (m)."""
+
+    names: tuple[str, ...] = ()
+    times: int = 1
+    fastest: float = inf
+    left: float = inf
+    right: float = -inf
+    after: float = -inf
+    but: tuple[str, ...] = ()
+    bounces: bool = False  # only impacts count, and not that it slides or rolls from now on
+
+    def about(self, ball: str, partner: str) -> bool:
+        """True if it is about these."""
+        return (not self.names or ball in self.names or partner in self.names) and partner not in self.but
+
+    def counts(self, event: Event) -> bool:
+        """True if it counts this event."""
+        kind = event.kind == "impact" or (not self.bounces and event.kind not in ("leave", "rest"))
+        where = event.t > self.after and event.speed <= self.fastest and not self.left < event.x < self.right
+        return kind and where and self.about(event.ball, event.partner)
+
+    def ends(self, events: Sequence[Event]) -> bool:
+        """True if the run ends with the last of these events."""
+        return self.counts(events[-1]) and sum(map(self.counts, events)) >= self.times
+
+
 class Until:
     """A condition for the end of a run that needs more than the latest event.
 
@@ -115,12 +144,27 @@ class Until:
 
     def over(self, events: Sequence[Event]) -> bool:
         """Return True if the run ends with the last of these events."""
-        raise NotImplementedError
+        return any(rule.ends(events) for rule in self.rules() or ())
 
     def passed(self, start: State, end: State) -> Any:
         """Return True if the run ends with a step between these states, without an event; floats, or arrays for many
         shots."""
         return False
+
+    def rules(self) -> Sequence[Rule] | None:
+        """What ``over`` says of impacts of a single ball, as data: the run is over as soon as one of these ends it.
+        None if that is not all that it says."""
+        return None
+
+
+@dataclass(frozen=True)
+class EndsBy(Until):
+    """Ends a run as soon as one of these rules does."""
+
+    of: tuple[Rule, ...]
+
+    def rules(self) -> Sequence[Rule]:
+        return self.of
 
 
 def is_over(until: Callable[[Event], bool] | Until | None, events: Sequence[Event]) -> bool:
@@ -153,11 +197,8 @@ class Touches(Until):
         if not isinstance(self.times, int | Integral) or self.times < 1:
             raise ValueError(f"Touches: times = {short(self.times)} must be a whole number, 1 or more")
 
-    def over(self, events: Sequence[Event]) -> bool:
-        return self._counts(events[-1]) and sum(map(self._counts, events)) >= self.times
-
-    def _counts(self, event: Event) -> bool:
-        return event.kind not in ("leave", "rest") and self.what in (event.ball, event.partner)
+    def rules(self) -> Sequence[Rule]:
+        return [Rule((self.what,), self.times)]
 
 
 @with_fields_named

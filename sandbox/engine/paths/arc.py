@@ -11,7 +11,7 @@ from sandbox.engine.model.shapes import Vector
 from sandbox.engine.model.surface import Surface
 from sandbox.engine.paths.bernstein import derivative, evaluate, first_part
 from sandbox.engine.paths.phase import ArcContact, Phase
-from sandbox.physics.elementwise import where
+from sandbox.physics.elementwise import everywhere, where
 from sandbox.physics.integrators import Acceleration, State
 
 #: Step in s below which the mean velocity (x1 - x0) / h is mostly rounding (1e-14 m at 100 m) and is not used.
@@ -139,6 +139,30 @@ class Arc:
         return Arc(self.t0, t, self.start, tuple([first_part(curve, u) for curve in self.curves]), self.contact)
 
 
+def curves_between(
+    h: Any, start: State, acceleration: Acceleration, end: State, end_acceleration: Acceleration
+) -> tuple[Any, ...]:
+    """The curves of the arc of a ball in flight that matches both ends of a step of length h, as in ``Arc.curves``."""
+    x0, y0, vx0, vy0, w0 = start
+    x1, y1, vx1, vy1, w1 = end
+    ax0, ay0, al0 = acceleration
+    ax1, ay1, al1 = end_acceleration
+    p, q, quarter, third = 0.2 * h, 0.05 * h * h, 0.25 * h, h / 3.0
+    mx = 5.0 * (x1 - x0) / h - 2.0 * (vx0 + vx1) + quarter * (ax1 - ax0)
+    my = 5.0 * (y1 - y0) / h - 2.0 * (vy0 + vy1) + quarter * (ay1 - ay0)
+    if not everywhere(h > _SHORT):
+        mx = where(h > _SHORT, mx, 0.5 * (vx0 + vx1 + third * (ax0 - ax1)))
+        my = where(h > _SHORT, my, 0.5 * (vy0 + vy1 + third * (ay0 - ay1)))
+    xp0, yp0, xp1, yp1 = p * vx0, p * vy0, p * vx1, p * vy1
+    return (
+        (x0, x0 + xp0, x0 + 2.0 * xp0 + q * ax0, x1 - 2.0 * xp1 + q * ax1, x1 - xp1, x1),
+        (y0, y0 + yp0, y0 + 2.0 * yp0 + q * ay0, y1 - 2.0 * yp1 + q * ay1, y1 - yp1, y1),
+        (vx0, vx0 + quarter * ax0, mx, vx1 - quarter * ax1, vx1),
+        (vy0, vy0 + quarter * ay0, my, vy1 - quarter * ay1, vy1),
+        (w0, w0 + third * al0, w1 - third * al1, w1),
+    )
+
+
 def hermite_arc(
     t: Any,
     h: Any,
@@ -150,29 +174,18 @@ def hermite_arc(
 ) -> Arc:
     """The arc that matches both ends of a step of length h. Arrays of shape (n,) in place of floats give n arcs in
     one."""
-    x0, y0, vx0, vy0, w0 = start[:5]
-    x1, y1, vx1, vy1, w1 = end[:5]
-    ax0, ay0, al0 = acceleration[:3]
-    ax1, ay1, al1 = end_acceleration[:3]
-    p, q, quarter, third = 0.2 * h, 0.05 * h * h, 0.25 * h, h / 3.0
-    mx = 5.0 * (x1 - x0) / h - 2.0 * (vx0 + vx1) + quarter * (ax1 - ax0)
-    my = 5.0 * (y1 - y0) / h - 2.0 * (vy0 + vy1) + quarter * (ay1 - ay0)
-    if not isinstance(h, float) or h <= _SHORT:
-        mx = where(h > _SHORT, mx, 0.5 * (vx0 + vx1 + third * (ax0 - ax1)))
-        my = where(h > _SHORT, my, 0.5 * (vy0 + vy1 + third * (ay0 - ay1)))
-    xp0, yp0, xp1, yp1 = p * vx0, p * vy0, p * vx1, p * vy1
-    curves: tuple[Sequence[Any], ...] = (
-        (x0, x0 + xp0, x0 + 2.0 * xp0 + q * ax0, x1 - 2.0 * xp1 + q * ax1, x1 - xp1, x1),
-        (y0, y0 + yp0, y0 + 2.0 * yp0 + q * ay0, y1 - 2.0 * yp1 + q * ay1, y1 - yp1, y1),
-        (vx0, vx0 + quarter * ax0, mx, vx1 - quarter * ax1, vx1),
-        (vy0, vy0 + quarter * ay0, my, vy1 - quarter * ay1, vy1),
-        (w0, w0 + third * al0, w1 - third * al1, w1),
-    )
+    parts = (start, acceleration, end, end_acceleration)
+    if len(start) == 5:
+        return Arc(t, t + h, start, curves_between(h, *parts), contact, end)
+    flying = [part[:count] for part, count in zip(parts, (5, 3, 5, 3), strict=True)]
+    curves: tuple[Sequence[Any], ...] = curves_between(h, *flying)
+    w0, al0, w1, al1 = (part[-1] for part in flying)
+    third = h / 3.0
     if len(start) == 6:  # the angle is a coordinate, as x is
         ends = (start[5], 0.0, w0, 0.0, 0.0), (al0, 0.0, 0.0), (end[5], 0.0, w1, 0.0, 0.0), (al1, 0.0, 0.0)
         angle, _, spin, *_ = hermite_arc(t, h, *ends).curves
         curves = (*curves[:4], spin, angle)
-    elif len(start) == 7:  # rolling spins, which change evenly unless their rates are given
+    else:  # rolling spins, which change evenly unless their rates are given
         ends_of_spins = zip(start[5:], end[5:], strict=True)
         if len(acceleration) > 3:
             rates = zip(acceleration[3:], end_acceleration[3:], strict=True)

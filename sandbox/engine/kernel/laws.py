@@ -1,0 +1,140 @@
+"""Laws of force and bounce by numbers: each term is a row, which begins with the code of its kind.
+
+What the objects of ``physics/forces.py`` and ``model/bounce_laws.py`` compute with their fields is computed here with
+rows, by the same functions, in what both Python and numba take. A row of a force or torque has the places below; which
+of them its kind uses is said there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from math import sqrt
+from types import FunctionType
+
+from sandbox.engine.model.bounce_laws import bounce_of_court, bounce_of_turf
+from sandbox.physics import coefficients
+from sandbox.physics.air import log_profile
+from sandbox.physics.coefficients import Laws
+from sandbox.physics.elementwise import of_floats
+from sandbox.physics.forces import ALMOST_ZERO, drag_rate, lift_rate
+from sandbox.physics.integrators import Acceleration, State
+from sandbox.physics.net import net_force, net_hold
+
+Row = Sequence[float]
+
+#: Kinds of forces and torques. STEADY: a force of (A, B) N. DRAG and LIFT: half the density times the area, A in kg/m.
+#: DECAY: of the spin, A in kg m. NET: the rate A in kg/s, and its place and size, B to E in m.
+STEADY, DRAG, LIFT, DECAY, NET = range(5)
+
+#: Places in such a row: its kind, numbers of the kind; the coefficient of a drag or lift by its code, its own number,
+#: its share, and the share of the whole spin that the ball has; the wind by its kind, and its numbers.
+KIND, A, B, C, D, E, REYNOLDS, RADIUS, LAW, VALUE, SHARE, OF_SPIN, WIND, WIND_X, WIND_Y, ROUGHNESS, CEILING = range(17)
+FORCE_COLUMNS = CEILING + 1
+
+#: Kinds of wind: none, the same everywhere, the logarithmic profile.
+CALM, EVEN, PROFILE = range(3)
+
+#: Codes of coefficients that have a number of their own, VALUE; those of COEFFICIENTS have their place in it.
+CONSTANT, NATHAN = -1, -2
+
+#: Coefficients that are functions of Reynolds number and spin ratio alone, in a fixed order.
+COEFFICIENTS: tuple[FunctionType, ...] = tuple(
+    dict.fromkeys(
+        law
+        for laws in vars(coefficients).values()
+        if isinstance(laws, Laws)
+        for law in laws.values()
+        if isinstance(law, FunctionType)
+    )
+)
+
+#: Places in the row of a ball.
+MASS, BALL_RADIUS, FACTOR, INERTIA = range(4)
+
+#: Codes of contact laws: restitution and friction as they are, grass, a court. Each has four numbers.
+PLAIN, TURF, COURT = range(3)
+
+
+def _either(code: int, law: Callable[..., float], other: Callable[..., float]) -> Callable[..., float]:
+    def coefficient(which: float, reynolds: float, spin_ratio: float) -> float:
+        return law(reynolds, spin_ratio) if which == code else other(which, reynolds, spin_ratio)
+
+    return coefficient
+
+
+def _none(which: float, reynolds: float, spin_ratio: float) -> float:
+    return 0.0
+
+
+def _by_code() -> Callable[[float, float, float], float]:
+    """Return the function that computes the coefficient with a code: a choice that numba takes, too."""
+    chosen: Callable[..., float] = _none
+    for code, law in reversed([*enumerate(COEFFICIENTS)]):
+        chosen = _either(code, of_floats(law), chosen)
+    return chosen
+
+
+_of_code = _by_code()
+_profile, _hold, _force_of_net = of_floats(log_profile), of_floats(net_hold), of_floats(net_force)
+
+
+def coefficient(row: Row, reynolds: float, spin_ratio: float) -> float:
+    """The drag or lift coefficient of a row."""
+    law = row[LAW]
+    if law == CONSTANT:
+        return row[VALUE]
+    if law == NATHAN:
+        return coefficients.nathan_drag(reynolds, spin_ratio, row[VALUE])
+    return row[SHARE] * _of_code(law, reynolds, spin_ratio / row[OF_SPIN])
+
+
+def velocity_in_air(row: Row, y: float, vx: float, vy: float) -> tuple[float, float]:
+    """Velocity relative to the air of a ball at a height y (m), in m/s."""
+    wind = row[WIND]
+    if wind == CALM:
+        return vx, vy
+    if wind == EVEN:
+        return vx - row[WIND_X], vy - row[WIND_Y]
+    profile = _profile(y, row[ROUGHNESS], row[CEILING])
+    return vx - row[WIND_X] * profile, vy - row[WIND_Y] * profile
+
+
+def acceleration(t: float, state: State, ball: Row, forces: Sequence[Row]) -> Acceleration:
+    """As ``acceleration_function``: in m/s^2 and rad/s^2, of the forces and torques in these rows."""
+    x, y, vx, vy, spin = state
+    fx, fy, torque = 0.0, 0.0, 0.0
+    for i in range(len(forces)):
+        row = forces[i]
+        kind = row[KIND]
+        if kind == STEADY:
+            fx, fy = fx + row[A], fy + row[B]
+        elif kind == NET:
+            gx, gy = _force_of_net(row[A] * _hold(x, y, row[B], row[C], row[D], row[E]), vx, vy)
+            fx, fy = fx + gx, fy + gy
+        else:
+            ux, uy = velocity_in_air(row, y, vx, vy)
+            speed = sqrt(ux * ux + uy * uy)
+            if kind == DECAY:
+                torque = torque - row[A] * speed * spin
+            else:
+                ratio = row[RADIUS] * abs(spin) / (speed + ALMOST_ZERO)
+                value = coefficient(row, row[REYNOLDS] * speed, ratio)
+                if kind == DRAG:
+                    k = drag_rate(row[A], value, speed)
+                    fx, fy = fx + k * ux, fy + k * uy
+                else:
+                    k = lift_rate(row[A], value, speed, row[RADIUS], spin)
+                    fx, fy = fx - k * uy, fy + k * ux
+    return fx / ball[MASS], fy / ball[MASS], torque / ball[INERTIA]
+
+
+def bounce(
+    law: float, normal_speed: float, tangential_speed: float, a: float, b: float, c: float, d: float
+) -> tuple[float, float, float, float]:
+    """Restitution, friction, tilt in rad and tangential restitution of an impact, by the code of a contact law and its
+    numbers."""
+    if law == TURF:
+        return bounce_of_turf(normal_speed, tangential_speed, a, b, c)
+    if law == COURT:
+        return bounce_of_court(normal_speed, tangential_speed, a, b, c, d)
+    return a, b, 0.0, 0.0

@@ -1,0 +1,244 @@
+"""Polynomials of degree 5 and 10 on [0, 1] in Bernstein form, as tuples of floats: those of a ball's path after a step,
+and of its distance from a fixed shape.
+
+The same as in ``bernstein.py``, written out for these degrees, in what both Python and numba take: the kernel runs
+interpreted or compiled.
+"""
+
+from __future__ import annotations
+
+from math import inf
+
+#: After a Newton step shorter than this, the error is its square times a moderate factor, which is rounding.
+CONVERGED = 1e-12
+
+#: Deepest halving of [0, 1]: two roots closer than 2**-40 of the interval count as a touch without crossing.
+DEEPEST = 40
+
+#: Coefficients of polynomials of degree 3, 4, 5 and 10.
+Cubic = tuple[float, float, float, float]
+Quartic = tuple[float, float, float, float, float]
+Quintic = tuple[float, float, float, float, float, float]
+Decic = tuple[float, float, float, float, float, float, float, float, float, float, float]
+
+
+def horner(b0: float, b1: float, b2: float, b3: float, b4: float, b5: float, r: float) -> float:
+    """Return sum_k C(5, k) b[k] r^(5 - k)."""
+    return ((((b0 * r + 5.0 * b1) * r + 10.0 * b2) * r + 10.0 * b3) * r + 5.0 * b4) * r + b5
+
+
+def at(b: Quintic, u: float) -> float:
+    """Return f(u), by Horner's rule in u / (1 - u) or its inverse, whichever is at most 1."""
+    w = 1.0 - u
+    if u <= w:
+        s = w * w
+        return horner(b[5], b[4], b[3], b[2], b[1], b[0], u / w) * (s * s * w)
+    s = u * u
+    return horner(b[0], b[1], b[2], b[3], b[4], b[5], w / u) * (s * s * u)
+
+
+def first_part(b: Quintic, u: float) -> Quintic:
+    """Return the coefficients on [0, u], by de Casteljau: each level takes the weighted mean of neighbours in the level
+    before, and the first of each level is a coefficient."""
+    w = 1.0 - u
+    b0, b1, b2, b3, b4, b5 = b
+    b1, b2, b3, b4, b5 = w * b0 + u * b1, w * b1 + u * b2, w * b2 + u * b3, w * b3 + u * b4, w * b4 + u * b5
+    b2, b3, b4, b5 = w * b1 + u * b2, w * b2 + u * b3, w * b3 + u * b4, w * b4 + u * b5
+    b3, b4, b5 = w * b2 + u * b3, w * b3 + u * b4, w * b4 + u * b5
+    b4, b5 = w * b3 + u * b4, w * b4 + u * b5
+    return b0, b1, b2, b3, b4, w * b4 + u * b5
+
+
+def first_of_quartic(b: Quartic, u: float) -> Quartic:
+    """The same of degree 4: a coefficient depends only on those before it."""
+    b0, b1, b2, b3, b4, _ = first_part((b[0], b[1], b[2], b[3], b[4], 0.0), u)
+    return b0, b1, b2, b3, b4
+
+
+def first_of_cubic(b: Cubic, u: float) -> Cubic:
+    """The same of degree 3."""
+    b0, b1, b2, b3, _, _ = first_part((b[0], b[1], b[2], b[3], 0.0, 0.0), u)
+    return b0, b1, b2, b3
+
+
+def elevated(b: Quintic) -> Decic:
+    """Return the same polynomial at degree 10."""
+    b0, b1, b2, b3, b4, b5 = b
+    return (
+        b0,
+        0.5 * (b0 + b1),
+        (2.0 * b0 + 5.0 * b1 + 2.0 * b2) / 9.0,
+        (b0 + 5.0 * b1 + 5.0 * b2 + b3) / 12.0,
+        (b0 + 10.0 * b1 + 20.0 * b2 + 10.0 * b3 + b4) / 42.0,
+        (b0 + 25.0 * b1 + 100.0 * b2 + 100.0 * b3 + 25.0 * b4 + b5) / 252.0,
+        (b1 + 10.0 * b2 + 20.0 * b3 + 10.0 * b4 + b5) / 42.0,
+        (b2 + 5.0 * b3 + 5.0 * b4 + b5) / 12.0,
+        (2.0 * b3 + 5.0 * b4 + 2.0 * b5) / 9.0,
+        0.5 * (b4 + b5),
+        b5,
+    )
+
+
+def squared_length(x: Quintic, y: Quintic) -> Decic:
+    """Return the coefficients of x^2 + y^2."""
+    x0, x1, x2, x3, x4, x5 = x
+    y0, y1, y2, y3, y4, y5 = y
+    return (
+        x0 * x0 + y0 * y0,
+        x0 * x1 + y0 * y1,
+        4 / 9 * (x0 * x2 + y0 * y2) + 5 / 9 * (x1 * x1 + y1 * y1),
+        1 / 6 * (x0 * x3 + y0 * y3) + 5 / 6 * (x1 * x2 + y1 * y2),
+        1 / 21 * (x0 * x4 + y0 * y4) + 10 / 21 * (x1 * x3 + y1 * y3) + 10 / 21 * (x2 * x2 + y2 * y2),
+        1 / 126 * (x0 * x5 + y0 * y5) + 25 / 126 * (x1 * x4 + y1 * y4) + 50 / 63 * (x2 * x3 + y2 * y3),
+        1 / 21 * (x1 * x5 + y1 * y5) + 10 / 21 * (x2 * x4 + y2 * y4) + 10 / 21 * (x3 * x3 + y3 * y3),
+        1 / 6 * (x2 * x5 + y2 * y5) + 5 / 6 * (x3 * x4 + y3 * y4),
+        4 / 9 * (x3 * x5 + y3 * y5) + 5 / 9 * (x4 * x4 + y4 * y4),
+        x4 * x5 + y4 * y5,
+        x5 * x5 + y5 * y5,
+    )
+
+
+def plus(b: Decic, c: float) -> Decic:
+    """Return the coefficients of f(u) + c."""
+    b0, b1, b2, b3, b4, b5, b6, b7, b8, b9, b10 = b
+    return b0 + c, b1 + c, b2 + c, b3 + c, b4 + c, b5 + c, b6 + c, b7 + c, b8 + c, b9 + c, b10 + c
+
+
+def without_root_at_start(b: Decic) -> Decic:
+    """Return the coefficients of (f(u) - f(0)) / u, at degree 10."""
+    z, b1, b2, b3, b4, b5, b6, b7, b8, b9, b10 = b
+    c0, c1, c2, c3, c4 = (b1 - z) * 10.0, (b2 - z) * 5.0, (b3 - z) * 10.0 / 3.0, (b4 - z) * 2.5, (b5 - z) * 2.0
+    c5, c6, c7, c8 = (b6 - z) * 10.0 / 6.0, (b7 - z) * 10.0 / 7.0, (b8 - z) * 1.25, (b9 - z) * 10.0 / 9.0
+    c9 = b10 - z
+    return (
+        c0,
+        (c0 + 9.0 * c1) / 10.0,
+        (2.0 * c1 + 8.0 * c2) / 10.0,
+        (3.0 * c2 + 7.0 * c3) / 10.0,
+        (4.0 * c3 + 6.0 * c4) / 10.0,
+        (5.0 * c4 + 5.0 * c5) / 10.0,
+        (6.0 * c5 + 4.0 * c6) / 10.0,
+        (7.0 * c6 + 3.0 * c7) / 10.0,
+        (8.0 * c7 + 2.0 * c8) / 10.0,
+        (9.0 * c8 + c9) / 10.0,
+        c9,
+    )
+
+
+def halves(b: Decic) -> tuple[Decic, Decic]:
+    """Return the coefficients on [0, 1/2] and on [1/2, 1]: each level takes the means of neighbours in the level
+    before; the first of each are those of one half, the last those of the other."""
+    l0, r1, r2, r3, r4, r5, r6, r7, r8, r9, r10 = b
+    r0, r1, r2, r3, r4 = 0.5 * (l0 + r1), 0.5 * (r1 + r2), 0.5 * (r2 + r3), 0.5 * (r3 + r4), 0.5 * (r4 + r5)
+    r5, r6, r7, r8, r9 = 0.5 * (r5 + r6), 0.5 * (r6 + r7), 0.5 * (r7 + r8), 0.5 * (r8 + r9), 0.5 * (r9 + r10)
+    l1 = r0
+    r0, r1, r2, r3, r4 = 0.5 * (r0 + r1), 0.5 * (r1 + r2), 0.5 * (r2 + r3), 0.5 * (r3 + r4), 0.5 * (r4 + r5)
+    r5, r6, r7, r8 = 0.5 * (r5 + r6), 0.5 * (r6 + r7), 0.5 * (r7 + r8), 0.5 * (r8 + r9)
+    l2 = r0
+    r0, r1, r2, r3, r4 = 0.5 * (r0 + r1), 0.5 * (r1 + r2), 0.5 * (r2 + r3), 0.5 * (r3 + r4), 0.5 * (r4 + r5)
+    r5, r6, r7 = 0.5 * (r5 + r6), 0.5 * (r6 + r7), 0.5 * (r7 + r8)
+    l3 = r0
+    r0, r1, r2, r3, r4 = 0.5 * (r0 + r1), 0.5 * (r1 + r2), 0.5 * (r2 + r3), 0.5 * (r3 + r4), 0.5 * (r4 + r5)
+    r5, r6 = 0.5 * (r5 + r6), 0.5 * (r6 + r7)
+    l4 = r0
+    r0, r1, r2, r3, r4 = 0.5 * (r0 + r1), 0.5 * (r1 + r2), 0.5 * (r2 + r3), 0.5 * (r3 + r4), 0.5 * (r4 + r5)
+    r5 = 0.5 * (r5 + r6)
+    l5 = r0
+    r0, r1, r2, r3, r4 = 0.5 * (r0 + r1), 0.5 * (r1 + r2), 0.5 * (r2 + r3), 0.5 * (r3 + r4), 0.5 * (r4 + r5)
+    l6 = r0
+    r0, r1, r2, r3 = 0.5 * (r0 + r1), 0.5 * (r1 + r2), 0.5 * (r2 + r3), 0.5 * (r3 + r4)
+    l7 = r0
+    r0, r1, r2 = 0.5 * (r0 + r1), 0.5 * (r1 + r2), 0.5 * (r2 + r3)
+    l8 = r0
+    r0, r1 = 0.5 * (r0 + r1), 0.5 * (r1 + r2)
+    l9, r0 = r0, 0.5 * (r0 + r1)
+    return (l0, l1, l2, l3, l4, l5, l6, l7, l8, l9, r0), (r0, r1, r2, r3, r4, r5, r6, r7, r8, r9, r10)
+
+
+def crossing(b: Decic, after: float) -> float:
+    """The first u > ``after`` in [0, 1] where f goes from positive to negative, inf if there is none: halving isolates
+    each root, from left to right.
+
+    The piece looked at is the ``place``-th of 2**depth, found by halving anew: a path that comes so near to a root
+    twice that signs do not tell them apart is rare, and no list is needed."""
+    if min(b) > 0.0 or max(b) <= 0.0:
+        return inf
+    depth, place = 0, 0
+    while True:
+        part, wide, starts = b, 1.0, False
+        for level in range(depth - 1, -1, -1):
+            left, right = halves(part)
+            wide *= 0.5
+            if (place >> level) % 2 == 0:
+                part, starts = left, False
+            else:
+                part, starts = right, left[10] == 0.0 and left[9] > 0.0 > right[1]
+        u0 = place * wide
+        if starts and u0 > after:
+            return u0
+        changes, last = sign_changes(part)
+        if changes == 1:
+            if last < 0.0:  # it ends negative, so it started positive
+                u = u0 + wide * single_root(part)
+                if u > after:
+                    return u
+        elif changes > 1 and depth == DEEPEST:
+            if part[0] > 0.0 > part[10] and u0 > after:
+                return u0
+        elif changes > 1:
+            depth, place = depth + 1, 2 * place
+            continue
+        while place % 2 == 1:  # on to the next piece
+            depth, place = depth - 1, place // 2
+        if depth == 0:
+            return inf
+        place += 1
+
+
+def sign_changes(b: Decic) -> tuple[int, float]:
+    """Return how often the coefficients change sign, and the last one that is not zero."""
+    changes, last = 0, b[0]
+    for value in b:
+        if value > 0.0 > last or value < 0.0 < last:
+            changes += 1
+        if value != 0.0:
+            last = value
+    return changes, last
+
+
+def single_root(b: Decic) -> float:
+    """Return the root of a polynomial with exactly one in [0, 1], where it falls: Newton, kept inside a bracket."""
+    low, high = 0.0, 1.0
+    u = b[0] / (b[0] - b[10]) if b[0] > 0.0 > b[10] else 0.5
+    for _ in range(100):
+        value, fall = _value_and_slope(b, u)
+        if value == 0.0 and fall < 0.0:
+            return u
+        if value < 0.0:
+            high = u
+        else:
+            low = u
+        following = u - value / fall if fall < 0.0 else low  # where it rises the root is only rounding
+        if (fall < 0.0 and abs(following - u) <= CONVERGED) or high - low <= 1e-16:
+            return min(max(following, low), high)
+        if not low < following < high:
+            following = 0.5 * (low + high)
+        u = following
+    return u
+
+
+def _value_and_slope(b: Decic, u: float) -> tuple[float, float]:
+    """Return f(u) and df/du, both over w^9 or u^9, with w = 1 - u."""
+    b0, b1, b2, b3, b4, b5, b6, b7, b8, b9, b10 = b
+    w = 1.0 - u
+    if u <= w:
+        b0, b1, b2, b3, b4, b5, b6, b7, b8, b9, b10 = b10, b9, b8, b7, b6, b5, b4, b3, b2, b1, b0
+        r, over, sign = u / w, w, -10.0
+    else:
+        r, over, sign = w / u, u, 10.0
+    f = ((((b0 * r + 10.0 * b1) * r + 45.0 * b2) * r + 120.0 * b3) * r + 210.0 * b4) * r + 252.0 * b5
+    f = ((((f * r + 210.0 * b6) * r + 120.0 * b7) * r + 45.0 * b8) * r + 10.0 * b9) * r + b10
+    d = (((b1 - b0) * r + 9.0 * (b2 - b1)) * r + 36.0 * (b3 - b2)) * r + 84.0 * (b4 - b3)
+    d = ((d * r + 126.0 * (b5 - b4)) * r + 126.0 * (b6 - b5)) * r + 84.0 * (b7 - b6)
+    d = ((d * r + 36.0 * (b8 - b7)) * r + 9.0 * (b9 - b8)) * r + (b10 - b9)
+    return f * over, sign * d

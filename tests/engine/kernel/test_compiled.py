@@ -1,0 +1,112 @@
+"""The kernel of many shots: interpreted it gives what arrays give; compiled, the bits of the interpreted one."""
+
+from __future__ import annotations
+
+import random
+from dataclasses import replace
+from math import inf
+
+import numpy as np
+import pytest
+
+import sandbox
+from sandbox.engine.kernel import building, library
+from sandbox.engine.kernel.checking import check, interpreted
+from sandbox.engine.kernel.rows import tables
+from sandbox.engine.many import batch
+from sandbox.engine.model.accuracy import resolve
+from sandbox.engine.paths import bernstein, quintic
+from sandbox.errors import RequestError
+
+#: Shots of a scene that are compared, by the ranges of speed and angle: with rims, grass, courts, wind and rolling.
+SCENES = {
+    "basketball": ((6.5, 8.3), (40.0, 70.0)),
+    "golf": ((20.0, 60.0), (8.0, 50.0)),
+    "golf/slide-3": ((20.0, 60.0), (8.0, 50.0)),
+    "tennis": ((20.0, 40.0), (0.0, 12.0)),
+    "soccer": ((15.0, 30.0), (5.0, 35.0)),
+    "baseball": ((20.0, 45.0), (10.0, 60.0)),
+}
+
+
+def _facts(name: str) -> tuple[dict[str, np.ndarray], tuple[str, ...]]:
+    (slow, fast), (low, high) = SCENES[name]
+    numbers = random.Random(3)
+    points = {
+        "launch.speed": [numbers.uniform(slow, fast) for _ in range(30)],
+        "launch.angle": [numbers.uniform(low, high) for _ in range(30)],
+    }
+    found = sandbox.simulate_many(name, points)
+    assert not found.errors
+    return {**found.facts}, tuple(found.facts)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_legs_give_the_facts_of_arrays(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    legs = 0
+
+    def counting(first: int, *arrays: np.ndarray) -> int:
+        nonlocal legs
+        legs += 1
+        return interpreted(first, *arrays)
+
+    monkeypatch.setattr(batch, "compiled", lambda: None)
+    before, keys = _facts(name)
+    monkeypatch.setattr(batch, "compiled", lambda: counting)
+    after, _ = _facts(name)
+    assert legs > 0
+    for key in keys:
+        one, other = before[key], after[key]
+        if one.dtype == float:
+            np.testing.assert_allclose(other, one, rtol=1e-9, atol=1e-9, err_msg=key)
+        else:
+            assert one.tolist() == other.tolist(), key
+
+
+@pytest.mark.skipif(library.compiled() is None, reason="sandbox compile has not been run")
+def test_compiled_bits_are_those_of_python() -> None:
+    fly_all = library.compiled()
+    assert fly_all is not None
+    check(fly_all, 100)
+
+
+def test_own_force_is_not_flown_in_the_kernel() -> None:
+    setup = sandbox.load("golf").build()
+    ball = setup.balls[0]
+    assert tables(setup, resolve(), 1) is not None
+    forces = [*ball.forces, lambda t, position, velocity, spin: (0.0, 0.0)]
+    assert tables(replace(setup, balls=[replace(ball, forces=forces)]), resolve(), 1) is None
+    assert tables(setup, resolve(integrator="rk4"), 1) is None
+
+
+def test_compile_without_numba_says_what_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
+    def no_module(name: str) -> object:
+        raise ImportError(name)
+
+    monkeypatch.setattr(building, "import_module", no_module)
+    with pytest.raises(RequestError, match=r"needs numba: pip install"):
+        building.install()
+    monkeypatch.setenv("CC", "no-such-compiler")
+    with pytest.raises(RequestError, match="needs a C compiler"):
+        building.install()
+
+
+def test_quintics_are_those_of_any_degree() -> None:
+    numbers = random.Random(5)
+    for _ in range(400):
+        x, y = (tuple(numbers.uniform(-1.0, 1.0) for _ in range(6)) for _ in range(2))
+        u = numbers.random()
+        assert quintic.at(x, u) == pytest.approx(bernstein.evaluate(x, u), abs=1e-14)
+        assert [*quintic.first_part(x, u)] == pytest.approx(bernstein.first_part(x, u), abs=1e-15)
+        assert [*quintic.elevated(x)] == pytest.approx([*bernstein.elevate(x, 10)], abs=1e-14)
+        assert [*quintic.squared_length(x, y)] == pytest.approx(bernstein.squared_length(x, y), abs=1e-14)
+        b = tuple(value - 0.5 for value in quintic.squared_length(x, y))
+        left, right = quintic.halves(b)
+        assert [*left, *right] == pytest.approx(
+            [*bernstein.first_part(b, 0.5), *bernstein.last_part(b, 0.5)], abs=1e-14
+        )
+        roots = [*bernstein.downward_crossings(b)]
+        found = [quintic.crossing(b, -1.0)]
+        while found[-1] < inf:
+            found.append(quintic.crossing(b, found[-1]))
+        assert found[:-1] == pytest.approx(roots, abs=1e-11)
