@@ -133,10 +133,12 @@ def _facts(scene: Scene, facts: Sequence[str]) -> tuple[str, ...]:
 
 def as_array(values: Sequence[Any]) -> np.ndarray:
     """Values as an array: of numbers, with NaN for None; of true and false; or of objects."""
-    if all(isinstance(value, bool) for value in values):
+    kinds = {*map(type, values)}  # of a million values in an instant
+    if all(issubclass(kind, bool) for kind in kinds):
         return np.array(values, dtype=bool)
-    if all(value is None or (isinstance(value, int | float) and not isinstance(value, bool)) for value in values):
-        return np.array([np.nan if value is None else float(value) for value in values])
+    numbers = kinds - {type(None)}
+    if all(issubclass(kind, int | float) and not issubclass(kind, bool) for kind in numbers):
+        return np.array([np.nan if value is None else value for value in values] if numbers < kinds else values, float)
     column = np.empty(len(values), dtype=object)
     column[:] = values
     return column

@@ -42,10 +42,14 @@ def no_progress(done: int, total: int) -> None:
 class Outcome(NamedTuple):
     """A run at one of many points, and the facts that were asked for."""
 
-    run: Run
+    run_at: Callable[[int], Run]
     result: dict[str, Any]
     parameters_at: Callable[[int], SceneParameters]
     place: int
+
+    @property
+    def run(self) -> Run:
+        return self.run_at(self.place)
 
     def of(self, scene: Scene) -> SceneRun:
         """The whole run of this scene, with its parameters at this point."""
@@ -132,10 +136,16 @@ class _Together(NamedTuple):
         except Exception as error:
             yield from repeat(error, len(self.each))
             return
-        stack, columns = built_at_once(self.build, self.many, self.each), dict[str, list[Any]]()
+        stack = built_at_once(self.build, self.many, self.each)
         flown = None if stack is None else simulate_together(stack, accuracy)
-        if flown is not None:
-            columns = facts_at_once(scene, facts, flown, self.many, self.each)
+        columns = {} if flown is None else facts_at_once(scene, facts, flown, self.many, self.each)
+        if flown is not None and len(columns) == len(facts):  # no run is made that is not asked for
+            rows = zip(*(columns[fact] for fact in facts), strict=True) if facts else repeat(())
+            for place, row in zip(range(len(flown)), rows, strict=False):
+                failed = flown.failure(place)
+                made = Outcome(flown.__getitem__, dict(zip(facts, row, strict=True)), self.each.__getitem__, place)
+                yield made if failed is None else failed
+            return
         read = scene.reader([fact for fact in facts if fact not in columns])
         for place, run in enumerate(self._alone(accuracy) if flown is None else flown):
             yield run if isinstance(run, Exception) else self._outcome(run, place, facts, columns, read)
@@ -151,11 +161,11 @@ class _Together(NamedTuple):
     ) -> Outcome | Exception:
         """The outcome of a run, with facts in columns and those that are ``read`` from it, or what they raise."""
         try:
-            own = read(run, self.each[place]) if len(columns) < len(facts) else {}
+            own = read(run, self.each[place])
         except Exception as error:
             return error
         result = {fact: columns[fact][place] if fact in columns else own[fact] for fact in facts}
-        return Outcome(run, result, self.each.__getitem__, place)
+        return Outcome(lambda _: run, result, self.each.__getitem__, place)
 
 
 def facts_at_once(
@@ -198,7 +208,8 @@ def _column(values: Any, of_kinds: Sequence[Any], kinds: np.ndarray, count: int)
     if isinstance(values, np.ndarray):
         if values.shape != (count,) or values.dtype.kind not in "fib":
             raise TypeError
-        return list(map(_known, values.tolist()))
+        listed: list[Any] = values.tolist()
+        return listed if np.isfinite(values).all() else [*map(_known, listed)]
     if values is not None and not isinstance(values, float | int | str):
         raise TypeError
     return [of_kinds[kind] for kind in kinds.tolist()]

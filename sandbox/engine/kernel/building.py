@@ -21,20 +21,8 @@ from sandbox.engine.kernel.checking import check
 from sandbox.engine.kernel.library import OPTIONS, compiled, load, place
 from sandbox.errors import RequestError, RunError
 
-#: The arrays that ``fly_all`` takes after its first parameter: how many axes each has. The last three are written.
-AXES = {
-    "shots": 2,
-    "balls": 2,
-    "forces": 3,
-    "surfaces": 3,
-    "regions": 3,
-    "rules": 3,
-    "counted": 2,
-    "limits": 2,
-    "arcs": 2,
-    "events": 2,
-    "found": 2,
-}
+#: How many axes each of the arrays has that ``fly_all`` takes after its first parameter.
+_AXES = 2, 2, 3, 3, 3, 3, 2, 2, 2, 2, 2
 
 
 class Installed(NamedTuple):
@@ -93,14 +81,25 @@ def _compiled(numba: Any) -> Any:
     """``fly_all``, compiled for pointers to floats, each with the sizes of its array."""
     for function in _called(leg.fly_all, {}):
         numba.extending.register_jitable(function)
-    parameters, calls, types = ["first"], ["first"], [numba.int64]
-    for name, axes in AXES.items():
-        sizes = [f"{name}_{axis}" for axis in range(axes)]
-        parameters += [name, *sizes]
-        calls.append(f"carray({name}, ({', '.join(sizes)}))")
+    fly_all, array = leg.fly_all, numba.carray
+
+    # fmt: off
+    def entry(  # type: ignore[no-untyped-def]
+        first, shots, s0, s1, balls, b0, b1, forces, f0, f1, f2, surfaces, u0, u1, u2, regions, r0, r1, r2,
+        rules, q0, q1, q2, counted, c0, c1, limits, l0, l1, arcs, a0, a1, events, e0, e1, found, d0, d1,
+    ):
+        return fly_all(
+            first, array(shots, (s0, s1)), array(balls, (b0, b1)), array(forces, (f0, f1, f2)),
+            array(surfaces, (u0, u1, u2)), array(regions, (r0, r1, r2)), array(rules, (q0, q1, q2)),
+            array(counted, (c0, c1)), array(limits, (l0, l1)), array(arcs, (a0, a1)), array(events, (e0, e1)),
+            array(found, (d0, d1)),
+        )
+    # fmt: on
+
+    types = [numba.int64]
+    for axes in _AXES:
         types += [numba.types.CPointer(numba.float64), *[numba.int64] * axes]
-    source, known = f"lambda {', '.join(parameters)}: fly_all({', '.join(calls)})", vars(leg) | {"carray": numba.carray}
-    return numba.cfunc(numba.int64(*types), **OPTIONS)(eval(source, known))
+    return numba.cfunc(numba.int64(*types), **OPTIONS)(entry)
 
 
 def _called(function: Any, found: dict[Any, None]) -> dict[Any, None]:

@@ -22,8 +22,8 @@ from sandbox.files import cache_folder
 #: Set to anything in the environment, the compiled kernel is ignored: what ``--no-compiled`` does.
 IGNORED = "SANDBOX_NO_COMPILED"
 
-#: Rows of arcs and of events for which there is room at first: 6 MB.
-_ARCS, _EVENTS = 20_000, 5_000
+#: Rows of arcs and of events for which there is room, for each shot and at most: 6 kB and 125 MB, where they are used.
+_ARCS, _EVENTS, _MOST = 80, 20, 400_000
 
 #: How ``fly_all`` is compiled; a part of the library's key.
 OPTIONS = {"error_model": "numpy"}
@@ -82,14 +82,16 @@ def fly_together(fly_all: FlyAll, shots: np.ndarray, tables: Tables, counted: np
     """Fly shots, whose rows have shape (shots, 7), each to the end of its leg. ``counted`` has for each the impacts so
     far that its rules are about; they are counted on."""
     count, first, found = len(shots), 0, np.empty((len(shots), SHOT_COLUMNS))
-    arcs, events = np.empty((_ARCS, ARC_COLUMNS)), np.empty((_EVENTS, EVENT_COLUMNS))
+    room, most = _ARCS * (count + 9), _EVENTS * (count + 9)
+    arcs, events = np.empty((min(room, _MOST), ARC_COLUMNS)), np.empty((most, EVENT_COLUMNS))
     parts, so_far = list[tuple[np.ndarray, np.ndarray]](), (0, 0)
     before = counted.copy()
     while first < count:
         done = fly_all(first, shots, *tables[:5], counted, tables.limits, arcs, events, found)
         if done > first:
             used = found[done - 1, [ARCS_SO_FAR, EVENTS]].astype(int).tolist()
-            parts.append((arcs[: used[0]].copy(), events[: used[1]].copy()))
+            new = arcs[: used[0]], events[: used[1]]
+            parts.append(new if done == count else (new[0].copy(), new[1].copy()))
             found[first:done, ARCS_SO_FAR] += so_far[0]
             found[first:done, EVENTS] += so_far[1]
             so_far = so_far[0] + used[0], so_far[1] + used[1]

@@ -34,6 +34,10 @@ _HELD = np.less(_COEFFICIENTS, [curve.stop for curve in CURVES])
 _OF_CURVES = _COEFFICIENTS[_HELD]
 
 
+#: So many paths that are asked for one curve are taken as a sign that all are.
+_MANY = 12
+
+
 class Paths:
     """The paths of many balls, one after another. ``rows`` has shape (arcs, 39): t0, t1, start, coefficients, end, and
     a place in ``contacts`` or -1; ``ends`` has the number of rows up to the end of each path."""
@@ -42,7 +46,7 @@ class Paths:
         self.rows = rows
         self.contacts = contacts
         self._bounds = [0, *ends]
-        self._asked: dict[Curve, int] = {}
+        self._asked: dict[Curve, set[int]] = {}
         self._passages: dict[Curve, list[list[Passage]]] = {}
 
     def __getitem__(self, number: int) -> ArcRows:
@@ -92,10 +96,12 @@ class Paths:
 
     def passages(self, path: ArcRows, curve: Curve) -> list[Passage]:
         """Each time and state at which a curve becomes negative along a path. All paths are computed together as soon
-        as a second one is asked for the same curve."""
+        as many are asked for the same curve."""
         found = self._passages.get(curve)  # once: the hash of a curve takes as long as the rest
         if found is None:
-            if self._asked.setdefault(curve, path.number) == path.number:
+            asked = self._asked.setdefault(curve, set())
+            asked.add(path.number)
+            if len(asked) < _MANY:
                 return _listed(*self.passing(path.first, path.last, curve)[1:])
             found = self._passages[curve] = [[] for _ in self._bounds]
             numbers, t, states = self.passing(0, len(self.rows), curve)

@@ -23,7 +23,7 @@ from sandbox.engine.many.batch_forces import NotVectorizable, accelerations, che
 from sandbox.engine.many.batch_impacts import BatchImpacts
 from sandbox.engine.many.batch_record import QUERIES, REFINED, STEPS, BatchRecord
 from sandbox.engine.many.batch_steps import allowed, attempt, shortest
-from sandbox.engine.many.continuation import ENDED, BatchExit, ExitReason
+from sandbox.engine.many.continuation import BatchExit, ExitReason
 from sandbox.engine.many.flown import Flown
 from sandbox.engine.many.in_flight import InFlight
 from sandbox.engine.many.legs import Legs
@@ -217,8 +217,12 @@ class Batch:
         """Record the state of shots that leave, and keep the others. Returns a mask of these."""
         flying, record = self._flying, self._record
         staying: np.ndarray = flying.exit == ExitReason.NONE
-        leaving = (~staying).nonzero()[0].tolist()
-        for lane in leaving:
+        leaving = (~staying).nonzero()[0]
+        record.ends[flying.shot[leaving]], record.reasons[flying.shot[leaving]] = (
+            flying.t[leaving],
+            flying.exit[leaving],
+        )
+        for lane in leaving[flying.exit[leaving] > ExitReason.DURATION].tolist():  # to be continued
             shot, reason, contact = int(flying.shot[lane]), ExitReason(flying.exit[lane]), int(flying.contact[lane])
             record.exits[shot] = BatchExit(
                 float(flying.t[lane]),
@@ -226,8 +230,8 @@ class Batch:
                 tuple(flying.state[:, lane].tolist()),
                 float(flying.next_step[lane]),
                 record.contacts[contact] if contact >= 0 else None,
-                [] if reason in ENDED else record.last_arc(shot),
+                record.last_arc(shot),
             )
-        if leaving:
+        if len(leaving):
             flying.keep(staying)
         return staying

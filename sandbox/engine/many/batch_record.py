@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from sandbox.engine.live import Record
-from sandbox.engine.many.arc_rows import Paths, arc_of, columns_of
+from sandbox.engine.many.arc_rows import COLUMNS, Paths, arc_of, columns_of
 from sandbox.engine.many.continuation import ENDED, BatchExit, Continuation
 from sandbox.engine.many.flown import Flown
 from sandbox.engine.many.stacking import Stack
@@ -33,7 +33,8 @@ class BatchRecord:
         self.events: list[list[Event]] = [[] for _ in range(len(setups))]
         self.counts = np.zeros((4, len(setups)), dtype=int)
         self.contacts: list[Any] = []  # sustained ones, in the order in which they began
-        self.exits: dict[int, BatchExit] = {}  # by shot
+        self.exits: dict[int, BatchExit] = {}  # by shot, of those that are to be continued
+        self.ends, self.reasons = np.zeros(len(setups)), np.zeros(len(setups), dtype=int)  # s; why each shot left
         self.pieces = 0  # of path, of all shots
         self._paths = [(np.zeros(0, dtype=int), columns_of([], []))]  # shots, and the rows of their arcs as columns
 
@@ -58,22 +59,24 @@ class BatchRecord:
     def flown(self, seconds: float) -> Flown:
         """The runs of all shots, of which those that are not over are continued alone; the batch took so many
         ``seconds``."""
-        alone = {shot: self._continued(shot) for shot, left in self.exits.items() if left.reason not in ENDED}
+        alone = {shot: self._continued(shot) for shot in self.exits}
         shots = np.concatenate([shots for shots, _ in self._paths])
-        order = np.argsort(shots, kind="stable")
-        rows = np.concatenate([columns for _, columns in self._paths], axis=1)[:, order].T
+        places, rows, first = np.empty(len(shots), dtype=int), np.empty((len(shots), COLUMNS)), 0
+        places[np.argsort(shots, kind="stable")] = np.arange(len(shots))
+        for part, columns in self._paths:
+            rows[places[first : first + len(part)]] = columns.T
+            first += len(part)
         paths = Paths(rows, np.cumsum(np.bincount(shots, minlength=len(self.setups))).tolist(), self.contacts)
-        exits = [self.exits[shot] for shot in range(len(self.setups))]
         return Flown(
             self.setups,
             self._accuracy,
             paths,
             self.events,
-            [left.t for left in exits],
-            [ENDED.get(left.reason, "") for left in exits],
+            self.ends.tolist(),
+            [ENDED.get(reason, "") for reason in self.reasons.tolist()],
             self._numbers(slice(None)).T,
             alone,
-            seconds / len(exits),
+            seconds / len(self.setups),
         )
 
     def _numbers(self, shots: int | slice) -> np.ndarray:

@@ -112,6 +112,7 @@ def downward_crossings(b: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarra
     falling = []
     for halving in range(_HALVINGS + 1):
         positive = b > 0.0
+        positive[0] |= (b[0] == 0.0) & positive[1]  # one that rises from zero does not cross it there
         changes = (positive[1:] != positive[:-1]).sum(axis=0)
         doubtful = (changes > 1) | ((changes > 0) & (b == 0.0).any(axis=0))
         falls = ((changes == 1) & ~positive[-1] & ~doubtful).nonzero()[0]

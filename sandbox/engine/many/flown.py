@@ -60,6 +60,11 @@ class Flown(Sequence[Any]):
     def __getitem__(self, shot: Any) -> Any:
         return self._alone.get(shot) or FlownRun(self, shot)
 
+    def failure(self, shot: int) -> Exception | None:
+        """The exception with which a run ended, if it did."""
+        run = self._alone.get(shot)
+        return run if isinstance(run, Exception) else None
+
 
 class FlownRun(Run):
     """The run of one of many shots: what is asked of it is read from their rows then."""
