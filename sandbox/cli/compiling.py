@@ -8,7 +8,7 @@ from sandbox.cli.arguments import say
 
 
 @click.command("compile")
-def compile_kernel() -> None:
+def _compile_kernel() -> None:
     """Compile the flight of many shots, once: sweeps and searches then take a fraction of the time.
 
     It needs numba, only for this (pip install "sports-sandbox[fast]"), and a C compiler. The library is put into your

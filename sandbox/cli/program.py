@@ -18,7 +18,7 @@ from sandbox.errors import SandboxError, Stopped
 from sandbox.text import one_line, printable
 
 #: The option of every command that ignores the compiled kernel, by setting this in the environment.
-NO_COMPILED, IGNORED = "--no-compiled", "SANDBOX_NO_COMPILED"
+_NO_COMPILED, IGNORED = "--no-compiled", "SANDBOX_NO_COMPILED"
 
 #: The core's commands by module, which is imported when one of them is needed.
 COMMANDS = {
@@ -50,7 +50,7 @@ class Commands(click.Group):
 
 @click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
 @click.version_option(__version__, message="sandbox %(version)s")
-@click.option(NO_COMPILED, is_flag=True, help="Do without what sandbox compile has built; with any command.")
+@click.option(_NO_COMPILED, is_flag=True, help="Do without what sandbox compile has built; with any command.")
 def app(no_compiled: bool) -> None:
     """A 2D sports sandbox: pick a sport, let go, and see real physics.
 
@@ -72,8 +72,8 @@ def call(args: Sequence[str] | None) -> int:
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="replace")  # a terminal without "±" shows "?"
     given = list(sys.argv[1:] if args is None else args) or ["--help"]
-    if NO_COMPILED in given:  # wherever it stands
-        given = [NO_COMPILED, *(each for each in given if each != NO_COMPILED)]
+    if _NO_COMPILED in given:  # wherever it stands
+        given = [_NO_COMPILED, *(each for each in given if each != _NO_COMPILED)]
     try:
         with inputs_are_kept(), app.make_context("sandbox", [*given]) as context:
             app.invoke(context)

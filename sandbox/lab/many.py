@@ -99,7 +99,8 @@ def simulate_many(
         check_mapping("points", points, '{"launch.angle": [10, 20, 30]}')
         axes = points_given(chosen, points)
     plan = Plan(chosen, axes, listed=True, facts=wanted)
-    rows: list[Mapping[str, Any]] = []
+    rows = {key: list[Any]() for key in plan.facts_read}
+    done = 0
     kept: list[SceneRun | None] = []
     errors: dict[int, str] = {}
     for start in range(0, plan.size, plan.block):
@@ -108,13 +109,16 @@ def simulate_many(
         compute = runs if paths else outcomes
         for found in compute(chosen, plan.keys, some, asked=() if paths else plan.facts_read):
             if isinstance(found, Exception):
-                errors[len(rows)] = one_line_error(found)
-            rows.append({} if isinstance(found, Exception) else found.result)
+                errors[done] = one_line_error(found)
+            result = {} if isinstance(found, Exception) else found.result
+            for key, values in rows.items():
+                values.append(result.get(key))
+            done += 1
             if paths:
                 kept.append(found if isinstance(found, SceneRun) else None)
     progress(plan.size, plan.size)
     given = {axis.key: as_array(axis.values) for axis in plan.axes if isinstance(axis, Values)}
-    found_facts = {key: as_array([row.get(key) for row in rows]) for key in plan.facts_read}
+    found_facts = {key: as_array(values) for key, values in rows.items()}
     numbers, left_out = ((), ()) if read is None else (read.rows, read.left_out)
     return Runs(chosen, given, found_facts, errors, kept, numbers, left_out)
 

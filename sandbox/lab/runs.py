@@ -189,27 +189,32 @@ def facts_at_once(
         return {}
     lacking = np.array([np.zeros(count, bool), *together.missing])
     _, firsts, kinds = np.unique(lacking, axis=1, return_index=True, return_inverse=True)
-    some = {*firsts.tolist(), 0, count // 2, count - 1}
+    some = {place: flown[place] for place in (*firsts.tolist(), 0, count // 2, count - 1)}
+    alone: dict[str, dict[int, Any]] = {key: {} for key in computed}
+    for place, run in some.items():
+        for key in computed:
+            try:
+                alone[key][place] = scene.reader([key])(run, each[place])[key]
+            except Exception:
+                continue
     found = {}
     for key, values in computed.items():
         try:
-            read = scene.reader([key])
-            alone = {place: read(flown[place], each[place])[key] for place in some}
-            column = _column(values, [alone[first] for first in firsts.tolist()], kinds.ravel(), count)
+            column = _column(values, [alone[key][first] for first in firsts.tolist()], kinds.ravel(), count)
         except Exception:
             continue
-        if all(_alike(column[place], value) for place, value in alone.items()):
+        if len(alone[key]) == len(some) and all(_alike(column[place], value) for place, value in alone[key].items()):
             found[key] = column
     return found
 
 
 def _column(values: Any, of_kinds: Sequence[Any], kinds: np.ndarray, count: int) -> list[Any]:
-    """The values of all runs: of an array of numbers, or those ``of_kinds`` of run. Raises TypeError for others."""
+    """The values of all runs: of an array, or those ``of_kinds`` of run. Raises TypeError for others."""
     if isinstance(values, np.ndarray):
-        if values.shape != (count,) or values.dtype.kind not in "fib":
+        if values.shape != (count,) or values.dtype.kind not in "fibUO":
             raise TypeError
         listed: list[Any] = values.tolist()
-        return listed if np.isfinite(values).all() else [*map(_known, listed)]
+        return [*map(_known, listed)] if values.dtype.kind == "f" and not np.isfinite(values).all() else listed
     if values is not None and not isinstance(values, float | int | str):
         raise TypeError
     return [of_kinds[kind] for kind in kinds.tolist()]

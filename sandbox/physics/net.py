@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 from sandbox.physics.elementwise import anywhere, minimum, smooth
 
 #: Sideways over downwards.
-HOLD = 4.0
+_HOLD = 4.0
 
 #: The distance in m over which the force begins and ends.
 EDGE = 0.05
@@ -49,4 +49,4 @@ def net_hold(x: Any, y: Any, across: Any, top: Any, half_width: Any, length: Any
 
 def net_force(rate: Any, vx: Any, vy: Any) -> tuple[Any, Any]:
     """The force in N of a net that takes momentum at a rate in kg/s from a ball that falls."""
-    return HOLD * -rate * vx, -rate * vy
+    return _HOLD * -rate * vx, -rate * vy

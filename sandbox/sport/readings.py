@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from math import inf, pi
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -99,6 +99,23 @@ def fact_from(moment: Callable[[Run, Any], Any], what: str | Callable[[Any, Any]
 def before(run: Run, t: float, ball: str = "ball") -> Moment:
     """A ball just before time t in s."""
     return Moment(t, *run.before(ball, t))
+
+
+def first_time(passages: Iterable[tuple[Any, State]], holds: Callable[[Any, State], Any]) -> Any:
+    """The time in s of the first of these that ``holds(t, state)``; inf without one. Of many shots, arrays."""
+    first: Any = inf
+    for t, state in passages:
+        first = minimum(where(holds(t, state), t, inf), first)
+    return first
+
+
+def of_each(found: Any, compute: Callable[[Any], Any]) -> Any:
+    """``compute(found)`` of what a run has, such as a list; of an array of it for many shots, an array."""
+    if not hasattr(found, "tolist"):
+        return compute(found)
+    import numpy as np
+
+    return np.array([*map(compute, found.tolist())])
 
 
 def down_to(run: Run, place: Vector, until: float = inf) -> Moment | None:

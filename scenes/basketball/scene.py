@@ -18,7 +18,7 @@ to 5.1 cm beyond it.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import inf
 from typing import Any
@@ -59,10 +59,12 @@ from sandbox.kit import (
     disc,
     down_to,
     fact_from,
+    first_time,
     group,
     level,
     maximum,
     minimum,
+    of_each,
     quantity,
     rectangle,
     roughly,
@@ -262,60 +264,63 @@ def falls_to(run: Run, parameters: Parameters, below: float = 0.0) -> Iterator[t
 
 
 @cached_per_run
-def out(run: Run, parameters: Parameters) -> float | None:
-    """The time in s at which the ball left the ring below, between its inner edges; None if it did not before it
+def out(run: Run, parameters: Parameters) -> Any:
+    """The time in s at which the ball left the ring below, between its inner edges; inf if it did not before it
     reached the floor."""
+    floor = on_floor(run)
     falls = falls_to(run, parameters, parameters.ball.radius)
-    return next((t for t, state in falls if inside(state, parameters) and t <= on_floor(run)), None)
+    return first_time(falls, lambda t, state: inside(state, parameters) & (t <= floor))
 
 
 @cached_per_run
-def made(run: Run, parameters: Parameters) -> bool:
+def made(run: Run, parameters: Parameters) -> Any:
     """True if it had come down through the ring, and not up through it before (FIBA rules, art. 16: from above)."""
-    left = out(run, parameters)
-    if left is None or from_below(run, parameters):
-        return False
-    up = max((t for t, _ in run.crossings("ball", parameters.hoop.middle, (0.0, -1.0)) if t < left), default=0.0)
-    falls = falls_to(run, parameters)
-    return any(up < t <= left and inside(state, parameters) and not on_side(t, run, parameters) for t, state in falls)
+    left, up, through = out(run, parameters), 0.0, False
+    for t, _ in run.crossings("ball", parameters.hoop.middle, (0.0, -1.0)):
+        up = where(t < left, t, up)
+    for t, state in falls_to(run, parameters):
+        aside = on_side(t, run, parameters)
+        through = through | ((up < t) & (t <= left) & inside(state, parameters) & (aside ^ True))
+    return through & (left < inf) & (from_below(run, parameters) ^ True)
 
 
 @cached_per_run
-def from_below(run: Run, parameters: Parameters) -> bool:
+def from_below(run: Run, parameters: Parameters) -> Any:
     """True if the ball is first between the inner edges on its way up."""
     rises = run.crossings("ball", parameters.hoop.middle, (0.0, -1.0))
     first_up, first_down = (
-        next((t for t, state in crossings if inside(state, parameters)), inf)
+        first_time(crossings, lambda _, state: inside(state, parameters))
         for crossings in (rises, falls_to(run, parameters))
     )
     return first_up < first_down
 
 
-def inside(state: State, parameters: Parameters) -> bool:
+def inside(state: State, parameters: Parameters) -> Any:
     """True if the ball's centre is between the inner edges."""
-    return bool(abs(state[0] - parameters.hoop.distance) < 0.5 * parameters.width)
+    return abs(state[0] - parameters.hoop.distance) < 0.5 * parameters.width
 
 
-def on_side(t: float, run: Run, parameters: Parameters) -> bool:
+def on_side(t: Any, run: Run, parameters: Parameters) -> Any:
     """True if the ball falls on the side of the ring instead, at time t in s."""
     beside = abs(aside_at(t, run, parameters))
-    return beside > 0.0 and (parameters.free == 0.0 or beside >= parameters.room)
+    return (beside > 0.0) & ((parameters.free == 0.0) | (beside >= parameters.room))
 
 
-def aside_at(t: float, run: Run, parameters: Parameters) -> float:
+def aside_at(t: Any, run: Run, parameters: Parameters) -> Any:
     """Return how far in m the ball is beside the middle of the ring at time t in s, positive to the left.
 
     It flies straight on to the side, and the ring is met near its middle. The board leaves it the share 1 / (1 + k) of
     its sideways speed, k its moment of inertia over m r^2: it grips, since that speed is small.
     """
-    beside = float(parameters.beside)
-    if beside == 0.0 or parameters.free == 0.0:
+    beside = parameters.beside
+    if not anywhere((beside != 0.0) & (parameters.free != 0.0)):
         return beside
-    hit = next((event for event in run.events if event.partner == "backboard" and event.t < t), None)
+    hit = run.first_event("backboard")
     if hit is None:
         return beside
     further = hit.speed * (t - hit.t) / (1.0 + parameters.ball.inertia_factor)
-    return beside * (hit.x + further) / parameters.hoop.distance
+    off_board = (hit.t < t) & (parameters.free != 0.0)
+    return where(off_board, beside * (hit.x + further) / parameters.hoop.distance, beside)
 
 
 @cached_per_run
@@ -341,15 +346,17 @@ def is_aside(run: Run, parameters: Parameters) -> bool:
 
 
 @cached_per_run
-def touches(run: Run, parameters: Parameters) -> list[str]:
+def touches(run: Run, parameters: Parameters) -> Any:
     """The surfaces touched until the shot was decided: by leaving the ring below, by reaching the floor, or because the
     ball stays between ring and board."""
-    left = out(run, parameters)
-    over = on_floor(run) if left is None else left
-    if left is None and not any(event.partner == "floor" for event in run.events):
+    left, floor = out(run, parameters), on_floor(run)
+    landing, over = run.first_event("floor"), where(left < inf, left, floor)
+    never_down = (left == inf) & (True if landing is None else landing.t != landing.t)  # not a number: of many shots
+    if anywhere(never_down):
         stays = decided(parameters).stays
-        over = next((arc.t0 for arc in run.arcs["ball"] if stays(arc.start)), over)
-    return [event.partner for event in run.events if event.kind in ("impact", "contact") and event.t <= over]
+        kept = first_time(run.starts("ball"), lambda _, state: stays(state))
+        over = where(never_down & (kept < inf), kept, over)
+    return run.touched(over)
 
 
 @dataclass(frozen=True)
@@ -381,12 +388,14 @@ def decided(parameters: Parameters) -> Decided:
     return Decided("floor", 1, *parameters.section.across(ball.radius), (back, face, level), factors, needed)
 
 
-def outcome(run: Run, parameters: Parameters) -> str:
+def outcome(run: Run, parameters: Parameters) -> Any:
     """swish; bank, off the board first; rim, off the ring first; miss."""
-    if not made(run, parameters):
-        return "miss"
-    first = next(iter(touches(run, parameters)), None)
-    return "swish" if first is None else "bank" if first == "backboard" else "rim"
+    return where(made(run, parameters), of_each(touches(run, parameters), how_made), "miss")
+
+
+def how_made(touched: Sequence[str]) -> str:
+    """How a shot went in that touched these on its way."""
+    return "swish" if not touched else "bank" if touched[0] == "backboard" else "rim"
 
 
 FACTS = (

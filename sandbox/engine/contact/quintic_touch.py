@@ -22,7 +22,7 @@ from sandbox.engine.paths.quintic import (
 )
 
 #: Places in the row of a shape, as the fields of an ``Outline``.
-AX, AY, BX, BY, REACH, LENGTH, TX, TY = range(8)
+_AX, _AY, _BX, _BY, REACH, LENGTH, _TX, _TY = range(8)
 
 
 def first_touch(shape: Sequence[float], xs: Quintic, ys: Quintic, skin: float) -> float:
@@ -30,8 +30,8 @@ def first_touch(shape: Sequence[float], xs: Quintic, ys: Quintic, skin: float) -
     it does not."""
     radius, length = shape[REACH] - skin, shape[LENGTH]
     if length == 0.0:
-        return first_within(xs, ys, shape[AX], shape[AY], radius)
-    ax, ay, tx, ty = shape[AX], shape[AY], shape[TX], shape[TY]
+        return _first_within(xs, ys, shape[_AX], shape[_AY], radius)
+    ax, ay, tx, ty = shape[_AX], shape[_AY], shape[_TX], shape[_TY]
     across = (
         (ys[0] - ay) * tx - (xs[0] - ax) * ty,
         (ys[1] - ay) * tx - (xs[1] - ax) * ty,
@@ -43,12 +43,12 @@ def first_touch(shape: Sequence[float], xs: Quintic, ys: Quintic, skin: float) -
     low, high = min(across), max(across)
     if low > shape[REACH] or high < -shape[REACH]:
         return inf
-    touch = first_within(xs, ys, ax, ay, radius)
+    touch = _first_within(xs, ys, ax, ay, radius)
     touch = min(touch, _touch_of_side(shape, xs, ys, across, low, high, skin))
-    return min(touch, first_within(xs, ys, shape[BX], shape[BY], radius))
+    return min(touch, _first_within(xs, ys, shape[_BX], shape[_BY], radius))
 
 
-def first_within(xs: Quintic, ys: Quintic, cx: float, cy: float, radius: float) -> float:
+def _first_within(xs: Quintic, ys: Quintic, cx: float, cy: float, radius: float) -> float:
     """The first u at which a path comes within ``radius`` of a point; inf if it does not."""
     dx0, dx1, dx2, dx3, dx4, dx5 = xs[0] - cx, xs[1] - cx, xs[2] - cx, xs[3] - cx, xs[4] - cx, xs[5] - cx
     if min(dx0, dx1, dx2, dx3, dx4, dx5) > radius or max(dx0, dx1, dx2, dx3, dx4, dx5) < -radius:
@@ -141,7 +141,7 @@ def _touch_of_side(
 
 def _along(shape: Sequence[float], x: float, y: float) -> float:
     """Distance in m from a towards b."""
-    return (x - shape[AX]) * shape[TX] + (y - shape[AY]) * shape[TY]
+    return (x - shape[_AX]) * shape[_TX] + (y - shape[_AY]) * shape[_TY]
 
 
 def nearest(shape: Sequence[float], x: float, y: float) -> tuple[float, float, float, float]:
@@ -149,13 +149,13 @@ def nearest(shape: Sequence[float], x: float, y: float) -> tuple[float, float, f
     path of a ball that stays in touch."""
     along, length, reach = _along(shape, x, y), shape[LENGTH], shape[REACH]
     if 0.0 <= along <= length and length > 0.0:
-        across = (y - shape[AY]) * shape[TX] - (x - shape[AX]) * shape[TY]
+        across = (y - shape[_AY]) * shape[_TX] - (x - shape[_AX]) * shape[_TY]
         side = 1.0 if across >= 0.0 else -1.0
-        return side * across - reach, -side * shape[TY], side * shape[TX], 0.0
+        return side * across - reach, -side * shape[_TY], side * shape[_TX], 0.0
     if along > length:
-        dx, dy = x - shape[BX], y - shape[BY]
+        dx, dy = x - shape[_BX], y - shape[_BY]
     else:
-        dx, dy = x - shape[AX], y - shape[AY]
+        dx, dy = x - shape[_AX], y - shape[_AY]
     distance = sqrt(dx * dx + dy * dy)
     over = distance + TINY
     return distance - reach, dx / over, dy / over, 1.0 / reach

@@ -25,7 +25,7 @@ from sandbox.errors import RequestError, RunError
 _AXES = 2, 2, 3, 3, 3, 3, 2, 2, 2, 2, 2
 
 
-class Installed(NamedTuple):
+class _Installed(NamedTuple):
     """A library, and the time that making it took."""
 
     file: Path
@@ -33,7 +33,7 @@ class Installed(NamedTuple):
     check_s: float
 
 
-def install() -> Installed:
+def install() -> _Installed:
     """Build the library, compare it with the interpreted kernel, and put it where it is looked for. Libraries of other
     sources are removed. Raises RequestError without numba or a C compiler, RunError if its paths are others."""
     started, file = perf_counter(), place()
@@ -51,7 +51,7 @@ def install() -> Installed:
         shutil.copyfile(made, fresh)
         fresh.replace(file)
     compiled.cache_clear()
-    return Installed(file, built - started, perf_counter() - built)
+    return _Installed(file, built - started, perf_counter() - built)
 
 
 def build(folder: Path) -> Path:

@@ -28,8 +28,10 @@ STEADY, DRAG, LIFT, DECAY, NET = range(5)
 
 #: Places in such a row: its kind, numbers of the kind; the coefficient of a drag or lift by its code, its own number,
 #: its share, and the share of the whole spin that the ball has; the wind by its kind, and its numbers.
-KIND, A, B, C, D, E, REYNOLDS, RADIUS, LAW, VALUE, SHARE, OF_SPIN, WIND, WIND_X, WIND_Y, ROUGHNESS, CEILING = range(17)
-FORCE_COLUMNS = CEILING + 1
+_KIND, A, B, C, D, E, REYNOLDS, RADIUS, LAW, VALUE, _SHARE, _OF_SPIN, WIND, _WIND_X, _WIND_Y, _ROUGHNESS, _CEILING = (
+    range(17)
+)
+FORCE_COLUMNS = _CEILING + 1
 
 #: Kinds of wind: none, the same everywhere, the logarithmic profile.
 CALM, EVEN, PROFILE = range(3)
@@ -85,18 +87,18 @@ def coefficient(row: Row, reynolds: float, spin_ratio: float) -> float:
         return row[VALUE]
     if law == NATHAN:
         return coefficients.nathan_drag(reynolds, spin_ratio, row[VALUE])
-    return row[SHARE] * _of_code(law, reynolds, spin_ratio / row[OF_SPIN])
+    return row[_SHARE] * _of_code(law, reynolds, spin_ratio / row[_OF_SPIN])
 
 
-def velocity_in_air(row: Row, y: float, vx: float, vy: float) -> tuple[float, float]:
+def _velocity_in_air(row: Row, y: float, vx: float, vy: float) -> tuple[float, float]:
     """Velocity relative to the air of a ball at a height y (m), in m/s."""
     wind = row[WIND]
     if wind == CALM:
         return vx, vy
     if wind == EVEN:
-        return vx - row[WIND_X], vy - row[WIND_Y]
-    profile = _profile(y, row[ROUGHNESS], row[CEILING])
-    return vx - row[WIND_X] * profile, vy - row[WIND_Y] * profile
+        return vx - row[_WIND_X], vy - row[_WIND_Y]
+    profile = _profile(y, row[_ROUGHNESS], row[_CEILING])
+    return vx - row[_WIND_X] * profile, vy - row[_WIND_Y] * profile
 
 
 def acceleration(t: float, state: State, ball: Row, forces: Sequence[Row]) -> Acceleration:
@@ -105,14 +107,14 @@ def acceleration(t: float, state: State, ball: Row, forces: Sequence[Row]) -> Ac
     fx, fy, torque = 0.0, 0.0, 0.0
     for i in range(len(forces)):
         row = forces[i]
-        kind = row[KIND]
+        kind = row[_KIND]
         if kind == STEADY:
             fx, fy = fx + row[A], fy + row[B]
         elif kind == NET:
             gx, gy = _force_of_net(row[A] * _hold(x, y, row[B], row[C], row[D], row[E]), vx, vy)
             fx, fy = fx + gx, fy + gy
         else:
-            ux, uy = velocity_in_air(row, y, vx, vy)
+            ux, uy = _velocity_in_air(row, y, vx, vy)
             speed = sqrt(ux * ux + uy * uy)
             if kind == DECAY:
                 torque = torque - row[A] * speed * spin

@@ -26,32 +26,32 @@ from sandbox.physics.impulse import after_plane_impulse, exchange, plane_speeds
 #: Why a leg ends: the run is over, by its duration or its condition; the ball touches what is to be resolved elsewhere,
 #: before the impact; it has had an impact, after which it may stay on what it hit, or its run may be over; its next
 #: step is an error; there is no room for more rows.
-DURATION, UNTIL, BEFORE_IMPACT, AFTER_IMPACT, ERROR, FULL = range(6)
+DURATION, UNTIL, BEFORE_IMPACT, AFTER_IMPACT, ERROR, _FULL = range(6)
 
 #: Places in the row of a surface: the shape's as in ``quintic_touch.py``, its box, and how it responds: the height of
 #: its lowest bounce in m, its kick in N s, its contact law with four numbers.
-LEFT, BOTTOM, RIGHT, TOP, LOWEST, KICK, LAW, LAW_A, LAW_B, LAW_C, LAW_D = range(8, 19)
-SURFACE_COLUMNS = LAW_D + 1
+_LEFT, _BOTTOM, _RIGHT, _TOP, LOWEST, KICK, LAW, _LAW_A, _LAW_B, _LAW_C, _LAW_D = range(8, 19)
+SURFACE_COLUMNS = _LAW_D + 1
 
 #: Code of a contact law that is asked elsewhere: an impact on it ends the leg before.
 ASKED = -1
 
 #: Most arcs of one leg: a ball that bounces on and on is followed elsewhere, which notices it.
-MOST_ARCS = 5_000
+_MOST_ARCS = 5_000
 
 #: Places in the row of a rule (``model/setup.py``); then a number for each surface, 1 for those it is about.
-TIMES, FASTEST, RULE_LEFT, RULE_RIGHT, AFTER, FIRST_SURFACE = range(6)
+_TIMES, _FASTEST, _RULE_LEFT, _RULE_RIGHT, AFTER, FIRST_SURFACE = range(6)
 
 #: Places in the row of limits: of the local error in m, its exponent, lowest bounce and skin in m, duration in s, the
 #: world's edges in m, and 1 if every impact ends a leg.
-LOCAL_ERROR, EXPONENT, SETTLE, SKIN, LAST, WEST, SOUTH, EAST, NORTH, STOPS = range(10)
-LIMIT_COLUMNS = STOPS + 1
+_LOCAL_ERROR, _EXPONENT, _SETTLE, _SKIN, _LAST, _WEST, _SOUTH, _EAST, _NORTH, _STOPS = range(10)
+LIMIT_COLUMNS = _STOPS + 1
 
 #: Places in the row of a shot, before and after a leg: time in s, state, step to try next in s.
 T, X, Y, VX, VY, SPIN, STEP = range(7)
 #: After it also: why it ended, the surface it is on, with its normal and the curvature in 1/m; steps, refined steps,
 #: impacts and queries; how many rows of arcs and events there are up to here, of all shots.
-WHY, MET, NX, NY, CURVATURE, STEPS, REFINED, IMPACTS, QUERIES, ARCS, EVENTS = range(7, 18)
+WHY, MET, NX, _NY, CURVATURE, STEPS, REFINED, IMPACTS, QUERIES, ARCS, EVENTS = range(7, 18)
 SHOT_COLUMNS = EVENTS + 1
 
 #: Columns of a row of an arc, as in ``many/arc_rows.py``.
@@ -83,8 +83,9 @@ def fly(
     """Fly a shot from where it is to the end of its leg. ``counted`` has for each rule the impacts so far; arcs and
     events are written into their rows from places ``arc`` and ``event`` on. Returns the shot's row."""
     radius, factor, mass = ball[BALL_RADIUS], ball[FACTOR], ball[MASS]
-    local, exponent, settle, skin, duration = limits[0], limits[1], limits[2], limits[3], limits[4]
-    west, south, east, north = limits[WEST], limits[SOUTH], limits[EAST], limits[NORTH]
+    local, exponent, settle = limits[_LOCAL_ERROR], limits[_EXPONENT], limits[_SETTLE]
+    skin, duration = limits[_SKIN], limits[_LAST]
+    west, south, east, north = limits[_WEST], limits[_SOUTH], limits[_EAST], limits[_NORTH]
     t, state, following = shot[T], (shot[X], shot[Y], shot[VX], shot[VY], shot[SPIN]), shot[STEP]
     known = laws.acceleration(t, state, ball, forces)
     met, nx, ny, curvature = -1, 0.0, 0.0, 0.0
@@ -92,9 +93,9 @@ def fly(
     while True:
         why = ERROR
         if arc + 2 > len(arcs) or event >= len(events):
-            why = FULL
+            why = _FULL
             break
-        if steps >= MOST_ARCS:
+        if steps >= _MOST_ARCS:
             break
         # a step
         wanted = following
@@ -117,7 +118,12 @@ def fly(
         left, bottom, right, top, u = min(xs), min(ys), max(xs), max(ys), inf
         for i in range(len(surfaces)):
             surface = surfaces[i]
-            if right >= surface[LEFT] and left <= surface[RIGHT] and bottom <= surface[TOP] and top >= surface[BOTTOM]:
+            if (
+                right >= surface[_LEFT]
+                and left <= surface[_RIGHT]
+                and bottom <= surface[_TOP]
+                and top >= surface[_BOTTOM]
+            ):
                 queries += 1
                 u = min(u, first_touch(surface, xs, ys, skin))
         t0, start, t = t, state, t + h
@@ -141,7 +147,7 @@ def fly(
         count, met, nx, ny, curvature = 0, -1, 0.0, 0.0, 0.0
         for i in range(len(surfaces)):
             surface = surfaces[i]
-            if surface[LEFT] <= x <= surface[RIGHT] and surface[BOTTOM] <= y <= surface[TOP]:
+            if surface[_LEFT] <= x <= surface[_RIGHT] and surface[_BOTTOM] <= y <= surface[_TOP]:
                 gap, mx, my, bent = nearest(surface, x, y)
                 if gap <= TOUCHING_GAP:
                     if met < 0:
@@ -154,7 +160,7 @@ def fly(
         if count != 1 or approach <= CLOSING or surface[LAW] == ASKED:
             break
         restitution, friction, tilt, tangential = laws.bounce(
-            surface[LAW], approach, abs(along), surface[LAW_A], surface[LAW_B], surface[LAW_C], surface[LAW_D]
+            surface[LAW], approach, abs(along), surface[_LAW_A], surface[_LAW_B], surface[_LAW_C], surface[_LAW_D]
         )
         if not (0.0 <= restitution <= 1.0 and 0.0 <= friction < inf and tilt - tilt == 0.0):
             break  # an error
@@ -182,7 +188,7 @@ def fly(
         known = laws.acceleration(t, state, ball, forces)
         pressed = _press(state, known, nx, ny, curvature)
         why = AFTER_IMPACT
-        if limits[STOPS] != 0.0 or vx * nx + vy * ny <= _takeoff_speed(pressed, max(settle, surface[LOWEST])):
+        if limits[_STOPS] != 0.0 or vx * nx + vy * ny <= _takeoff_speed(pressed, max(settle, surface[LOWEST])):
             break
         if t >= duration:
             why = DURATION
@@ -197,10 +203,10 @@ def _is_over(rules: Sequence[Row], counted: Any, met: int, t: float, speed: floa
     over = False
     for i in range(len(rules)):
         rule = rules[i]
-        where = t > rule[AFTER] and speed <= rule[FASTEST] and not rule[RULE_LEFT] < x < rule[RULE_RIGHT]
+        where = t > rule[AFTER] and speed <= rule[_FASTEST] and not rule[_RULE_LEFT] < x < rule[_RULE_RIGHT]
         if where and rule[FIRST_SURFACE + met] != 0.0:
             counted[i] += 1.0
-            over = over or counted[i] >= rule[TIMES]
+            over = over or counted[i] >= rule[_TIMES]
     return over
 
 
@@ -243,7 +249,7 @@ def fly_all(
             events,
             event,
         )
-        if row[WHY] == FULL:
+        if row[WHY] == _FULL:
             return i
         found[i] = row
         arc, event = int(row[ARCS]), int(row[EVENTS])

@@ -47,6 +47,7 @@ class Paths:
         self.contacts = contacts
         self._bounds = [0, *ends]
         self._asked: dict[Curve, set[int]] = {}
+        self._of_one: dict[tuple[Curve, int], list[Passage]] = {}
         self._passages: dict[Curve, list[list[Passage]]] = {}
 
     def __getitem__(self, number: int) -> ArcRows:
@@ -102,7 +103,10 @@ class Paths:
             asked = self._asked.setdefault(curve, set())
             asked.add(path.number)
             if len(asked) < _MANY:
-                return _listed(*self.passing(path.first, path.last, curve)[1:])
+                key = curve, path.number
+                if key not in self._of_one:
+                    self._of_one[key] = _listed(*self.passing(path.first, path.last, curve)[1:])
+                return self._of_one[key]
             found = self._passages[curve] = [[] for _ in self._bounds]
             numbers, t, states = self.passing(0, len(self.rows), curve)
             for number, passage in zip(numbers.tolist(), _listed(t, states), strict=True):

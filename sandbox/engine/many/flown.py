@@ -3,7 +3,7 @@ for. Whatever computes many shots gives them in this form."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from math import inf, nan
 from typing import Any
@@ -11,14 +11,14 @@ from typing import Any
 import numpy as np
 
 from sandbox.engine.live import Record
-from sandbox.engine.many.arc_rows import END, T1, Paths
+from sandbox.engine.many.arc_rows import END, START, T0, T1, Paths
 from sandbox.engine.many.stacking import Stack
 from sandbox.engine.model.accuracy import Accuracy
 from sandbox.engine.model.event import Event
 from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.shapes import Vector
 from sandbox.engine.paths.path import Above, Path
-from sandbox.engine.paths.run import Numerics, Run, State, meeting_time
+from sandbox.engine.paths.run import Numerics, Run, State, meeting_time, touched_until
 
 
 class Flown(Sequence[Any]):
@@ -112,6 +112,7 @@ class AllRuns:
         self.setup: Setup = flown.setups.whole
         self.missing: list[np.ndarray] = []  # masks, shape (shots,)
         self._flown = flown
+        self._passed: list[tuple[tuple[Any, ...], tuple[np.ndarray, np.ndarray, np.ndarray]]] = []
 
     def highest(self, ball: str, until: Any = inf) -> tuple[np.ndarray, State]:
         """As ``Run.highest``."""
@@ -119,11 +120,47 @@ class AllRuns:
 
     def first_crossing(self, ball: str, point: Vector, normal: Vector, before: Any = inf) -> tuple[np.ndarray, State]:
         """As ``Run.first_crossing``; line and time may be others for each run."""
-        count, lengths = len(self._flown), self._paths.lengths
-        line: list[Any] = [np.repeat(np.broadcast_to(part, count), lengths) for part in (*point, *normal)]
-        numbers, t, states = self._paths.passing(0, len(self._paths.rows), Above(*line))
+        numbers, t, states = self._passing((*point, *normal))
         numbers, first = np.unique(numbers, return_index=True)
         return self._found(ball, *self._paths.spread(numbers, t[first], states[first]), before)
+
+    def crossings(self, ball: str, point: Vector, normal: Vector) -> Iterator[tuple[np.ndarray, State]]:
+        """As ``Run.crossings``: the first of all runs, then the second, and so on; NaN where a run has fewer."""
+        return self._in_turn(ball, *self._passing((*point, *normal)))
+
+    def _passing(self, line: tuple[Any, ...]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """The passages of all through a line, which may be another for each: point and normal, x and y."""
+        for known, found in self._passed:
+            alike = (a is b or (type(a) is type(b) is float and a == b) for a, b in zip(known, line, strict=True))
+            if all(alike):
+                return found
+        count, lengths = len(self._flown), self._paths.lengths
+        lines: list[Any] = [np.repeat(np.broadcast_to(part, count), lengths) for part in line]
+        found = self._paths.passing(0, len(self._paths.rows), Above(*lines))
+        self._passed.append((line, found))
+        return found
+
+    def starts(self, ball: str) -> Iterator[tuple[np.ndarray, State]]:
+        """As ``Run.starts``, in the same way."""
+        paths = self._paths
+        numbers = np.repeat(np.arange(len(paths.lengths)), paths.lengths)
+        return self._in_turn(ball, numbers, paths.rows[:, T0], paths.rows[:, START])
+
+    def first_event(self, partner: str) -> Event | None:
+        """As ``Run.first_event``: one with arrays, not a number for runs without; None if all are."""
+        firsts = [next((each for each in events if each.partner == partner), None) for events in self._flown.events]
+        numbers = [(nan, nan, nan, nan) if each is None else (each.t, each.speed, each.x, each.y) for each in firsts]
+        known = next((each for each in firsts if each is not None), None)
+        if known is None:
+            return None
+        t, speed, x, y = np.array(numbers).T
+        return known._replace(t=t, speed=speed, x=x, y=y)
+
+    def touched(self, until: Any) -> np.ndarray:
+        """As ``Run.touched``: lists as an array."""
+        found, times = np.empty(len(self._flown), dtype=object), np.broadcast_to(until, len(self._flown)).tolist()
+        found[:] = [touched_until(events, t) for events, t in zip(self._flown.events, times, strict=True)]
+        return found
 
     def before_meeting(
         self, partner: str | None = None, ball: str = "ball", before: Any = inf
@@ -143,6 +180,18 @@ class AllRuns:
         """As ``Run.until_meeting``."""
         times = [meeting_time(events, partner) for events in self._flown.events]
         return np.minimum(times, self._flown.durations)
+
+    def _in_turn(
+        self, ball: str, numbers: np.ndarray, t: np.ndarray, states: np.ndarray
+    ) -> Iterator[tuple[np.ndarray, State]]:
+        """The first times and states of all runs, then the second, and so on; ``numbers`` are the runs', ascending."""
+        if ball != self._flown.ball:
+            raise KeyError(ball)
+        place = np.arange(len(numbers)) - np.searchsorted(numbers, numbers)
+        for turn in range(place.max(initial=-1) + 1):
+            here = place == turn
+            times, there = self._paths.spread(numbers[here], t[here], states[here])
+            yield times, State(*there.T)
 
     @property
     def _paths(self) -> Paths:

@@ -61,7 +61,7 @@ class Legs:
         shots, rows = flying.shot[lanes], np.empty((len(lanes), STEP + 1))
         rows[:, T], rows[:, _STATE], rows[:, STEP] = flying.t[lanes], flying.state[:, lanes].T, flying.next_step[lanes]
         tables = self._tables if len(shots) == len(record.setups) else self._tables.of(shots)
-        after, arcs, events = fly_together(self._fly_all, rows, tables, self._counted(shots))
+        after, arcs, events = fly_together(self._fly_all, rows, tables, self._impacts_so_far(shots))
         of_arcs, of_events = (
             np.repeat(np.arange(len(shots)), np.diff(after[:, column].astype(int), prepend=0))
             for column in (ARCS, EVENTS)
@@ -87,7 +87,7 @@ class Legs:
         touching: np.ndarray = lanes[why == BEFORE_IMPACT]
         return touching
 
-    def _counted(self, shots: np.ndarray) -> np.ndarray:
+    def _impacts_so_far(self, shots: np.ndarray) -> np.ndarray:
         """The impacts so far of each of these shots that each rule is about."""
         setups, counted = self._record.setups, np.zeros((len(shots), self._tables.rules.shape[1]))
         if counted.shape[1] > 0:

@@ -152,7 +152,7 @@ class Until:
         return False
 
     def rules(self) -> Sequence[Rule] | None:
-        """What ``over`` says of impacts of a single ball, as data: the run is over as soon as one of these ends it.
+        """The rules by which ``over`` judges impacts of a single ball: the run is over as soon as one of these ends it.
         None if that is not all that it says."""
         return None
 

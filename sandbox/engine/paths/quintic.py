@@ -13,16 +13,16 @@ from math import inf
 CONVERGED = 1e-12
 
 #: Deepest halving of [0, 1]: two roots closer than 2**-40 of the interval count as a touch without crossing.
-DEEPEST = 40
+_DEEPEST = 40
 
 #: Coefficients of polynomials of degree 3, 4, 5 and 10.
-Cubic = tuple[float, float, float, float]
-Quartic = tuple[float, float, float, float, float]
+_Cubic = tuple[float, float, float, float]
+_Quartic = tuple[float, float, float, float, float]
 Quintic = tuple[float, float, float, float, float, float]
 Decic = tuple[float, float, float, float, float, float, float, float, float, float, float]
 
 
-def horner(b0: float, b1: float, b2: float, b3: float, b4: float, b5: float, r: float) -> float:
+def _horner(b0: float, b1: float, b2: float, b3: float, b4: float, b5: float, r: float) -> float:
     """Return sum_k C(5, k) b[k] r^(5 - k)."""
     return ((((b0 * r + 5.0 * b1) * r + 10.0 * b2) * r + 10.0 * b3) * r + 5.0 * b4) * r + b5
 
@@ -32,9 +32,9 @@ def at(b: Quintic, u: float) -> float:
     w = 1.0 - u
     if u <= w:
         s = w * w
-        return horner(b[5], b[4], b[3], b[2], b[1], b[0], u / w) * (s * s * w)
+        return _horner(b[5], b[4], b[3], b[2], b[1], b[0], u / w) * (s * s * w)
     s = u * u
-    return horner(b[0], b[1], b[2], b[3], b[4], b[5], w / u) * (s * s * u)
+    return _horner(b[0], b[1], b[2], b[3], b[4], b[5], w / u) * (s * s * u)
 
 
 def first_part(b: Quintic, u: float) -> Quintic:
@@ -49,13 +49,13 @@ def first_part(b: Quintic, u: float) -> Quintic:
     return b0, b1, b2, b3, b4, w * b4 + u * b5
 
 
-def first_of_quartic(b: Quartic, u: float) -> Quartic:
+def first_of_quartic(b: _Quartic, u: float) -> _Quartic:
     """The same of degree 4: a coefficient depends only on those before it."""
     b0, b1, b2, b3, b4, _ = first_part((b[0], b[1], b[2], b[3], b[4], 0.0), u)
     return b0, b1, b2, b3, b4
 
 
-def first_of_cubic(b: Cubic, u: float) -> Cubic:
+def first_of_cubic(b: _Cubic, u: float) -> _Cubic:
     """The same of degree 3."""
     b0, b1, b2, b3, _, _ = first_part((b[0], b[1], b[2], b[3], 0.0, 0.0), u)
     return b0, b1, b2, b3
@@ -176,13 +176,13 @@ def crossing(b: Decic, after: float) -> float:
         u0 = place * wide
         if starts and u0 > after:
             return u0
-        changes, last = sign_changes(part)
+        changes, last = _sign_changes(part)
         if changes == 1:
             if last < 0.0:  # it ends negative, so it started positive
-                u = u0 + wide * single_root(part)
+                u = u0 + wide * _single_root(part)
                 if u > after:
                     return u
-        elif changes > 1 and depth == DEEPEST:
+        elif changes > 1 and depth == _DEEPEST:
             if part[0] > 0.0 > part[10] and u0 > after:
                 return u0
         elif changes > 1:
@@ -195,7 +195,7 @@ def crossing(b: Decic, after: float) -> float:
         place += 1
 
 
-def sign_changes(b: Decic) -> tuple[int, float]:
+def _sign_changes(b: Decic) -> tuple[int, float]:
     """Return how often the coefficients change sign, and the last one that is not zero."""
     changes, last = 0, b[0]
     for value in b:
@@ -206,7 +206,7 @@ def sign_changes(b: Decic) -> tuple[int, float]:
     return changes, last
 
 
-def single_root(b: Decic) -> float:
+def _single_root(b: Decic) -> float:
     """Return the root of a polynomial with exactly one in [0, 1], where it falls: Newton, kept inside a bracket."""
     low, high = 0.0, 1.0
     u = b[0] / (b[0] - b[10]) if b[0] > 0.0 > b[10] else 0.5

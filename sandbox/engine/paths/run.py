@@ -75,6 +75,11 @@ def meeting_time(events: Sequence[Event], partner: str | None, ball: str = "") -
     return next(meets, inf)
 
 
+def touched_until(events: Sequence[Event], until: float) -> list[str]:
+    """The partners of impacts and contacts up to a time in s, in order."""
+    return [event.partner for event in events if event.kind in ("impact", "contact") and event.t <= until]
+
+
 class _Resumable(Protocol):
     """The record of how a run came about, from which it can be computed again from any time on."""
 
@@ -289,6 +294,18 @@ class Run(Drawable):
         """Time (s) and State at which a ball's centre is highest, up to a time at which it is not."""
         t, state = self._path(ball).highest(until)
         return t, State(*state)
+
+    def starts(self, ball: str) -> Iterator[tuple[float, State]]:
+        """Time (s) and State at the start of each arc of a ball's path."""
+        return ((arc.t0, State(*arc.start)) for arc in self._path(ball))
+
+    def first_event(self, partner: str) -> Event | None:
+        """The first event with this partner; None if there is none."""
+        return next((event for event in self.events if event.partner == partner), None)
+
+    def touched(self, until: float) -> list[str]:
+        """The partners of impacts and contacts up to a time in s, in order."""
+        return touched_until(self.events, until)
 
     def ends(self, ball: str) -> Iterator[tuple[float, State]]:
         """Time (s) and State at the end of each arc of a ball's path."""
