@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from functools import cached_property
 from math import ceil, dist, inf
+from typing import Any
 
 import numpy as np
 import pygame
 
 from sandbox.engine.model.ball import Body
 from sandbox.engine.model.surface import Circle, Segment, Surface
+from sandbox.engine.paths.run import Run
 from sandbox.picture.ball import Flat, Look, Orientation, Silhouette, mark_radius, turned
 from sandbox.picture.camera import Camera
 from sandbox.picture.marks import Ghost, draw_trace, is_under
@@ -20,6 +22,7 @@ from sandbox.picture.path import FINEST, DrawnPath, ImpactMark, apart, slow_moti
 from sandbox.picture.sheet import Sheet
 from sandbox.picture.vectors import Vectors
 from sandbox.sport.amounts import round_number_above
+from sandbox.sport.facts import cached_per_run
 from sandbox.text import with_article
 
 _RIM = palette("trace")["rim"]
@@ -52,6 +55,12 @@ def draw_shape(
         painter.disc(camera.pixel(*shape.center), thick, colour, opacity)
     elif seen := near.clipline(camera.pixel(*shape.a), camera.pixel(*shape.b)):
         painter.line(seen, 2 * thick, colour, opacity)
+
+
+@cached_per_run
+def _known_orientations(run: Run, parameters: Any) -> dict[tuple[str, bytes], Orientation]:
+    """Those of a run that were followed so far, by ball and first orientation: the same for each picture of it."""
+    return {}
 
 
 class BallDrawing(SceneOptions[P]):
@@ -128,13 +137,15 @@ class BallDrawing(SceneOptions[P]):
     @cached_property
     def _orientations(self) -> dict[str, Orientation]:
         """The orientations of the balls that roll on a plane."""
-        run = self.run
+        run, known = self.run, _known_orientations(self.run, self.parameters)
 
         def orientation(name: str) -> Orientation:
-            times = [*(arc.t0 for arc in run.arcs[name]), run.arcs[name][-1].t1]
-            return Orientation(
-                lambda t: (*run.rolling_spin(name, t), run.state(name, t)[4]), times, self.initial_turn(name)
-            )
+            start = self.initial_turn(name)
+            key = name, start.tobytes()
+            if key not in known:
+                times = [*(arc.t0 for arc in run.arcs[name]), run.arcs[name][-1].t1]
+                known[key] = Orientation(lambda t: (*run.rolling_spin(name, t), run.state(name, t)[4]), times, start)
+            return known[key]
 
         return {name: orientation(name) for name in self.balls}
 
