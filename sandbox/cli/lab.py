@@ -29,7 +29,7 @@ PAGES = "pages of sweeps"
     "--vary", metavar="KEY=LO:HI", multiple=True, required=True, help="A number and its range; once or twice."
 )
 @click.option("--target", metavar="NAME=VALUE", multiple=True, help="A result and its target value; once or twice.")
-@click.option("--maximize", metavar="NAME", help="Result to maximize.")
+@click.option("--maximize", metavar="NAME", help="Result to maximize; of a yes or no, how often it is yes.")
 @changes_options
 @report_options
 def aim(
@@ -57,6 +57,7 @@ def aim(
       sandbox aim basketball --vary launch.speed=6:10 --target made=true --plot tries.png
       sandbox aim basketball --vary launch.speed=6:9 --vary launch.angle=35:70 --target made=true
       sandbox aim golf --vary launch.angle=2:60 --maximize carry
+      sandbox aim basketball --vary launch.angle=46:60 --vary launch.speed=7.2:7.8 --maximize made
       sandbox aim golf --vary launch.angle=2:60 --vary launch.speed=40:90 --target carry="219 yd" --target apex=30
     """
     from sandbox.lab.aim import parse_target, search

@@ -283,8 +283,8 @@ def test_the_greatest_value_is_found(vacuum):
     found = aim(vacuum, {"launch.angle": (5, 85), "launch.speed": (20, 50)}, maximize="carry")
     assert found.solutions[0].values == pytest.approx({"launch.angle": 45.0, "launch.speed": 50.0}, abs=1e-4)
     assert "maximum carry" in repr(found)
-    with pytest.raises(RequestError, match="--maximize holed: is true or false, not a number"):
-        aim(vacuum, {"launch.angle": (5, 85)}, maximize="holed")
+    with pytest.raises(RequestError, match="--maximize ended: is a word, not a number"):
+        aim(vacuum, {"launch.angle": (5, 85)}, maximize="ended")
 
 
 def test_a_word_is_aimed_at(monkeypatch):
@@ -420,3 +420,19 @@ def test_a_run_that_ends_when_its_fact_is_final_says_the_same(source):
             assert run.duration <= full.duration
     soonest = sum(run.duration for run in runs(scene, [parameter.key], points, asked=asked[:1]))
     assert soonest < sum(run.duration for run in whole) or source == "soccer-curl"  # which ends there by itself
+
+
+def test_a_yes_or_no_is_maximized_as_the_share_of_shots(monkeypatch: pytest.MonkeyPatch):
+    """Of throws that scatter as the scene says, most go in near the middle of the speeds that do."""
+    monkeypatch.setattr("sandbox.lab.aim.share._SCAN", {1: 9})
+    monkeypatch.setattr("sandbox.lab.aim.share._CLOSER", {1: 3})
+    monkeypatch.setattr("sandbox.lab.aim.share._SHOTS", 16)
+    monkeypatch.setattr("sandbox.lab.aim.share._MORE", 32)
+    scene = load("basketball/free-throw", {"launch.aside": 1.0})
+    found = aim(scene, {"launch.speed": (7.1, 7.7)}, maximize="made")
+    (best,) = found.solutions
+    assert 7.40 < best.values["launch.speed"] < 7.55
+    assert 0.5 < best.result["made"] < 0.9
+    assert best.result_errors["made"] == pytest.approx(0.16, abs=0.03)
+    text = " ".join(as_text(found.report()))
+    assert "launch.side by 1 deg" in " ".join(text.split())

@@ -21,6 +21,7 @@ from sandbox.lab.aim.pair import pairs
 from sandbox.lab.aim.question import MAXIMIZE, Aim, Target, Trial, as_target, parse_target
 from sandbox.lab.aim.regions import regions
 from sandbox.lab.aim.scalar import roots_of
+from sandbox.lab.aim.share import most_often
 from sandbox.lab.aim.shots import Shots
 from sandbox.lab.axes import Span, as_axis
 from sandbox.lab.runs import Progress, no_progress, outcomes
@@ -46,8 +47,9 @@ def aim(
     Two parameters with two targets likewise. A target that is true, false, a word or, of a result that counts, a whole
     number gives the intervals in which it is met, the widest first, each with its middle, which tolerates the largest
     error; by two parameters, the regions, each with its most forgiving point. ``maximize="carry"``, in place of a
-    target, gives the place at which a number is
-    greatest. Raises RequestError for an invalid request, and RunError if no run in the range could be completed.
+    target, gives the place at which a number is greatest, and ``maximize="made"`` that at which most shots of a
+    practised player score. Raises RequestError for an invalid request, and RunError if no run in the range could be
+    completed.
 
     >>> import sandbox
     >>> found = sandbox.aim("golf", {"launch.angle": (5, 40)}, maximize="carry")
@@ -90,7 +92,9 @@ def search(scene: Scene, spans: Sequence[Span], targets: Sequence[Target], progr
         )
     shots = Shots(scene, spans, targets, progress)
     jumps: list[tuple[Trial, Trial]] = []
-    if targets[0].is_maximum:
+    if targets[0].is_maximum and _is_true_or_false(shots):
+        solutions = most_often(shots)
+    elif targets[0].is_maximum:
         solutions = maximize(shots)
     elif len(targets) == 2:
         solutions = pairs(shots)
@@ -101,6 +105,15 @@ def search(scene: Scene, spans: Sequence[Span], targets: Sequence[Target], progr
     nearest = None if solutions else shots.nearest()
     found = solutions, nearest, jumps, shots.tries, shots.failures, shots.resolution
     return Aim(scene, tuple(spans), tuple(targets), *found)
+
+
+def _is_true_or_false(shots: Shots) -> bool:
+    """True if what is to be maximized is no number: then it is how often it is true."""
+    points = [tuple(0.5 * (span.low + span.high) for span in shots.spans)]
+    found = outcomes(shots.scene, [span.key for span in shots.spans], points, asked=[shots.targets[0].name])
+    return any(
+        isinstance(run.result.get(shots.targets[0].name), bool) for run in found if not isinstance(run, Exception)
+    )
 
 
 def _as_whole(scene: Scene, spans: Sequence[Span], target: Target) -> Target:

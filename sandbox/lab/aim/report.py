@@ -13,6 +13,7 @@ import numpy as np
 from sandbox.lab.axes import label, result_label, unit_of
 from sandbox.lab.chart import mark
 from sandbox.lab.report import Chart, Column, Notes, Panel, Report, Section, Table, words
+from sandbox.lab.scatter import players_spread
 from sandbox.scene.writing import command
 from sandbox.sport.amounts import significant
 from sandbox.text import argument, with_noun
@@ -36,10 +37,28 @@ def report_of(aim: Aim) -> Report:
         )
     if len(aim.jumps) > _SHOWN:
         closing.append(f"... {len(aim.jumps) - _SHOWN} more jumps; --json has them all")
+    closing += _scatter(aim)
     failures = f", {aim.failures} of which failed" if aim.failures else ""
     runs = f"{with_noun(len(aim.tries), 'run')}{failures}{_resolution(aim)}"
     return Report(partial(document, aim), _question(aim), [*solutions, _chart(aim), Notes(closing), Notes([runs])],
                   command=_command(aim))  # fmt: skip
+
+
+def _scatter(aim: Aim) -> list[str]:
+    """The player whose share of shots is maximized; [] where a number is."""
+    solution = aim.solutions[0] if aim.solutions else None
+    name = aim.targets[0].name
+    if (
+        solution is None
+        or not aim.targets[0].is_maximum
+        or aim.scene.facts[name].unit
+        or set(solution.result) != {name}
+    ):
+        return []
+    spread = players_spread(aim.scene.changed(solution.values, "vary"))
+    sds = ", ".join(f"{key} by {significant(sd)} {known.unit or ''}".rstrip() for key, (known, sd) in spread.items())
+    return [f"{name}: the share of shots of a player who is off, in standard deviations, in {sds}; ± of a parameter is "
+            "the step of the search, and places around the best are nearly as good"]  # fmt: skip
 
 
 def _command(aim: Aim) -> str:

@@ -75,6 +75,11 @@ class Shots:
             self._progress(len(self.tries), max(self.planned, len(self.tries)))
         return [self._known[point] for point in points]
 
+    def tried(self, one: Trial) -> None:
+        """Count a try that was computed elsewhere."""
+        self.tries.append(one)
+        self._progress(len(self.tries), max(self.planned, len(self.tries)))
+
     #: Expected number of runs, for the progress bar.
     planned = SCAN
 
