@@ -37,9 +37,10 @@ def report_of(aim: Aim) -> Report:
         )
     if len(aim.jumps) > _SHOWN:
         closing.append(f"... {len(aim.jumps) - _SHOWN} more jumps; --json has them all")
-    closing += _scatter(aim)
+    scatter = _scatter(aim)
+    closing += scatter
     failures = f", {aim.failures} of which failed" if aim.failures else ""
-    runs = f"{with_noun(len(aim.tries), 'run')}{failures}{_resolution(aim)}"
+    runs = f"{with_noun(len(aim.tries), 'place' if scatter else 'run')}{failures}{_resolution(aim)}"
     return Report(partial(document, aim), _question(aim), [*solutions, _chart(aim), Notes(closing), Notes([runs])],
                   command=_command(aim))  # fmt: skip
 

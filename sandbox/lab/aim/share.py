@@ -44,9 +44,10 @@ def most_often(shots: Shots) -> list[Solution]:
     return [Solution(values, fine, {name: share}, {name: 0.5 * (ends[1] - ends[0])})]
 
 
-def _best(shots: Shots, axes: Sequence[np.ndarray], count: int, phase: str) -> tuple[np.ndarray, float]:
-    """The middle of the points of a grid with the greatest share, and that share."""
-    points = list(product(*(axis.tolist() for axis in axes)))
+def _best(shots: Shots, axes: np.ndarray, count: int, phase: str) -> tuple[np.ndarray, float]:
+    """The middle of the points of a grid with the greatest share, and that share; ``axes`` have the shape (parameters,
+    points along each)."""
+    points = list(product(*axes.tolist()))
     shares = np.array(_shares(shots, points, count))
     for point, share in zip(points, shares.tolist(), strict=True):
         shots.tried(Trial(point, (share,), phase))
