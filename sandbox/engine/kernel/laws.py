@@ -57,26 +57,26 @@ MASS, BALL_RADIUS, FACTOR, INERTIA = range(4)
 PLAIN, TURF, COURT = range(3)
 
 
-def _either(code: int, law: Callable[..., float], other: Callable[..., float]) -> Callable[..., float]:
-    def coefficient(which: float, reynolds: float, spin_ratio: float) -> float:
-        return law(reynolds, spin_ratio) if which == code else other(which, reynolds, spin_ratio)
+def _by_code(first: int, count: int) -> Callable[[float, float, float], float]:
+    """Return the function that computes one of so many coefficients from the ``first`` on, by its code: halving, so
+    that what numba compiles is not nested deeply."""
+    if count == 1:
+        law = of_floats(COEFFICIENTS[first])
 
-    return coefficient
+        def coefficient(which: float, reynolds: float, spin_ratio: float) -> float:
+            return float(law(reynolds, spin_ratio))
+
+        return coefficient
+    middle = first + count // 2
+    low, high = _by_code(first, count // 2), _by_code(middle, count - count // 2)
+
+    def choose(which: float, reynolds: float, spin_ratio: float) -> float:
+        return low(which, reynolds, spin_ratio) if which < middle else high(which, reynolds, spin_ratio)
+
+    return choose
 
 
-def _none(which: float, reynolds: float, spin_ratio: float) -> float:
-    return 0.0
-
-
-def _by_code() -> Callable[[float, float, float], float]:
-    """Return the function that computes the coefficient with a code: a choice that numba takes, too."""
-    chosen: Callable[..., float] = _none
-    for code, law in reversed([*enumerate(COEFFICIENTS)]):
-        chosen = _either(code, of_floats(law), chosen)
-    return chosen
-
-
-_of_code = _by_code()
+_of_code = _by_code(0, len(COEFFICIENTS))
 _profile, _hold, _force_of_net = of_floats(log_profile), of_floats(net_hold), of_floats(net_force)
 
 
