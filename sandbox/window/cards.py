@@ -110,8 +110,9 @@ class Cards:
             names = ", ".join(f"{held.key.capitalize()}: {held.name}" for held in game.session.controls.held)
             return [names if playback.playing else "paused, Space goes on"]
         notes = [f"{'replay' if shot.recorded else 'shot'} {shot.number}"]
-        if playback.slowed:
-            notes.append(f"slow motion, {1 / playback.pace:.0f} times slower (+ for faster)")
+        slower = round(1 / playback.pace, 6)
+        if playback.slowed and slower.is_integer():  # and not on its way there
+            notes.append(f"slow motion, {slower:.0f} times slower (+ for faster)")
         if playback.over:
             again = "continue" if game.session.controls.next_start is not None else "aim again"
             if game.session.controls.held:

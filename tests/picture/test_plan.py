@@ -41,25 +41,6 @@ def on(part, scale: float = 20.0) -> np.ndarray:
     return pixels(surface) - np.array(GROUND)
 
 
-@pytest.mark.parametrize("at", [(0, 0), (1, 0), (-7, 13), (160, 90), (319, -179), (-401, 266), (640, 360)], ids=str)
-def test_a_place_in_tiles_is_the_place_itself(at):
-    """Wherever the camera stands, to a rounding of the colours where smooth edges are cut by a tile's."""
-    camera = Camera((at[0] / 20, at[1] / 20), (160.0, 90.0), 20.0)
-    moved = blank(SIZE)
-    plan.draw_moving(moved, PLACE, camera)
-    assert np.abs(pixels(moved) - pixels(plan.drawn(PLACE, camera, SIZE))).max() <= 60
-
-
-def test_tiles_are_drawn_once():
-    surface = blank(SIZE)
-    plan.draw_moving(surface, PLACE, Camera((0.05, 0.0), (160.0, 90.0), 20.0))
-    before = plan.drawn.cache_info()
-    plan.draw_moving(surface, PLACE, Camera((0.10, 0.0), (160.0, 90.0), 20.0))
-    after = plan.drawn.cache_info()
-    assert after.misses == before.misses
-    assert after.hits > before.hits
-
-
 @pytest.mark.parametrize("part", PLACE, ids=lambda part: type(part).__name__)
 @pytest.mark.parametrize("scale", [2.0, 20.0])
 def test_every_part_is_seen_however_small(part, scale):

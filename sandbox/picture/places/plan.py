@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
-from itertools import product
 from math import ceil, cos, floor, log2, radians, sin
 from typing import Any, NamedTuple
 
@@ -32,22 +31,16 @@ Plan = tuple[Any, ...]
 @lru_cache(maxsize=8)
 def drawn(plan: Plan, camera: Camera, size: tuple[int, int]) -> pygame.Surface:
     """The place on a picture of ``size`` px. Not to be drawn on: it is shared."""
-    painter = Painter(blank(size))
-    for part in plan:
-        part.draw(painter, camera)
-    return painter.surface
+    surface = blank(size)
+    draw_moving(surface, plan, camera)
+    return surface
 
 
 def draw_moving(surface: pygame.Surface, plan: Plan, camera: Camera) -> None:
-    """The place under a camera that moves and does not zoom: in tiles as large as the surface, each drawn once."""
-    width, height = size = surface.get_size()
-    left, top = (-round(edge) for edge in camera.pixel(0.0, 0.0))
-    columns = range(left // width, (left + width - 1) // width + 1)
-    rows = range(top // height, (top + height - 1) // height + 1)
-    for column, row in product(columns, rows):
-        at = column * width, row * height
-        tile = drawn(plan, Camera((0.0, 0.0), (-at[0], -at[1]), camera.scale), size)
-        surface.blit(tile, (at[0] - left, at[1] - top))
+    """Draw the place as a camera sees it that will see it once only."""
+    painter = Painter(surface)
+    for part in plan:
+        part.draw(painter, camera)
 
 
 def on_pixels(camera: Camera, box: Box) -> pygame.Rect:
