@@ -112,7 +112,7 @@ def shades(count: int, colours: Mapping[str, Any]) -> list[Any]:
 
 
 def _dispersion(session: Session) -> list[Chart]:
-    """Where the shots come down, from above, with their ellipses; both sessions next to each other."""
+    """The places where shots come down, from above, with their ellipses; those of both sessions."""
     parts = [part for part in (session.first, session.second) if part is not None and part.shots.places is not None]
     if not parts:
         return []
@@ -166,7 +166,7 @@ def _places(part: Part, names: Sequence[str], upright: bool, axes: Any, colours:
 
 
 def _edge(part: Part, name: str, upright: bool, above: bool) -> tuple[float, float] | None:
-    """Where the wide ellipse of a group is highest in the picture, or lowest, for its name; None without one."""
+    """The place where the wide ellipse of a group is highest in the picture, or lowest; None without one."""
     ellipses = part.ellipses(name)
     if not ellipses:
         return None

@@ -171,10 +171,10 @@ def _table(part: Part, measures: Sequence[Measure], title: str) -> Table:
 def _digits(found: Sequence[Numbers | Share | None]) -> int:
     """Digits after the point that the median scatter of the groups justifies."""
     sds = [one.sd for one in found if isinstance(one, Numbers) and one.sd > 0.0]
-    return digits_for(median(sds)) if sds else 1
+    return _digits_for(median(sds)) if sds else 1
 
 
-def digits_for(uncertainty: float) -> int:
+def _digits_for(uncertainty: float) -> int:
     """Digits after the point of a number that is uncertain by so much: 254 ± 6, 139.7 ± 0.7, 22.1 ± 1.4."""
     return min(max(-floor(log10(0.5 * uncertainty)), 0), 3) if uncertainty > 0.0 else 1
 
@@ -236,7 +236,7 @@ def _change(one: Difference | None, measure: Measure) -> str:
     if one.low is None or one.high is None:
         return f"{factor * one.value:+z.1f}{unit}".replace("-", "−")
     half = 0.5 * factor * (one.high - one.low)
-    digits = digits_for(0.3 * half)  # so that an end near 0 shows its sign
+    digits = _digits_for(0.3 * half)  # so that an end near 0 shows its sign
     numbers = (f"{factor * number:+z.{digits}f}" for number in (one.value, one.low, one.high))
     value, low, high = numbers
     star = " *" if one.low > 0.0 or one.high < 0.0 else ""
@@ -273,7 +273,7 @@ def _bias(one: Compared) -> str:
     if off.interval is None:
         return f"{off.mean:+z.1f}".replace("-", "−")
     half = off.interval[1] - off.mean
-    digits = digits_for(half)
+    digits = _digits_for(half)
     return f"{off.mean:+z.{digits}f} ± {half:.{digits}f}".replace("-", "−")
 
 
@@ -336,7 +336,7 @@ def _mishits(part: Part) -> list[str]:
 
 
 def _assumed(session: Session) -> list[str]:
-    """What the model needs of a launch, and the file does not have: the spin."""
+    """The parts of a launch that the model needs and the file does not have, such as the spin."""
     shots = session.first.shots
     needs = ("launch.speed", "launch.angle", "launch.spin")
     return [f"{key} = {value_at(shots.scene.parameters, key):g}" for key in needs if key not in shots.measures]

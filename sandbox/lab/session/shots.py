@@ -30,7 +30,7 @@ _SIDED = re.compile(r"([\d.,]+)\s*([LR])")
 LAUNCH = ("launch.speed", "launch.angle", "launch.spin", "launch.direction", "launch.axis")
 
 #: The facts that are the distance of a shot, the first that there is; and that to the side.
-DISTANCES = ("carry", "distance", "total", "landing")
+_DISTANCES = ("carry", "distance", "total", "landing")
 SIDE = "side"
 
 #: A group of fewer shots has no mishits: its median deviation says too little.
@@ -86,18 +86,18 @@ class Shots:
     @cached_property
     def distance(self) -> Measure | None:
         """The distance of each shot, if the file has it."""
-        return next((self.measures[key] for key in DISTANCES if key in self.measures), None)
+        return next((self.measures[key] for key in _DISTANCES if key in self.measures), None)
 
     @cached_property
     def main(self) -> Measure:
-        """What tells groups apart first: the distance; else the share that scores, the speed, or any column."""
+        """The column that tells groups apart first: the distance, the share that scores, the speed, or any."""
         shares = [one for one in self.measures.values() if one.is_share]
         speed = [self.measures[key] for key in ("launch.speed",) if key in self.measures]
         return next(iter([*([self.distance] if self.distance else []), *shares, *speed, *self.measures.values()]))
 
     @cached_property
     def places(self) -> tuple[Measure, Measure] | None:
-        """Where shots come down, or cross the plate: to the right, and forward or up; None without one of these."""
+        """The places where shots come down, or cross the plate: to the right, and forward or up; None without."""
         if _ACROSS in self.measures and _HEIGHT in self.measures:
             return self.measures[_ACROSS], self.measures[_HEIGHT]
         side = self.measures.get(SIDE)

@@ -28,7 +28,7 @@ from sandbox.lab.statistics import Ellipse, Numbers, Share, student
 #: are those of its group, which the mishits themselves hardly move. With c, by which small groups have too small a MAD
 #: (Croux and Rousseeuw 1992, Computational Statistics 1:411), 5 % of groups that scatter normally, whatever their size,
 #: have a shot that is so low.
-MISHIT = 3.5
+_MISHIT = 3.5
 _SMALL = {6: 1.200, 7: 1.140, 8: 1.129, 9: 1.107}
 
 #: Where half of a normal distribution, and the mean deviation of one, are in standard deviations.
@@ -36,7 +36,7 @@ _MEDIAN_DEVIATION, _MEAN_DEVIATION = 0.6745, 0.7979
 
 
 @dataclass(frozen=True)
-class SetAside:
+class _SetAside:
     """A shot that is counted as a mishit."""
 
     row: int  # of the file, the first is 1
@@ -59,7 +59,7 @@ class Part:
     """The shots of one file, without its mishits."""
 
     shots: Shots
-    set_aside: tuple[SetAside, ...]
+    set_aside: tuple[_SetAside, ...]
     groups: Mapping[str, np.ndarray]  # true for each shot that counts
 
     def summary(self, group: str, measure: Measure) -> Numbers | Share | None:
@@ -136,7 +136,7 @@ def session(
     strict: bool = False,
     changes: Mapping[str, Any] | None = None,
     was: Mapping[str, Any] | None = None,
-    mishit: float | None = MISHIT,
+    mishit: float | None = _MISHIT,
 ) -> Session:
     """Summarize the shots of a file by the words of its column ``by``, without mishits: those with a modified z-score
     beyond ``mishit`` in speed, distance or side; None keeps all.
@@ -158,15 +158,15 @@ def summarized(
     choices: Choices,
     changes: Mapping[str, Any] | None = None,
     was: Mapping[str, Any] | None = None,
-    mishit: float | None = MISHIT,
+    mishit: float | None = _MISHIT,
     progress: Progress = no_progress,
 ) -> Session:
     """Like ``session``, with choices already parsed."""
     first = read_session(path, scene, by, of, choices)
     other = None if second is None else read_session(second, scene or first.scene.name, by, of, choices)
     return Session(
-        without_mishits(first, mishit),
-        None if other is None else without_mishits(other, mishit),
+        _without_mishits(first, mishit),
+        None if other is None else _without_mishits(other, mishit),
         mishit,
         _modelled(first, mishit, changes or {}, was or {}, progress),
     )
@@ -175,16 +175,16 @@ def summarized(
 # --------------------------------------------------------------------------------------------------------------- groups
 
 
-def without_mishits(shots: Shots, mishit: float | None) -> Part:
+def _without_mishits(shots: Shots, mishit: float | None) -> Part:
     """The shots with the mishits of each group set aside."""
-    found: dict[int, SetAside] = {}
+    found: dict[int, _SetAside] = {}
     for measure in _judged(shots) if mishit is not None else ():
         for name, inside in shots.groups.items():
             for place, score in _scores(measure.values, inside).items():
                 off = abs(score) if measure.key == SIDE else -score
                 if mishit is not None and off > mishit and place not in found:
                     value = f"{measure.label} {measure.values[place]:.4g} {measure.unit}".rstrip()
-                    found[place] = SetAside(int(shots.rows[place]), name, f"{value}: {score:+.1f}".replace("-", "−"))
+                    found[place] = _SetAside(int(shots.rows[place]), name, f"{value}: {score:+.1f}".replace("-", "−"))
     counts = ~np.isin(np.arange(len(shots.rows)), list(found))
     kept = {name: inside & counts for name, inside in shots.groups.items()}
     return Part(shots, tuple(found[place] for place in sorted(found)), kept)
@@ -264,7 +264,7 @@ def _modelled(
         if changes or was:
             raise
         return Model(None, str(error).removeprefix(f"{shots.table.where}: "))
-    kept = without_mishits(shots, mishit)
+    kept = _without_mishits(shots, mishit)
     groups = {name: set(shots.rows[inside].tolist()) for name, inside in kept.groups.items()}
     rows = here.results[0].rows
     counts = np.isin(rows, list(set().union(*groups.values())))
