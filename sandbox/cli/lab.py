@@ -191,7 +191,7 @@ def _plan(
         if over or samples is not None:
             raise RequestError(f"--points {points}: cannot be combined with --over or --samples")
         axes, found = points_from(scene, "--points", points, choices)
-        return Plan(scene, axes, check=check, listed=True), () if found is None else found.said
+        return Plan(scene, axes, check=check, listed=True), () if found is None else found.sentences
     if not over:
         raise RequestError("nothing to sweep over: give --over KEY=LO:HI:N, or --points F.csv")
     axes_over = tuple(parse_axis(scene, "--over", text) for text in over)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -100,7 +100,7 @@ class Mapped:
     columns: Mapping[str, str]  # the column of each parameter and fact that is one
 
     @property
-    def said(self) -> tuple[str, ...]:
+    def sentences(self) -> tuple[str, ...]:
         """Sentences on how it was read, and on the rows and columns that are not used."""
         shots = used(len(self.rows) + len(self.left_out), self.left_out, "shot")
         unused = f"columns that are not used: {', '.join(self.unused)}" if self.unused else ""
@@ -166,6 +166,7 @@ def mapped(scene: Scene, table: Table, column_map: ColumnMap, choices: Choices =
         leave_out_repeated(table, selection)
     kept = np.isin(before, selection.rows)
     given, measured = ({key: one.of(kept) for key, one in some.items()} for some in (given, measured))
+    notes += _taken_as_zero(table, column_map, selection.rows)
     unused = table.others({name.lower() for name in (*column_map.used, *(one.name for one in where))})
     rows = tuple(row + 1 for row in selection.rows)
     given |= _usual(scene, given, choices.decided, notes)
@@ -345,7 +346,7 @@ def _quantity(
     own = _own_unit(column_map, source, columns, unit)
     if source.column and own and source.unit and own != source.unit and column_map.form is None:
         raise RequestError(f"{table.where}: units are mixed: {source.column} is in {own}, but --map says {source.unit}")
-    numbers = [_numbers(table, source, column, rows, notes) for column in columns]
+    numbers = [_numbers(table, source, column, rows) for column in columns]
     if column_map.form is None or source.column:
         values = source.expression.values(numbers)
     else:  # a device's arithmetic is in its own unit
@@ -380,11 +381,17 @@ def _in_unit(values: np.ndarray, given: str, unit: str) -> np.ndarray:
     return np.array([units.convert(value, given, unit) for value in values.tolist()])
 
 
-def _numbers(table: Table, source: Source, column: Column, rows: Sequence[int], notes: list[str]) -> np.ndarray:
+def _numbers(table: Table, source: Source, column: Column, rows: Sequence[int]) -> np.ndarray:
     """The numbers of a column in some rows; 0 for a missing one of what takes a shot out of the plane."""
     if source.key not in SIDEWAYS:
         return table.numbers(column, rows)
-    lacking = [row for row in rows if are_missing([column], row)]
-    if lacking:
-        notes.append(f"{column.name} is missing in {rows_text([row + 1 for row in lacking])}: taken as 0")
-    return np.array([0.0 if row in set(lacking) else table.number(column, row) for row in rows])
+    return np.array([0.0 if are_missing([column], row) else table.number(column, row) for row in rows])
+
+
+def _taken_as_zero(table: Table, column_map: ColumnMap, rows: Sequence[int]) -> Iterator[str]:
+    """Say in which rows what takes a shot out of the plane is missing."""
+    names = (name for one in column_map.sources if one.key in SIDEWAYS for name in one.expression.columns)
+    for column in map(table.column, dict.fromkeys(names)):
+        lacking = [row + 1 for row in rows if are_missing([column], row)]
+        if lacking:
+            yield f"{column.name} is missing in {rows_text(lacking)}: taken as 0"

@@ -13,7 +13,7 @@ from sandbox.engine.model.shapes import Vector
 from sandbox.engine.model.surface import Surface
 from sandbox.parameters import Group, SceneParameters, group, one_of, quantity
 from sandbox.physics.coefficients import Coefficient, OfWholeSpin, Scaled
-from sandbox.physics.elementwise import cos, maximum, sin
+from sandbox.physics.elementwise import anywhere, cos, maximum, sin
 from sandbox.physics.forces import Drag, Gravity, Magnus, SpinDecay
 from sandbox.sport.air import Air, AnyDrag, AnyLift, Lift, Model, model_of, wind_in
 
@@ -147,7 +147,7 @@ def forces_in_flight(
     ``spin_share`` of the whole spin is that of the simulated ball; None for all.
     """
     forces: list[Force] = [Gravity(gravity)] if gravity > 0.0 else []
-    if air.density == 0.0:
+    if _is_zero(air.density):
         return forces
     about = (wind_in(air), ball.cross_section, air.viscosity)
     drag, lift = ball.drag.coefficient_in(air, ball), ball.lift.coefficient_in(air, ball)
@@ -160,6 +160,12 @@ def forces_in_flight(
         along_ground = isinstance(ball.lift, Lift) and ball.lift.velocity == "ground"
         forces.append(Magnus(ball.radius, air.density, lift, *about, along_ground=along_ground))
     return forces
+
+
+def _is_zero(value: Any) -> bool:
+    """True for 0. Of many shots at once, where it is 0 in some, raises ValueError: they are not built alike."""
+    zero = value == 0.0
+    return anywhere(zero) and bool(zero)
 
 
 def height_on(surfaces: Sequence[Surface], radius: float, above: float) -> float:
@@ -175,6 +181,6 @@ def launched_ball(launch: Launch, ball: Sphere, air: Air, place: Vector, forces:
     start = place, launch.velocity, launch.active_spin * RPM
     sent = Ball("ball", ball.mass, ball.radius, *start, inertia_factor=ball.inertia_factor, forces=forces)
     rate = ball.decay_in(air)
-    if air.density == 0.0 or rate == 0.0:
+    if _is_zero(air.density) or _is_zero(rate):
         return sent
     return replace(sent, torques=[SpinDecay(sent.inertia, ball.radius, rate, wind_in(air))])

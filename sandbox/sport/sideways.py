@@ -21,13 +21,14 @@ from dataclasses import replace
 from math import hypot
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from sandbox.engine.model.ball import Ball
 from sandbox.engine.paths.run import Run
 from sandbox.parameters import Group, quantity
 from sandbox.physics.coefficients import Scaled
 from sandbox.physics.elementwise import cos, sin
 from sandbox.physics.forces import Drag, Magnus
-from sandbox.physics.integrators import State
 from sandbox.sport.air import Air, wind_in
 from sandbox.sport.facts import Fact, FinalWhen
 from sandbox.sport.flight import DEGREE, Flight, Launch
@@ -112,7 +113,7 @@ def ground_track(run: Run, parameters: Flight, end: Moment | None, forward: bool
     if end is None or not _may_leave_plane(parameters):
         return []
     launch: Any = parameters.launch
-    rates, square_to = _rates(run, parameters), launch.square_to(run.setup.balls[0])
+    square_to = launch.square_to(run.setup.balls[0])
     shares = launch.lift_share or 1.0, launch.side_share
 
     def slope(rates: _Rates, at: Sideways) -> Sideways:
@@ -124,18 +125,24 @@ def ground_track(run: Run, parameters: Flight, end: Moment | None, forward: bool
 
     at: Sideways = (0.0, 0j, 0.0, 0j)
     track = [GroundPlace(run.state("ball", 0.0).x, 0.0)]
-    for arc in run.arcs["ball"]:
-        if arc.t0 >= end.t:
-            break
-        h = min(arc.t1, end.t) - arc.t0
-        first, middle, last = (rates(t, arc.state(t)[:5]) for t in (arc.t0, arc.t0 + 0.5 * h, arc.t0 + h))
+    arcs = [(arc, min(arc.t1, end.t) - arc.t0) for arc in run.arcs["ball"] if arc.t0 < end.t]
+    times = [t for arc, h in arcs for t in (arc.t0, arc.t0 + 0.5 * h, arc.t0 + h)]
+    ends = [arc.state(arc.t0 + h) for arc, h in arcs]
+    states = [
+        state[:5]
+        for (arc, h), last in zip(arcs, ends, strict=True)
+        for state in (arc.state(arc.t0), arc.state(arc.t0 + 0.5 * h), last)
+    ]
+    rates = iter(_rates(run, parameters, np.array(times), np.array(states).reshape(-1, 5).T))
+    for (_, h), last_state in zip(arcs, ends, strict=True):
+        first, middle, last = next(rates), next(rates), next(rates)
         k1 = slope(first, at)
         k2 = slope(middle, _ahead(at, 0.5 * h, k1))
         k3 = slope(middle, _ahead(at, 0.5 * h, k2))
         k4 = slope(last, _ahead(at, h, k3))
         for part, k in ((1, k1), (2, k2), (2, k3), (1, k4)):
             at = _ahead(at, part * h / 6.0, k)
-        track.append(GroundPlace(arc.state(arc.t0 + h)[0] + at[3].real, at[2]))
+        track.append(GroundPlace(last_state[0] + at[3].real, at[2]))
     w, q, z, back = at
     vx, vy = end.vx + q.real, end.vy + q.imag
     behind, speed = (back.real, vx) if forward else (back.imag, vy)
@@ -151,8 +158,9 @@ def _ahead(at: Sideways, h: float, rate: Sideways) -> Sideways:
     return w + h * dw, q + h * dq, z + h * dz, p + h * dp
 
 
-def _rates(run: Run, parameters: Flight) -> Callable[[float, State], _Rates]:
-    """Return a function of time (s) and state that gives the coefficients."""
+def _rates(run: Run, parameters: Flight, t: Any, states: np.ndarray) -> list[_Rates]:
+    """The coefficients at times in s with these states, shape (5, times): all at once, since a force takes as long for
+    one of them."""
     ball, air = run.setup.balls[0], parameters.launch.in_plane(parameters.air.air)
     mean = {"wind": (getattr(air, "crosswind", None) or 0.0, 0.0), "gusts": 0.0}
     across = wind_in(air.model_copy(update={key: value for key, value in mean.items() if hasattr(air, key)}))
@@ -160,23 +168,28 @@ def _rates(run: Run, parameters: Flight) -> Callable[[float, State], _Rates]:
     lift = next((force for force in ball.forces if isinstance(force, Magnus)), None)
     if lift is not None and isinstance(lift.coefficient, Scaled):
         lift = replace(lift, coefficient=lift.coefficient.coefficient)
-    over_ground = lift is not None and lift.along_ground
+    x, y, vx, vy, spin = states
+    velocity = vx + 1j * vy
 
-    def through(force: Drag | Magnus | None, t: float, state: State) -> complex:
+    def through(force: Drag | Magnus | None) -> np.ndarray:
         wind = None if force is None or getattr(force, "along_ground", False) else force.wind
-        wx, wy = (0.0, 0.0) if wind is None else wind(t, state[:2])
-        return complex(state[2] - wx, state[3] - wy)
+        return velocity if wind is None else velocity - (1j * wind(t, (x, y))[1] + wind(t, (x, y))[0])
 
-    def rate(force: Drag | Magnus | None, t: float, state: State) -> complex:
-        u = through(force, t, state)
-        return 0j if force is None or u == 0.0 else complex(*force(t, state[:2], state[2:4], state[4])) / u / ball.mass
+    def rate(force: Drag | Magnus | None) -> np.ndarray:
+        if force is None:
+            return np.zeros(len(t), complex)
+        try:
+            fx, fy = force(t, (x, y), (vx, vy), spin)
+        except (TypeError, ValueError):  # a law of an author's own, for numbers only
+            each = (force(at, place[:2], place[2:4], place[4]) for at, place in zip(t, states.T, strict=True))
+            fx, fy = np.array(list(each)).T
+        u = through(force)
+        return np.where(u == 0.0, 0.0, fx + 1j * fy) / np.where(u == 0.0, 1.0, u) / ball.mass
 
-    def rates(t: float, state: State) -> _Rates:
-        wind = 0.0 if across is None else across(t, state[:2])[0]
-        lifted = rate(lift, t, state).imag
-        return _Rates(-rate(drag, t, state).real, lifted, through(lift, t, state), wind, 0.0 if over_ground else wind)
-
-    return rates
+    wind = np.zeros(len(t)) if across is None else np.broadcast_to(across(t, (x, y))[0], t.shape)
+    lift_wind = np.zeros(len(t)) if lift is not None and lift.along_ground else wind
+    columns = (-rate(drag).real, rate(lift).imag, through(lift), wind, lift_wind)
+    return [_Rates(*row) for row in zip(*(column.tolist() for column in columns), strict=True)]
 
 
 def side(track: Callable[[Run, Any], Sequence[GroundPlace]], final_when: FinalWhen = "end") -> Fact:

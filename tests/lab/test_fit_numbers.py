@@ -37,7 +37,7 @@ def line(rng: np.random.Generator, sds: tuple[float, float]) -> tuple[np.ndarray
     return rng.normal(0.0, 1.0, 40) * np.array(sds)[groups], slopes, groups
 
 
-def test_errors_that_are_alike_in_groups_are_those_of_the_groups_means():
+def test_errors_alike_in_groups_are_those_of_their_means():
     """The mean of eight equal groups: its standard error is the sd of their means over the root of their number."""
     rng = np.random.default_rng(0)
     labels = np.repeat(np.arange(8), 10)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -389,7 +390,47 @@ def test_accelerations_alone_are_nothing_to_fit(call: Call, tmp_path: Path):
     head = "Time (s),Linear Acceleration x (m/s^2),Linear Acceleration y (m/s^2),Absolute acceleration (m/s^2)\n"
     file = written(tmp_path, head + "0,-0.12,-0.39,0.44\n0.01,0.05,-0.33,0.36\n")
     refused = call("fit", "throws", file, "--vary", "launch.speed")
-    assert_refused(refused, "no positions: there is nothing to fit. Such a file tells when something was hit")
+    assert_refused(refused, "no positions: there is nothing to fit. Its peaks tell when something was hit: write")
+
+
+@pytest.fixture(scope="module")
+def heard() -> tuple[list[float], list[float]]:
+    """Times in s of the bounces of a ball in air, and heights in m after them, the first where it is dropped."""
+    ball = {"floor.restitution": 0.8, "air.density": 1.2, "duration": 8.0}
+    run = sandbox.simulate(sandbox.load("collisions/bouncing-ball", ball))
+    times = [event.t for event in run.events if event.kind == "impact"][:6]
+    ends = [0.0, *times]
+    arcs = (run.states("first", np.linspace(*pair, 2001))[:, 1] for pair in pairwise(ends))
+    return times, [float(arc.max()) - 0.033 for arc in arcs]
+
+
+BOUNCING = ("collisions/bouncing-ball", "--vary", "floor.restitution", "--vary")
+
+
+@pytest.mark.parametrize("since", ["release", "first bounce"])
+def test_restitution_and_drag_come_from_times_of_bounces(call: Call, tmp_path: Path, heard, since: str):
+    """A bounce was not heard; a clock that starts with a bounce leaves open when the ball was released."""
+    noise, start = np.random.default_rng(0).normal(0.0, 2e-5, 6), heard[0][0] if since == "first bounce" else 0.0
+    rows = [f"{number};{1e3 * (t - start + error if number > 1 else t - start)}\n"
+            for number, (t, error) in enumerate(zip(heard[0], noise, strict=True), start=1) if number != 4]  # fmt: skip
+    file = written(tmp_path, "bounce;t (ms)\n" + "".join(rows).replace(".", ","))
+    found = json.loads(call("fit", BOUNCING[0], file, *BOUNCING[1:], "air.density=0:6", "--json").out)
+    values = found["values"]
+    assert values["floor.restitution"]["value"] == pytest.approx(0.8, abs=0.003)
+    assert values["air.density"]["value"] == pytest.approx(1.2, abs=0.4)  # the drag is in proportion to it
+    assert ("track.time" in values) == (since == "first bounce")
+    assert (found["points"], list(found["residual_sd"])) == (5, ["t"])
+
+
+def test_restitution_and_place_come_from_heights(call: Call, tmp_path: Path, heard):
+    rows = "".join(f"{number},{100 * height}\n" for number, height in enumerate(heard[1]))
+    file = written(tmp_path, "Bounce,height (cm)\n" + rows)
+    done = call("fit", BOUNCING[0], file, *BOUNCING[1:], "balls[0].y=1:2", "--set", "air.density=1.2", "--json")
+    values = json.loads(done.out)["values"]
+    assert values["floor.restitution"]["value"] == pytest.approx(0.8, abs=1e-5)
+    assert values["balls[0].y"]["value"] == pytest.approx(1.533, abs=1e-5)
+    written(tmp_path, "bounce,t\n1.5,2\n")
+    assert_refused(call("fit", BOUNCING[0], file, *BOUNCING[1:], "gravity"), "row 1, bounce = 1.5 is no number of a")
 
 
 def test_columns_without_names_are_taken_as_a_track(call: Call, tmp_path: Path):

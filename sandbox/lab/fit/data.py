@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from sandbox.errors import RequestError
+from sandbox.lab.fit.bounces import bounces_of, has_bounces
 from sandbox.lab.fit.frame import frame_of
 from sandbox.lab.fit.launches import launches
 from sandbox.lab.fit.measured import Measured
@@ -60,6 +61,8 @@ def data_of(scene: Scene, tables: Sequence[tuple[str, Table]], how: Reading) -> 
             if given:
                 raise RequestError(f"{option} is for tables of launches")
         return _track(scene, tables, how, notes)
+    if not choices.entries and len(tables) == 1 and has_bounces(first):
+        return bounces_of(scene, first, how.free, choices.strict)
     if not choices.entries and recognized(first, scene) is None:
         _check_track(first)
     if len(tables) > 1 or how.free or how.film != Film():
@@ -113,7 +116,8 @@ def _check_track(table: Table) -> None:
     if named and not has_positions(table):
         raise RequestError(
             f"{table.where}: has accelerations ({shortened(', '.join(named), 60)}), but no positions: there is nothing "
-            "to fit. Such a file tells when something was hit, by its peaks, but not where"
+            "to fit. Its peaks tell when something was hit: write their times as a table with the columns bounce (1, "
+            "2, ...) and t, and fit collisions/bouncing-ball to it with --vary floor.restitution --free time"
         )
 
 
