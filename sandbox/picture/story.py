@@ -86,6 +86,7 @@ class Camerawork:
         self.decided = min(max(story.at, 0.0), run.duration)
         self.times = np.linspace(0.0, run.duration, int(np.clip(run.duration * _LOOKS, 2, _MOST)))
         followed = story.balls or [(ball, self.decided)]
+        self._played = run.states(ball, self.times)[:, :2] * self._up
         self._ways = np.array([run.states(name, self.times)[:, :2] * self._up for name, _ in followed])
         ends = np.array([min(until, self.decided) for _, until in followed])
         self._ways[self.times > ends[:, None] + self.times[1]] = np.nan
@@ -134,6 +135,12 @@ class Camerawork:
         boxes = self._framed(np.fmin(lowest, low), np.fmax(highest, high), least)
         seen = np.column_stack([np.interp(self.keys, self.clock, column) for column in boxes.T])
         seen[self.keys > decided - _EASE] = self.close  # so that it is there in time
+        late, over = self.keys > decided, self.times >= self.decided
+        if not self.story.balls and over.any():  # the ball stays in sight
+            gone = [how.accumulate(self._played[over]) for how in (np.minimum, np.maximum)]
+            ahead = self.keys[late] + np.minimum(self.keys[late] - decided, _EASE)
+            reached = np.column_stack([np.interp(ahead, self.clock[over], axis) for ends in gone for axis in ends.T])
+            seen[late] = self._framed(np.minimum(reached[:, :2], low), np.maximum(reached[:, 2:], high), least)
         begins = self._box_of(self.first)
         step = self.keys[1]
         bell = 1.0 - np.cos(np.linspace(0.0, 2.0 * np.pi, max(3, round(_EASE / step)) + 2)[1:-1])
@@ -141,10 +148,16 @@ class Camerawork:
         edges = np.concatenate([np.tile(begins, (len(bell) - 1, 1)), seen])
         eased = np.column_stack([np.convolve(column, bell, mode="valid") for column in edges.T])
         after = self.keys > back
-        eased[after] = self._between(
-            eased[np.argmax(after) - 1], self._box_of(self.last), (self.keys[after] - back) / _BACK
-        )
+        eased[after] = self._between(eased[np.argmax(after) - 1], self._end(), (self.keys[after] - back) / _BACK)
         self.boxes = eased
+
+    def _end(self) -> np.ndarray:
+        """What is seen in the end: by the last camera, or from farther away, if the ball has left that."""
+        box, end = self._box_of(self.last), self._played[-1]
+        middle, half = box[:2], np.array([box[2] / 2, box[2] / self._aspect / 2])
+        if (np.abs(end - middle) <= half).all():
+            return box
+        return self._framed(np.minimum(middle - half, end), np.maximum(middle + half, end), box[2])
 
     def _box_of(self, camera: Camera) -> np.ndarray:
         """The middle and the width of what a camera shows in the area."""

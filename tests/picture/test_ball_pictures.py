@@ -168,10 +168,9 @@ def test_a_note_says_how_far_away_is_what_is_not_in_sight():
     assert picture.remarks(camera) == []  # the start is where all is measured from
 
 
-def test_the_lens_goes_where_it_would_hide_the_ring():
+def test_the_lens_is_on_the_poster_and_frames_go_in_instead():
     picture = picture_of("basketball, brick", (1280, 720))
     corner = picture.lens.left + 20, picture.lens.bottom - 20
-    early, late = picture.frame(1.0), picture.frame(picture.run.duration)
     lens = scene_colours(str(picture.run.scene.folder / "picture.py"))["lens"]
-    assert early.get_at(corner) == (*lens, 255)
-    assert late.get_at(corner) != (*lens, 255)
+    assert picture.poster().get_at(corner) == (*lens, 255)
+    assert picture.frame(picture.camerawork.decided).get_at(corner) != (*lens, 255)
