@@ -120,6 +120,7 @@ def test_the_marks_move_with_the_ball():
 def test_where_a_ball_has_been_stays_in_sight():
     """And where it will be does not show yet."""
     picture = picture_of("bank")
+    picture.still = True
     empty = picture.stage()
     x, y = map(int, picture.camera.pixel(*picture.run.state("cue", 2.0)[:2]))
     here = [(x + i, y + j) for i in (-1, 0, 1) for j in (-1, 0, 1)]
@@ -183,7 +184,7 @@ def test_what_a_window_asks_for():
     picture.draw_balls(Painter(stage), picture.camera, 1.0)
     assert stage.get_buffer().raw != before
     assert picture.stage().get_buffer().raw == before  # the window's own copy
-    assert picture.view(1.0) == picture.camera
+    assert picture.view(0.0) == picture.camera
 
 
 def test_a_ball_that_was_potted_has_no_speed_any_more():
