@@ -176,7 +176,7 @@ def mapped(scene: Scene, table: Table, column_map: ColumnMap, choices: Choices =
 def _usual(
     scene: Scene, given: Mapping[str, Quantity], decided: Sequence[str], notes: list[str]
 ) -> dict[str, Quantity]:
-    """What the scene takes as usual where a table has no such column, and the parameter is neither decided nor
+    """Values that the scene takes as usual where a table has no such column, and the parameter is neither decided nor
     changed."""
     usual = getattr(scene.module, "usual", None)
     if usual is None or not given:

@@ -42,7 +42,7 @@ _KEYS_A_SECOND, _WORTH_NEAR = 30, 1.5
 #: The ground's height is sampled at so many places.
 GROUND = 400
 #: Units of the numbers that the page itself writes.
-UNITS = ("m", "m/s", "deg", "rpm", "s", "N")
+_UNITS = ("m", "m/s", "deg", "rpm", "s", "N")
 #: To what, in m and rad/s, the path of a ball in a heap is rounded.
 _HEAPED = 1e-12
 #: Most impacts and other events that are listed.
@@ -173,7 +173,7 @@ def place_data(view: View[Any]) -> dict[str, Any]:
         "driver": {"colour": css(view.DRIVEN), "thinnest": THINNEST},
         "shadows": isinstance(view, AboveView),
         "spins": view.SPIN_NAMES,
-        "ladders": {unit: _ladder(unit) for unit in UNITS},
+        "ladders": {unit: _ladder(unit) for unit in _UNITS},
         "heaped": _HEAPED,
         "unsaid": NOT_WORTH_NOTING,
         "earlier": palette("trace")["earlier"],

@@ -173,7 +173,7 @@ class SceneOptions(Generic[P]):
 
     @property
     def story(self) -> Story | None:
-        """What the camera of frames goes to; None if it stays where it is."""
+        """The place and time that the camera of frames goes to; None if it stays where it is."""
         return None
 
     def meeting(self, *places: Box, share: float = 0.35, spot: float, at: float | None = None) -> Story:

@@ -34,7 +34,7 @@ _LOOKS, _MOST, _KEYS = 240, 8000, 60
 
 @dataclass(frozen=True)
 class Story:
-    """What decides a run, such as keeper, ring, net, pocket, cup, pins or fence: its place in m, and when, in s.
+    """The thing that decides a run, such as keeper, ring, net or cup: its place in m, and when, in s.
 
     ``share`` says how far the camera goes in: the larger side of the place as a share of the picture's height then; 0
     where it stays and only time slows, as the picture has a part that shows the place from near by.
@@ -61,7 +61,7 @@ def frame_times(duration: float, fps: float) -> list[float]:
 
 
 class Camerawork:
-    """What is seen of a run in the ``area`` (px) of a picture so many px high, and the pace of time.
+    """The part of a run that is seen in the ``area`` (px) of a picture so many px high, and the pace of time.
 
     It begins as the camera ``first`` shows it, and comes back to that or to the ``last``. ``slower`` is the factor by
     which all of the run is in slow motion. With a ``floor``, a height in m, nothing lower comes into the area.
@@ -152,7 +152,7 @@ class Camerawork:
         self.boxes = eased
 
     def _end(self) -> np.ndarray:
-        """What is seen in the end: by the last camera, or from farther away, if the ball has left that."""
+        """The box that is seen in the end: by the last camera, or from farther away, if the ball has left that."""
         box, end = self._box_of(self.last), self._played[-1]
         middle, half = box[:2], np.array([box[2] / 2, box[2] / self._aspect / 2])
         if (np.abs(end - middle) <= half).all():

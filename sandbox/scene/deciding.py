@@ -1,4 +1,4 @@
-"""When the run of a scene is decided: its events are known, also those to come."""
+"""The time at which the run of a scene is decided: its events are known, also those to come."""
 
 from __future__ import annotations
 

@@ -27,7 +27,7 @@ class Match:
     facts: ClassVar[tuple[str, ...]] = ()  # that ``after`` reads
     shown: ClassVar[str] = "one metre"  # how much of the path the players see, as in a task
 
-    opponents: ClassVar[bool] = False  # whether a computer can play it: ``worth`` says what is good
+    opponents: ClassVar[bool] = False  # whether a computer can play it: ``value`` says what is good
 
     players: tuple[str, str] = PLAYERS
     turn: int = 0  # 0 or 1, whose it is
@@ -41,8 +41,8 @@ class Match:
         """The match after the shot of the player whose turn it is."""
         raise NotImplementedError
 
-    def worth(self, outcome: Outcome) -> float:
-        """The worth of a shot with these facts to the player whose turn it is: more is better."""
+    def value(self, outcome: Outcome) -> float:
+        """The value of a shot with these facts to the player whose turn it is: more is better."""
         after = self.after(outcome)
         if after.finished:
             return 2.0 if after.winner == self.turn else -2.0
@@ -112,7 +112,7 @@ class Shootout(Match):
 
     taken: tuple[tuple[bool, ...], tuple[bool, ...]] = ((), ())  # by each player, in order: whether it scored
 
-    def worth(self, outcome: Outcome) -> float:
+    def value(self, outcome: Outcome) -> float:
         return float(bool(outcome[self.fact]))
 
     def after(self, outcome: Outcome) -> Shootout:

@@ -61,20 +61,20 @@ def do(view: View, command: str, by: float = 1) -> None:
         _list(view, name)
         return
     found, shown = _BY_NAME[name], view.shown
-    if name in OF_LAB and view.game.referee.contest is None and not shown.in_lab:
+    if name in _OF_LAB and view.game.referee.contest is None and not shown.in_lab:
         view.game.memory.lab = True
         if name in shown.on:
             shown.remember()
             return
     if view.game.referee.contest is not None:
         aiming = view.game.watching.playback is None
-        fixed = name in FIXED or (name in {"lab", *OF_LAB} and not view.game.referee.contest.takes_marks)
+        fixed = name in FIXED or (name in {"lab", *_OF_LAB} and not view.game.referee.contest.takes_marks)
         if fixed or (name in GIVE_AWAY and aiming):
             view.game.messages.tell("not while you play for something" if fixed else "not before the shot")
             return
     if found.do is None:
         shown.on ^= {name}
-        if name in OF_LAB:
+        if name in _OF_LAB:
             shown.remember()
         view.lay_out()
     elif found.group == "Panel" and not shown.has_panel:
@@ -201,7 +201,7 @@ TABLE: tuple[_Command, ...] = (
 #: the contest, or would write only a part of it.
 GIVE_AWAY = frozenset(("predict", "fan", "wider", "map", "charts", "graphs", "energy", "compare"))
 #: What belongs to the laboratory, and opens it.
-OF_LAB = frozenset((*LABORATORY, "graphs", "energy"))
+_OF_LAB = frozenset((*LABORATORY, "graphs", "energy"))
 FIXED = frozenset(("find", "accuracy", "reset", "rack", "undo", "save_scene", "copy"))
 GROUPS: tuple[str, ...] = tuple(dict.fromkeys(command.group for command in TABLE))
 #: What the bar's buttons say that open a list of a group of commands; its others say what the help does.

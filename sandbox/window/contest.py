@@ -40,7 +40,7 @@ def source_of(scene: Scene) -> str:
 
 
 class Kept(NamedTuple):
-    """What the best list keeps of a contest."""
+    """The entry that the best list keeps of a contest."""
 
     score: float
     stars: int
@@ -53,7 +53,7 @@ class Contest:
 
     name = ""  # of the task, or scene and game
     goal = ""  # in one sentence
-    shown = "all"  # of the path: as tasks have it
+    path_shown = "all"  # of the path: as tasks have it
     said = ""  # what came of the last shot, in a sentence
     good = False  # whether that was a success
     counts = ""  # what the last shot counts, where its sentence may not say so
@@ -176,7 +176,7 @@ class Contest:
 
     @property
     def kept(self) -> Kept | None:
-        """What the best list keeps at the end; None for nothing."""
+        """The entry for the best list at the end; None for nothing."""
         return None
 
     def score_text(self, score: float) -> str:
@@ -194,7 +194,7 @@ class AtTask(Contest):
         self.turn = 0
         installed = task.name in tasks.tasks() and tasks.find_task(task.name) == task.file
         self.name = task.name if installed else str(task.file.resolve())  # by which its best list is kept
-        self.goal, self.shown = task.goal, task.shown
+        self.goal, self.path_shown = task.goal, task.shown
         self.worths: list[float | None] = []  # of each shot
         self._flights: list[dict[str, Any]] = []  # the changes of the task's scene that make each
         self._set: dict[str, float] = {}  # by the player, for the shot that is on its way
@@ -350,7 +350,7 @@ class AtMatch(Contest):
         self.random = np.random.default_rng(seed)
         here = source_of(load(folder.name if is_installed(folder) else str(folder)))
         self.base = load("/".join(filter(None, (here, rules.preset))))
-        self.name, self.goal, self.shown = f"{folder.name}/{game}", rules.goal, rules.shown
+        self.name, self.goal, self.path_shown = f"{folder.name}/{game}", rules.goal, rules.shown
 
     @property
     def scene(self) -> Scene:

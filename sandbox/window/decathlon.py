@@ -35,9 +35,9 @@ class Decathlon(Contest):
             self.event = self._event()
 
     @property
-    def shown(self) -> str:  # type: ignore[override]
+    def path_shown(self) -> str:  # type: ignore[override]
         """The part of the path that its event shows."""
-        return self.event.shown
+        return self.event.path_shown
 
     @property
     def scene(self) -> Scene:

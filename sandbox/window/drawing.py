@@ -101,7 +101,7 @@ class Drawing:
             return None
         same = game.watching.playback is not None or shot.place == game.session.place
         stage = self.stages.of(shot) if same or self._no_path else None
-        return stage if stage is None else self.viewpoint.seen(stage)
+        return stage if stage is None else self.viewpoint.framed(stage)
 
     def _draw_all(self, sheet: Canvas, stage: Stage, shot: Shot) -> None:
         """The shot, and what lies over it."""

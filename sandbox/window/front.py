@@ -36,7 +36,7 @@ _CARD = palette("card")
 TILE = (320, 180)
 #: Width of a tile in px on 720 rows, at most.
 _WIDEST = 240
-START_HERE, TODAY = "Start here", "Today"
+START_HERE, _TODAY = "Start here", "Today"
 
 
 class Entry(NamedTuple):
@@ -279,7 +279,7 @@ class Front(Overlay):
             right -= round(2 * SMALL_STAR * unit)
         name = sheet.lettering.cut(row.title, "small", right - place.left, True)
         sheet.write(name, "small", (place.left, y), _CARD["text"], "midleft", bold=True)
-        said = START_HERE if row is self.first_sport else TODAY if row is self.others[0] else ""
+        said = START_HERE if row is self.first_sport else _TODAY if row is self.others[0] else ""
         if said:
             wide = sheet.lettering.width(said, "small", True) + 4 * gap
             badge = pygame.Rect(place.left, place.top, wide, below + gap)
@@ -287,7 +287,7 @@ class Front(Overlay):
             sheet.write(said, "small", badge.center, _CARD["background"], "center", bold=True)
 
     def _got(self, row: _Sport | Entry) -> tuple[str, bool | None]:
-        """What was reached in a sport, at the task of the day, or in a decathlon, in a few words; and whether there is
+        """The best in a sport, at the task of the day, or in a decathlon, in a few words; and whether there is
         a lit star before them, None for no star."""
         if isinstance(row, _Sport):
             got = sum(self.best.stars(task) for task in row.tasks)
@@ -365,7 +365,7 @@ class Front(Overlay):
         sheet.write(about, "small", (x, row.centery + gap // 4), _CARD["quiet"])
 
     def _level(self, level: int, right: float, y: float) -> int:
-        """How hard a task is, as one to five bars that grow; returns where they begin, in px."""
+        """Draw the level of a task, as one to five bars that grow; returns where they begin, in px."""
         wide, gap, unit = round(4 * self.sheet.unit), round(2 * self.sheet.unit), self.sheet.unit
         left = round(right - 2 * self.sheet.gap - LEVELS * (wide + gap))
         for place in range(LEVELS):

@@ -61,7 +61,7 @@ class Opponent:
         if self.work is None or not self.work.done():
             return
         found, self.work = self.work.result(), None
-        worths = [self.match.worth(each) if each is not None else -np.inf for each in found]
+        worths = [self.match.value(each) if each is not None else -np.inf for each in found]
         if self._scatters:
             means = np.mean(np.reshape(worths, (-1, _SCATTERED)), axis=1)
             self._take(self.rows[int(np.argmax(means)) * _SCATTERED])  # of each the first is without scatter

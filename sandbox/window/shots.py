@@ -185,7 +185,7 @@ class Playback:
         return 1.0 / self.story.slower(self.t) if follows and self.story is not None else self.rate
 
     @property
-    def seen(self) -> float:
+    def camera_time(self) -> float:
         """The time in s that the camera knows: of the shot, and on after its end."""
         return self.t + self.rested
 

@@ -35,7 +35,7 @@ class Shown:
     def ahead(self) -> str:
         """The part of the path that is shown while aiming: the player's choice, or that of the contest."""
         contest = self.game.referee.contest
-        return self._ahead if contest is None else _OF_TASKS[contest.shown]
+        return self._ahead if contest is None else _OF_TASKS[contest.path_shown]
 
     @property
     def in_lab(self) -> bool:

@@ -35,7 +35,7 @@ def knock(pitch: float) -> np.ndarray:
     return np.ascontiguousarray(np.column_stack([samples, samples]))
 
 
-def chime(notes: Sequence[float]) -> np.ndarray:
+def _chime(notes: Sequence[float]) -> np.ndarray:
     """Notes (Hz), one after the other, each a bell that dies away; 16 bit, shape (samples, 2)."""
     t = np.arange(round(_RATE * _CHIME)) / _RATE
     wave = np.zeros_like(t)
@@ -74,7 +74,7 @@ class Sound:
             with _no_stderr():
                 pygame.mixer.init(_RATE, -16, 2, 512)
             self.knocks = [pygame.sndarray.make_sound(knock(pitch)) for pitch in (DULL, _BRIGHT)]
-            self.chimes = [pygame.sndarray.make_sound(chime(notes)) for notes in (_BAD, _GOOD)]
+            self.chimes = [pygame.sndarray.make_sound(_chime(notes)) for notes in (_BAD, _GOOD)]
             self.chimes[False].set_volume(_SOFTLY)
         except (pygame.error, NotImplementedError, ImportError):
             pass

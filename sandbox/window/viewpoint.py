@@ -26,16 +26,16 @@ class Viewpoint:
         self.game, self.screen, self.shown, self.stages = game, screen, shown, stages
         self._holds = False  # the camera, while something is dragged
 
-    def seen(self, stage: Stage) -> Stage:
+    def framed(self, stage: Stage) -> Stage:
         """A stage as the camera sees it now: where a shot is watched it goes with its story."""
         playback = self.game.watching.playback
-        return stage.at(playback.seen) if playback is not None and playback.story is not None else stage
+        return stage.at(playback.camera_time) if playback is not None and playback.story is not None else stage
 
     @property
     def camera(self) -> Camera | None:
         """The current camera; None until there is a stage."""
         stage = self.stages.latest
-        return None if stage is None else self.seen(stage).camera
+        return None if stage is None else self.framed(stage).camera
 
     def follow(self) -> None:
         """Give the shot that is watched the pace of its story, or none if the camera stands still."""
@@ -49,7 +49,7 @@ class Viewpoint:
         """Zoom by ``factor`` around a place (px)."""
         stage = self.stages.latest
         if stage is not None:
-            camera, whole = self.stages.chosen or self.seen(stage).camera, stage.whole.scale
+            camera, whole = self.stages.chosen or self.framed(stage).camera, stage.whole.scale
             largest = max(ball.radius for ball in stage.shot.run.setup.balls)
             nearest = max(whole, min(_NEAREST * whole, _LARGEST_BALL * self.screen.area.height / largest))
             scale = min(max(camera.scale * factor, _FARTHEST * whole), nearest)
@@ -58,7 +58,7 @@ class Viewpoint:
     def pan(self, across: float, down: float) -> None:
         """Move the picture by so many px."""
         if self.stages.latest is not None:
-            camera = self.stages.chosen or self.seen(self.stages.latest).camera
+            camera = self.stages.chosen or self.framed(self.stages.latest).camera
             right, foot = camera.anchor
             self.look(replace(camera, anchor=(right + across, foot + down)))
 

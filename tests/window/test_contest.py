@@ -532,10 +532,10 @@ class TestAgainstTheComputer:
         match = game_of(installed_folder("billiards"), "eight-ball")(balls={"cue": (0.0, 0.0), "1": (0.5, 0.0)})
         legal = {"first_contact": "1", "potted": ["1"], "scratch": False, "rails": 1, "touches": ["1"], "driven": 0}
         outcome = {**legal, "positions": {"cue": (0.2, 0.0)}}
-        assert match.worth(outcome) == 1.0  # its turn again
-        assert match.worth({**outcome, "potted": []}) == 0.0
-        assert match.worth({**outcome, "scratch": True}) == -1.0
-        assert match.worth({**outcome, "potted": ["8"]}) == -2.0  # too early: lost
+        assert match.value(outcome) == 1.0  # its turn again
+        assert match.value({**outcome, "potted": []}) == 0.0
+        assert match.value({**outcome, "scratch": True}) == -1.0
+        assert match.value({**outcome, "potted": ["8"]}) == -2.0  # too early: lost
 
 
 class TestPredictFirst:
