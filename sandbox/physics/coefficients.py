@@ -161,7 +161,7 @@ def monitor_fit_drag(reynolds: Any, spin_ratio: Any) -> Any:
 
     The two sets disagree: at the same speed, launch and spin the tour's long irons come down 4 to 6 deg steeper than
     the monitor's flights, its 3-wood carries 10 yd less, and no function of Re and S has both. With equal regard for
-    both, seven forms tried are at best 1.25 times 3 yd, 1.0 deg and 1.5 mph off these and 3.2 yd and 2.0 deg off those.
+    both, five forms tried are at best 1.25 times 3 yd, 1.0 deg and 1.5 mph off these and 3.2 yd and 2.0 deg off those.
     Tour averages are met by tour_fit_drag, with which the drives are 7.4 yd short, 3.5 deg too steep and 6.0 mph too
     slow.
 

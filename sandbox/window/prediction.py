@@ -21,7 +21,7 @@ _SHOWN = 8
 class Prediction(Contest):
     """Marks and landings of shots in one scene, which the player may change as he likes."""
 
-    shown = "nothing"
+    path_shown = "nothing"
     takes_marks = True
 
     def __init__(self, scene: Scene) -> None:
