@@ -689,7 +689,7 @@ def test_golden_pictures_are_small():
     root = Path(__file__).parents[2]
     files = [*root.glob("tests/golden/*.*"), *root.glob("scenes/*/golden/*.*")]
     assert len(files) > 100
-    assert [file.name for file in files if file.stat().st_size >= 64_000] == []
+    assert [file.name for file in files if file.stat().st_size >= 80_000] == []
 
 
 def test_the_shots_of_a_scene_of_ones_own_are_tests(project):
