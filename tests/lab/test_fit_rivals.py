@@ -82,7 +82,14 @@ def test_a_minimum_that_explains_far_less_is_no_rival(tilt: float, count: int):
 
 def test_values_that_explain_the_data_as_well_are_said():
     scene = sandbox.load("throws", {"launch.speed": FIRST})
-    found = solve(scene, TwoRoots(0.01), [Span("launch.speed", 0.0, 30.0)])
+    followed: list[tuple[int, int]] = []
+    found = solve(
+        scene,
+        TwoRoots(0.01),
+        [Span("launch.speed", 0.0, 30.0)],
+        progress=lambda done, total: followed.append((done, total)),
+    )
+    assert followed[0][0] == 0 < followed[0][1]  # starts that were followed, of how many
     (other,) = found.others
     assert {round(found.values["launch.speed"].value), round(other.values["launch.speed"])} == {10, 13}
     said = " ".join(line.strip() for line in as_text(found.report()))

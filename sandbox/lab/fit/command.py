@@ -106,6 +106,7 @@ def fit(
     from sandbox.lab.fit.report import report_of
     from sandbox.lab.fit.saving import check_saving
     from sandbox.lab.fit.saving import save as saved
+    from sandbox.progress import bar
 
     chosen = load(scene, changes)
     spans = [parse_varied(chosen, text) for text in vary]
@@ -120,11 +121,12 @@ def fit(
     if save is not None:
         check_saving("--save", save, has_points=not isinstance(data, Launches))
         outputs.check({"--save": save})
-    found = (
-        fit_track(chosen, data, spans, robust)
-        if models is None
-        else compare(chosen, data, spans, *parse_models(chosen, "--models", models), robust)
-    )
+    with bar("fit") as progress:
+        found = (
+            fit_track(chosen, data, spans, robust, progress)
+            if models is None
+            else compare(chosen, data, spans, *parse_models(chosen, "--models", models), robust, progress)
+        )
     files: list[Path] = []
     if save is not None:
         with writing("--save", save):

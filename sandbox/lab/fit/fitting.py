@@ -22,6 +22,7 @@ from sandbox.lab.fit.parsing import Film, parse_scale
 from sandbox.lab.fit.problem import Declared
 from sandbox.lab.fit.squares import Fit, solve
 from sandbox.lab.mapped import choices_of
+from sandbox.lab.runs import Progress, no_progress
 from sandbox.parameters import value_at, walk
 from sandbox.scene import Scene, as_scene
 from sandbox.text import check_mapping
@@ -86,7 +87,13 @@ def fit(
     return compare(chosen, measured, spans, key, chosen_models(chosen, "models", key, words), robust)
 
 
-def fit_track(scene: Scene, measured: Measured, spans: Sequence[Span], robust: bool = False) -> Fit:
+def fit_track(
+    scene: Scene,
+    measured: Measured,
+    spans: Sequence[Span],
+    robust: bool = False,
+    progress: Progress = no_progress,
+) -> Fit:
     """Like ``fit``, for data and ranges already read."""
     keys = [span.key for span in spans]
     twice = next((key for key in keys if keys.count(key) > 1), None)
@@ -95,7 +102,7 @@ def fit_track(scene: Scene, measured: Measured, spans: Sequence[Span], robust: b
     given = next((key for key in keys if isinstance(measured, Launches) and key in measured.given), None)
     if given is not None:
         raise RequestError(f"--vary {given}: is a column of the table; to fit it, leave that out: --without {given}")
-    return solve(scene, measured, spans, robust)
+    return solve(scene, measured, spans, robust, progress=progress)
 
 
 def parse_varied(scene: Scene, text: str) -> Span:

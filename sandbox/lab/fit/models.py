@@ -11,6 +11,7 @@ from sandbox.errors import RequestError, RunError
 from sandbox.lab.axes import Span, checked
 from sandbox.lab.fit.measured import Measured
 from sandbox.lab.fit.squares import Fit, Model, check_near, solve
+from sandbox.lab.runs import Progress, no_progress
 from sandbox.parameters import choices_of, value_at
 from sandbox.scene import Scene
 from sandbox.text import nearest
@@ -54,7 +55,13 @@ def _has(scene: Scene, key: str, value: float) -> bool:
 
 
 def compare(
-    scene: Scene, measured: Measured, spans: Sequence[Span], key: str, words: Sequence[Any], robust: bool = False
+    scene: Scene,
+    measured: Measured,
+    spans: Sequence[Span],
+    key: str,
+    words: Sequence[Any],
+    robust: bool = False,
+    progress: Progress = no_progress,
 ) -> Fit:
     """The fit of the best model, with all that were compared. Raises RequestError or RunError if none can be fitted.
 
@@ -68,7 +75,7 @@ def compare(
             own = [span for span in spans if _has(changed, span.key, span.low)]
             if not own:
                 raise RequestError(f"{word} has none of the parameters to fit")
-            found[str(word)] = Model(0.0, solve(changed, measured, own, robust, near=False))
+            found[str(word)] = Model(0.0, solve(changed, measured, own, robust, near=False, progress=progress))
         except (RequestError, RunError) as error:
             failure = failure or error
             found[str(word)] = Model(inf, None, str(error))

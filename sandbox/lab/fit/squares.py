@@ -23,7 +23,7 @@ from sandbox.lab.fit.report import report_of
 from sandbox.lab.fit.rivals import Weighted, rivals
 from sandbox.lab.fit.search import ALIKE, ENOUGH, neumann, robust_sds, search
 from sandbox.lab.report import Report
-from sandbox.lab.runs import runs
+from sandbox.lab.runs import Progress, no_progress, runs
 from sandbox.scene import Scene
 from sandbox.text import with_noun
 
@@ -149,7 +149,14 @@ class Fit(display.Reported):
         return likelihood + 2.0 * free * count / max(count - free - 1, 1)
 
 
-def solve(scene: Scene, measured: Measured, spans: Sequence[Span], robust: bool = False, near: bool = True) -> Fit:
+def solve(
+    scene: Scene,
+    measured: Measured,
+    spans: Sequence[Span],
+    robust: bool = False,
+    near: bool = True,
+    progress: Progress = no_progress,
+) -> Fit:
     """The best fit. Raises RequestError for too few rows and, if it must be ``near``, for data that no run comes near;
     RunError if no run could be completed."""
     measured.check(scene)
@@ -157,7 +164,7 @@ def solve(scene: Scene, measured: Measured, spans: Sequence[Span], robust: bool 
     if measured.count <= len(problem):
         rows, values = with_noun(measured.count, measured.what), with_noun(len(problem), "parameter")
         raise RequestError(f"{rows} for {values}: a fit needs more {measured.what}s than parameters")
-    ended = search(problem, robust)
+    ended = search(problem, robust, progress)
     if not ended:
         raise RunError(f"no run of {scene.title} in these ranges could be completed")
     place, known = ended[0], ended[1:]
