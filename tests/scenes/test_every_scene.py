@@ -29,6 +29,9 @@ NEEDS: dict[str, dict[str, Any]] = {
     "soccer": {"air.gusts": 2.0},
 }
 
+#: Parameters that change only what a scene looks like.
+LOOKS = {"tennis": "court.surface"}
+
 
 def other_values(parameter: Parameter) -> Iterator[Any]:
     """Other values that a file may give: near by, then far."""
@@ -80,6 +83,8 @@ def without_effect(name: str) -> set[str]:
         for each in walk(own.parameters, entries=True)
         if not each.key.startswith("accuracy.") and any(True for _ in other_values(each))
     }
+    if name in LOOKS:
+        del lost[LOOKS[name]]
     for scatter in own.controls.spread:
         lost.pop(scatter.sd, None)  # of a player
     for scene in starts(name):
