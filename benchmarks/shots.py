@@ -33,8 +33,9 @@ def rim_shot() -> Shot:
 
 
 def golf_flight() -> Shot:
-    """The default drive, up to landing."""
-    return Shot(replace(sandbox.load("golf").build(), until=lambda event: True), golf_law)
+    """The default drive with the drag and lift of tour averages, up to landing."""
+    scene = sandbox.load("golf", {"ball.drag.model": "tour-fit", "ball.lift.model": "tour-fit"})
+    return Shot(replace(scene.build(), until=lambda event: True), golf_law)
 
 
 def basketball_law(vx: float, vy: float, spin: float) -> tuple[float, float, float]:

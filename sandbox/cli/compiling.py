@@ -9,7 +9,9 @@ from sandbox.cli.arguments import say
 
 @click.command("compile")
 def _compile_kernel() -> None:
-    """Compile the flight of many shots, once: sweeps and searches then take a fraction of the time.
+    """Compile the flight of many shots, once.
+
+    Sweeps and searches then take a fraction of the time.
 
     It needs numba, only for this (pip install "sports-sandbox[fast]"), and a C compiler. The library is put into your
     cache folder; before that, 1,000 of its paths are compared with those of the interpreted program, bit by bit. It is

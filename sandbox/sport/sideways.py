@@ -19,9 +19,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from math import hypot
-from typing import Any, NamedTuple
-
-import numpy as np
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from sandbox.engine.model.ball import Ball
 from sandbox.engine.paths.run import Run
@@ -33,6 +31,9 @@ from sandbox.sport.air import Air, wind_in
 from sandbox.sport.facts import Fact, FinalWhen
 from sandbox.sport.flight import DEGREE, Flight, Launch
 from sandbox.sport.readings import Moment
+
+if TYPE_CHECKING:
+    import numpy as np
 
 
 class Crosswind(Group):
@@ -123,6 +124,8 @@ def ground_track(run: Run, parameters: Flight, end: Moment | None, forward: bool
         into_plane = (1j * rates.lift * shares[0] - rates.drag) * q - pull * lifted * square_to
         return pull * along - rates.drag * (w - rates.wind), into_plane, w, q
 
+    import numpy as np
+
     at: Sideways = (0.0, 0j, 0.0, 0j)
     track = [GroundPlace(run.state("ball", 0.0).x, 0.0)]
     arcs = [(arc, min(arc.t1, end.t) - arc.t0) for arc in run.arcs["ball"] if arc.t0 < end.t]
@@ -161,6 +164,8 @@ def _ahead(at: Sideways, h: float, rate: Sideways) -> Sideways:
 def _rates(run: Run, parameters: Flight, t: Any, states: np.ndarray) -> list[_Rates]:
     """The coefficients at times in s with these states, shape (5, times): all at once, since a force takes as long for
     one of them."""
+    import numpy as np
+
     ball, air = run.setup.balls[0], parameters.launch.in_plane(parameters.air.air)
     mean = {"wind": (getattr(air, "crosswind", None) or 0.0, 0.0), "gusts": 0.0}
     across = wind_in(air.model_copy(update={key: value for key, value in mean.items() if hasattr(air, key)}))

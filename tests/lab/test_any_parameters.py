@@ -57,7 +57,7 @@ def ran(scene: str, changes: Overrides) -> bool:
     if run is None:
         return False
     assert all(map(isfinite, numbers(run.result))), changes
-    assert run.result.get("ended", run.ended) in ("rest", "until", "duration", "cup", "water"), changes
+    assert run.result.get("ended", run.ended) in ("rest", "down", "until", "duration", "cup", "water"), changes
     for ball, arcs in run.arcs.items():
         assert all(isfinite(x) for arc in arcs for x in arc.state(arc.t1)), (ball, changes)
     return True

@@ -342,7 +342,7 @@ def test_a_table_that_is_not_known_says_so(tmp_path):
     (tmp_path / "x.csv").write_text("speed,far\n1,2\n")
     assert recognized(read_table("track", tmp_path / "x.csv"), sandbox.load("golf")) is None
     with pytest.raises(
-        RequestError, match=re.escape('speed seem known; complete and give --map "launch.speed=speed [m/s]"')
+        RequestError, match=re.escape('speed seem known; complete and give --map "launch.speed=speed [UNIT]"')
     ):
         sandbox.fit("golf", tmp_path / "x.csv", {"air.density": (1, 2)})
 
