@@ -33,8 +33,8 @@ def report_of(plan: Plan, rows: Path, of: str) -> Report:
 @pytest.mark.parametrize(
     ("over", "place"),
     [
-        (("launch.angle=5:20:4", "ball.drag.model=none,tour-fit,constant"), [10.4, 1.0]),
-        (("ball.drag.model=tour-fit,none",), [0.0]),
+        (("launch.angle=5:20:4", "ball.drag.model=none,monitor-fit,constant"), [10.4, 1.0]),
+        (("ball.drag.model=monitor-fit,none",), [0.0]),
         (("launch.angle=5:20:4", "ball.drag.model=none,constant"), None),
         (("launch.angle=15:20:4",), None),
     ],
