@@ -69,9 +69,9 @@ class Stage:
         vars(self.picture)["camera"] = chosen or self._camera_of(before) or self.whole
         self.camera = self.picture.camera
         self.aimed = self._camera_of(before, anyway=True) or self.camera  # from which the shot was aimed
-        self._compose(self.picture.stage())
+        self.compose(self.picture.stage())
 
-    def _compose(self, backdrop: pygame.Surface) -> None:
+    def compose(self, backdrop: pygame.Surface) -> None:
         """Draw what stands still, as the camera sees it."""
         self.backdrop = backdrop
         sheet = Sheet(self.size, self.picture.on_dark, backdrop)
@@ -98,7 +98,7 @@ class Stage:
     def _seen_by(self, camera: Camera) -> Stage:
         stage = copy(self)
         stage.camera = camera
-        stage._compose(self.picture.backdrop_of(camera))
+        stage.compose(self.picture.backdrop_of(camera))
         return stage
 
     def _camera_of(self, before: Stage | None, anyway: bool = False) -> Camera | None:
