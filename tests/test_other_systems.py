@@ -43,6 +43,8 @@ WAYS: dict[str, Sequence[str]] = {
     "coefficients": ["golf"],
     "stress": [str(DROP)],
     "validate": ["throws"],
+    "session": [str(Path(__file__).parents[1] / "docs" / "tracks" / "bag.csv")],
+    "compile": ["--help"],
     "tasks": [],
     "fit": ["throws", "{}/a.csv", "--vary", "launch.speed"],
     "new": ["{}/mine"],

@@ -23,7 +23,7 @@ AWAY = ((0, 0), (3000, 0), (-6000, 0), (0, 3000), (0, -6000))
 
 def viewpoint_of(shot: Shot) -> Viewpoint:
     """The camera of a shot that is aimed."""
-    game = SimpleNamespace(shot=shot, watching=SimpleNamespace(playback=None))
+    game = SimpleNamespace(shot=shot, watching=SimpleNamespace(playback=None), memory=SimpleNamespace(in_lab=[]))
     screen = SimpleNamespace(area=pygame.Rect((0, 0), SIZE))
     stages = Stages(game, screen, None, 0.0)
     stages.latest = Stage(shot, SIZE)

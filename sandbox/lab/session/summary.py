@@ -90,7 +90,14 @@ class Difference:
 
 @dataclass(frozen=True)
 class Session(Reported):
-    """One session, or two that are compared."""
+    """One session, or two that are compared.
+
+    >>> import pathlib, sandbox, tempfile
+    >>> file = pathlib.Path(tempfile.mkdtemp(), "shots.csv")
+    >>> _ = file.write_text("Club,Carry [yd]\\nDriver,251\\nDriver,246\\n7-iron,165\\n7-iron,162\\n")
+    >>> type(sandbox.session(file, scene="golf", columns={"carry": "Carry [yd]"})).__name__
+    'Session'
+    """
 
     first: Part
     second: Part | None
@@ -144,6 +151,12 @@ def session(
     ``columns`` says what they are, ``{"carry": "Distance [yd]"}``, where the file is of no known device, and ``of``
     names more columns of numbers. ``changes`` are for the same launches today, and ``was`` describes the air of the
     session itself. A ``second`` file is compared. Raises RequestError.
+
+    >>> import pathlib, sandbox, tempfile
+    >>> file = pathlib.Path(tempfile.mkdtemp(), "shots.csv")
+    >>> _ = file.write_text("Club,Carry [yd]\\nDriver,251\\nDriver,246\\n7-iron,165\\n7-iron,162\\n")
+    >>> [*sandbox.session(file, scene="golf", columns={"carry": "Carry [yd]"}).first.groups]
+    ['Driver', '7-iron']
     """
     paths = Path(path), None if second is None else Path(second)
     return summarized(*paths, scene, by, of, choices_of(columns, where, without, strict), changes, was, mishit)
