@@ -6,11 +6,15 @@ import csv
 from pathlib import Path
 
 from sandbox.errors import RequestError
+from sandbox.files import is_given
 from sandbox.lab.axes import Values, points_in
 from sandbox.lab.mapped import EVERYTHING, Choices, Mapped, read_shots
 from sandbox.lab.table_file import read_table
 from sandbox.parameters import walk
 from sandbox.scene import Scene
+
+#: As much of a first line is looked at, in characters.
+_LONGEST = 100_000
 
 
 def points_from(
@@ -27,10 +31,12 @@ def points_from(
 
 
 def _names_parameters(scene: Scene, path: Path) -> bool:
-    """True if the first line has the key of a parameter, or cannot be read."""
+    """True if the first line has the key of a parameter, or cannot be read. Raises RequestError for a pipe or a device,
+    from which it might be read for ever."""
     try:
+        is_given(path)
         with path.open(encoding="utf-8-sig", errors="replace", newline="") as file:
-            first = next(csv.reader(file), [])
+            first = next(csv.reader([file.readline(_LONGEST)]), [])
     except (OSError, csv.Error):
         return True
     keys = {one.key for one in walk(scene.parameters, entries=True)}
