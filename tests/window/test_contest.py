@@ -537,6 +537,14 @@ class TestAgainstTheComputer:
         assert match.value({**outcome, "scratch": True}) == -1.0
         assert match.value({**outcome, "potted": ["8"]}) == -2.0  # too early: lost
 
+    def test_nearer_the_pin_is_worth_more_to_it(self):
+        match = game_of(installed_folder("golf"), "nearest-the-pin")()
+        dry = {"ended": "rest", "holed": False}
+        ends = [{"ended": "water", "holed": False, "distance_to_pin": 1.0}, {**dry, "distance_to_pin": 9.0},
+                {**dry, "distance_to_pin": 2.0}, {"ended": "cup", "holed": True, "distance_to_pin": 0.0}]  # fmt: skip
+        values = [match.value(end) for end in ends]
+        assert values == sorted(set(values))
+
 
 class TestPredictFirst:
     def test_errors_of_marks_are_collected(self, player):

@@ -28,7 +28,7 @@ class NearestThePin(Match):
     best: tuple[float | None, float | None] = (None, None)  # m from the pin, of each
     shots: int = 0  # of both
 
-    def worth(self, outcome: Outcome) -> float:
+    def value(self, outcome: Outcome) -> float:
         return -1e3 if outcome["ended"] == "water" else 0.0 if outcome["holed"] else -outcome["distance_to_pin"]
 
     def after(self, outcome: Outcome) -> NearestThePin:
