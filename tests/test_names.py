@@ -1,4 +1,4 @@
-"""Names and docstrings of ``sandbox``: the field's words and Python's, and no public name that nobody uses."""
+"""Names and docstrings: the field's words and Python's, and no public name of ``sandbox`` that nobody uses."""
 
 from __future__ import annotations
 
@@ -13,6 +13,8 @@ ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "sandbox"
 USERS = ("sandbox", "scenes", "template", "template_above", "tests", "docs", "benchmarks")
 
+#: Folders whose functions and docstrings are read.
+NAMED = ("sandbox", "scenes")
 #: Participles and everyday words that say nothing of what a function returns or does.
 VAGUE = {"told", "said", "shown", "wanted", "counted", "placed", "worth", "asked", "seen", "taken", "room", "heard"}
 #: Beginnings of docstrings that put a question in place of what is returned or done.
@@ -22,8 +24,8 @@ DEFINED = re.compile(r"^(?:def|class) ([A-Za-z]\w*)|^([A-Za-z]\w*(?:, [A-Za-z]\w
 
 
 @cache
-def modules() -> dict[Path, str]:
-    return {path: path.read_text("utf-8") for path in sorted(PACKAGE.rglob("*.py"))}
+def modules(*folders: str) -> dict[Path, str]:
+    return {path: path.read_text("utf-8") for folder in folders for path in sorted((ROOT / folder).rglob("*.py"))}
 
 
 def defined(source: str) -> Iterator[ast.Module | ast.ClassDef | ast.FunctionDef]:
@@ -50,12 +52,12 @@ def public_names(source: str) -> list[str]:
 
 
 def test_functions_are_called_what_they_return_or_do():
-    assert {str(path): found for path, source in modules().items() if (found := vague_names(source))} == {}
+    assert {str(path): found for path, source in modules(*NAMED).items() if (found := vague_names(source))} == {}
     assert vague_names("class Text:\n    def said(self): ...\n\ndef _told(): ...") == ["_told", "said"]
 
 
 def test_docstrings_say_what_is_returned_or_done():
-    assert {str(path): found for path, source in modules().items() if (found := questions(source))} == {}
+    assert {str(path): found for path, source in modules(*NAMED).items() if (found := questions(source))} == {}
     assert questions('"""What it has."""\n\ndef length():\n    """How long it is."""') == [
         "What it has.",
         "How long it is.",
@@ -73,7 +75,7 @@ def test_public_names_are_used_by_another_module():
     schemas = "".join(path.read_text("utf-8") for path in (ROOT / "scenes").glob("*/*.schema.json"))
     alone = {
         f"{path.relative_to(PACKAGE)}: {name}"
-        for path, source in modules().items()
+        for path, source in modules("sandbox").items()
         for name in public_names(source)
         if count[name] < 2 and name not in documented and f'"{name}": {{' not in schemas
     }

@@ -153,15 +153,15 @@ class Parameters(Flight):
         return self.hoop.distance * sin(self.launch.side * DEGREE)
 
     @property
-    def room(self) -> Any:
+    def clearance(self) -> Any:
         """The greatest distance in m of the ball's centre from the middle of the ring, at its height, untouched."""
         return 0.5 * self.hoop.inner_diameter - self.ball.radius
 
     @property
     def free(self) -> Any:
         """The same along the plane in which the ball flies; 0 if it cannot pass without touching the ring's side."""
-        room, beside = self.room, self.beside
-        free = maximum(room * room - beside * beside, 0.0) ** 0.5
+        clearance, beside = self.clearance, self.beside
+        free = maximum(clearance * clearance - beside * beside, 0.0) ** 0.5
         return where(free > NARROWEST, free, 0.0)
 
     @property
@@ -175,8 +175,8 @@ class Parameters(Flight):
         """The inner diameter of that section, in m."""
         if not anywhere(self.beside != 0.0):
             return self.hoop.inner_diameter
-        narrows = (self.room > 0.0) & (self.free > 0.0) & (self.beside != 0.0)
-        return self.hoop.inner_diameter - where(narrows, 2.0 * (self.room - self.free), 0.0)
+        narrows = (self.clearance > 0.0) & (self.free > 0.0) & (self.beside != 0.0)
+        return self.hoop.inner_diameter - where(narrows, 2.0 * (self.clearance - self.free), 0.0)
 
     @property
     def board(self) -> tuple[float, float, float, float]:
@@ -305,7 +305,7 @@ def inside(state: State, parameters: Parameters) -> Any:
 def on_side(t: Any, run: Run, parameters: Parameters) -> Any:
     """True if the ball falls on the side of the ring instead, at time t in s."""
     beside = abs(aside_at(t, run, parameters))
-    return (beside > 0.0) & ((parameters.free == 0.0) | (beside >= parameters.room))
+    return (beside > 0.0) & ((parameters.free == 0.0) | (beside >= parameters.clearance))
 
 
 def aside_at(t: Any, run: Run, parameters: Parameters) -> Any:
@@ -396,7 +396,7 @@ def outcome(run: Run, parameters: Parameters) -> Any:
 
 
 def how_made(touched: Sequence[str]) -> str:
-    """How a shot went in that touched these on its way."""
+    """The word for a shot that went in and touched these on its way."""
     return "swish" if not touched else "bank" if touched[0] == "backboard" else "rim"
 
 
@@ -421,7 +421,7 @@ def verdict(run: SceneRun, parameters: Parameters) -> str:
     if result["made"]:
         how = {"swish": "nothing but net", "rim": "off the rim", "bank": "off the board"}
         return f"In, {how[result['verdict']]}"
-    if abs(result["entry_aside"] or 0.0) >= parameters.room > 0.0:
+    if abs(result["entry_aside"] or 0.0) >= parameters.clearance > 0.0:
         return "Off to the side"
     if from_below(run, parameters):
         return "Up through the ring: it does not count"

@@ -132,14 +132,14 @@ def _faults(table: Table, ball_radius: float) -> Iterator[str]:
         widest, hole = pocket.facing / tan(0.5 * pocket.turn), pocket.hole_radius
         deepest = pocket.facing * cos(inward) - (hole - sqrt(max(0.0, hole**2 - half**2)))
         if pocket.jaw_radius >= widest:
-            yield _said(pocket, "jaw_radius", "the rounding is longer than the facing", f"less than {widest:g}")
+            yield _fault(pocket, "jaw_radius", "the rounding is longer than the facing", f"less than {widest:g}")
         if hole <= half:
-            yield _said(pocket, "hole_radius", "balls pass beside the hole", f"more than {half:g}")
+            yield _fault(pocket, "hole_radius", "balls pass beside the hole", f"more than {half:g}")
         if pocket.shelf > deepest:
-            yield _said(pocket, "shelf", "the hole lies behind the cushions", f"at most {deepest:.4g}")
+            yield _fault(pocket, "shelf", "the hole lies behind the cushions", f"at most {deepest:.4g}")
 
 
-def _said(pocket: Pocket, key: str, wrong: str, bound: str) -> str:
+def _fault(pocket: Pocket, key: str, wrong: str, bound: str) -> str:
     return f"table.{pocket.name}_{key} = {getattr(pocket, key):g} m: {wrong}; it must be {bound} m"
 
 

@@ -103,7 +103,7 @@ class Picture(SideView[Parameters]):
 
     @property
     def floor(self) -> float:
-        """Of the cup, which is cut open, too."""
+        """The bottom of the cup, which is cut open, if that is lower."""
         return min(self.cup.bottom, super().floor)
 
     # The place

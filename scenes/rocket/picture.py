@@ -54,7 +54,7 @@ class Picture(SideView[Parameters]):
 
     @property
     def story(self) -> Story:
-        """Where it comes down."""
+        """The place where it comes down."""
         return self.meeting(share=0.3, spot=4.0)
 
     @cached_property

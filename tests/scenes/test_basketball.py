@@ -308,7 +308,7 @@ def test_a_ball_falls_through_where_it_has_room(beside: float, made: bool):
 
 def test_the_section_leaves_the_room_of_the_round_ring():
     parameters = sandbox.load("basketball", {"launch.side": 1.2}).parameters
-    room, beside = parameters.room, 4.191 * np.sin(np.radians(1.2))
+    room, beside = parameters.clearance, 4.191 * np.sin(np.radians(1.2))
     along = 0.5 * parameters.section.inner_diameter - parameters.ball.radius
     assert np.hypot(along, beside) == pytest.approx(room, abs=1e-12)
     assert sandbox.load("basketball").parameters.section == sandbox.load("basketball").parameters.hoop
