@@ -46,7 +46,7 @@ COEFFICIENTS: tuple[FunctionType, ...] = tuple(
         for laws in vars(coefficients).values()
         if isinstance(laws, Laws)
         for law in laws.values()
-        if isinstance(law, FunctionType)
+        if isinstance(law, FunctionType) and law.__module__ == coefficients.__name__  # not what a scene has added
     )
 )
 
@@ -85,9 +85,9 @@ def coefficient(row: Row, reynolds: float, spin_ratio: float) -> float:
     law = row[LAW]
     if law == CONSTANT:
         return row[VALUE]
-    if law == NATHAN:
-        return coefficients.nathan_drag(reynolds, spin_ratio, row[VALUE])
-    return row[_SHARE] * _of_code(law, reynolds, spin_ratio / row[_OF_SPIN])
+    ratio = spin_ratio / row[_OF_SPIN]
+    value = coefficients.nathan_drag(reynolds, ratio, row[VALUE]) if law == NATHAN else _of_code(law, reynolds, ratio)
+    return row[_SHARE] * value
 
 
 def _velocity_in_air(row: Row, y: float, vx: float, vy: float) -> tuple[float, float]:

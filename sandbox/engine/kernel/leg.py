@@ -162,7 +162,8 @@ def fly(
         restitution, friction, tilt, tangential = laws.bounce(
             surface[LAW], approach, abs(along), surface[_LAW_A], surface[_LAW_B], surface[_LAW_C], surface[_LAW_D]
         )
-        if not (0.0 <= restitution <= 1.0 and 0.0 <= friction < inf and tilt - tilt == 0.0):
+        within = 0.0 <= restitution <= 1.0 and 0.0 <= friction < inf and 0.0 <= tangential <= 1.0
+        if not within or tilt - tilt != 0.0:
             break  # an error
         tx, ty = nx, ny
         if tilt != 0.0:
