@@ -31,13 +31,12 @@ def points_from(
 
 
 def _names_parameters(scene: Scene, path: Path) -> bool:
-    """True if the first line has the key of a parameter, or cannot be read. Raises RequestError for a pipe or a device,
-    from which it might be read for ever."""
+    """True if the first line has the key of a parameter, or cannot be read, as that of a pipe or a device."""
     try:
         is_given(path)
         with path.open(encoding="utf-8-sig", errors="replace", newline="") as file:
             first = next(csv.reader([file.readline(_LONGEST)]), [])
-    except (OSError, csv.Error):
+    except (RequestError, OSError, csv.Error):
         return True
     keys = {one.key for one in walk(scene.parameters, entries=True)}
     return any({name.strip(), name.strip().partition("[")[0]} & keys for name in first)

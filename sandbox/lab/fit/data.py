@@ -22,6 +22,7 @@ from sandbox.lab.fit.parsing import (
     has_positions,
     has_some_position,
     measurements,
+    plain,
     unknown_columns,
 )
 from sandbox.lab.fit.track import Track
@@ -123,8 +124,9 @@ def _check_track(table: Table) -> None:
 
 def renamed(table: Table, sources: Sequence[Source]) -> Table:
     """The table of a track with the names, and units, of sources such as ``t=Zeit [ms]``."""
-    taken = {name for source in sources for name in (*NAMES[source.key], *map(str.lower, source.expression.columns))}
-    others = (one for one in table.columns if one.name.lower() not in taken)  # another "Y" is none any more
+    used = {name.lower() for source in sources for name in source.expression.columns}
+    meant = {name for source in sources for name in NAMES[source.key]}  # another "Position Y" is none any more
+    others = (one for one in table.columns if one.name.lower() not in used and plain(one.name) not in meant)
     return replace(table, columns=(*(_computed(table, source) for source in sources), *others), groups=())
 
 

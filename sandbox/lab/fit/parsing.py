@@ -131,20 +131,20 @@ def measurements(tables: Sequence[tuple[str, Table]], film: Film, strict: bool =
     return every
 
 
-def _plain(name: str) -> str:
+def plain(name: str) -> str:
     """A name as in ``NAMES``: Vernier writes "Latest: Time (s)"."""
     return re.sub(r"[\s_.-]", "", name.lower().rpartition(": ")[2])
 
 
 def _places(table: Table, what: str) -> list[int]:
     """The places of the columns for t, x, y, z, ball or frame."""
-    return [place for place, name in enumerate(table.names) if _plain(name) in NAMES[what]]
+    return [place for place, name in enumerate(table.names) if plain(name) in NAMES[what]]
 
 
 def unknown_columns(table: Table) -> tuple[str, ...]:
     """The names of columns with any content that a track does not use."""
     known = {name for what in ("t", "x", "y", "ball", "frame") for name in NAMES[what]}
-    return table.others({name.lower() for name in table.names if _plain(name) in known})
+    return table.others({name.lower() for name in table.names if plain(name) in known})
 
 
 def flattened(table: Table, above: bool, gravity: float) -> tuple[Table, str]:
