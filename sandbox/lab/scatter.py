@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+from typing import TYPE_CHECKING
+
 from sandbox.parameters import Parameter, walk
 from sandbox.scene import Scene
 from sandbox.sport.controls import Spread
+
+if TYPE_CHECKING:
+    import numpy as np
 
 #: Spread if the scene gives none: of the speed, as a share of it, and of the angle, in deg.
 SPEED, ANGLE = 0.01, 0.5
@@ -24,3 +30,15 @@ def players_spread(scene: Scene, width: float = 1.0) -> dict[str, tuple[Paramete
         if isinstance(p.value, float)
     ]
     return {p.key: (p, sigma) for p, sigma in sigmas if sigma > 0}
+
+
+def scattered(
+    scene: Scene, random: np.random.Generator, width: float = 1.0, keys: Collection[str] | None = None
+) -> dict[str, float]:
+    """The values of these parameters in one shot of a player whose scatter is ``width`` times the usual one; only of those
+    among ``keys`` if given."""
+    return {
+        key: known.within(float(random.normal(known.value, sd)))
+        for key, (known, sd) in players_spread(scene, width).items()
+        if keys is None or key in keys
+    }

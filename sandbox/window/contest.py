@@ -17,7 +17,7 @@ import numpy as np
 
 from sandbox import tasks
 from sandbox.errors import RequestError
-from sandbox.lab.scatter import players_spread
+from sandbox.lab.scatter import scattered
 from sandbox.parameters import value_at, walk
 from sandbox.scene import Scene, load
 from sandbox.scene.finding import is_installed
@@ -367,9 +367,7 @@ class AtMatch(Contest):
         return found
 
     def aimed(self, scene: Scene) -> Scene:
-        spread = players_spread(scene, self.width).items()
-        aimed = {key: known.within(float(self.random.normal(known.value, sd))) for key, (known, sd) in spread}
-        return scene.changed(aimed, "aim")
+        return scene.changed(scattered(scene, self.random, self.width), "aim")
 
     @property
     def width(self) -> float:

@@ -3,14 +3,14 @@ the scatter of its own aim, and shoots with that scatter."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from concurrent.futures import Future
 from typing import Any
 
 import numpy as np
 
 from sandbox.lab.runs import runs
-from sandbox.lab.scatter import players_spread
+from sandbox.lab.scatter import scattered
 from sandbox.scene import Scene
 from sandbox.scene.scene_run import SceneRun
 from sandbox.tasks.match import Match
@@ -74,20 +74,8 @@ class Opponent:
     def _scattered(self, row: Sequence[float], count: int) -> list[float]:
         values = dict(zip(self.keys, row, strict=True))
         if count:
-            values |= scattered(self.scene.changed(values), self.width, self.random, self.keys)
+            values |= scattered(self.scene.changed(values), self.random, self.width, self.keys)
         return [values[key] for key in self.keys]
 
     def _take(self, row: Sequence[float]) -> None:
         self.values = {**self.scene.controls.set_on_pull, **dict(zip(self.keys, row, strict=True))}
-
-
-def scattered(
-    scene: Scene, width: float, random: np.random.Generator, keys: Sequence[str] | None = None
-) -> Mapping[str, float]:
-    """The parameters of a shot with the scatter of a player ``width`` times as wide as a practised one's."""
-    spread = players_spread(scene, width).items()
-    return {
-        key: known.within(float(random.normal(known.value, sd)))
-        for key, (known, sd) in spread
-        if keys is None or key in keys
-    }
