@@ -45,7 +45,7 @@ dash is where no moment decides, and the camera stays where it is.
 
 @dataclass(frozen=True)
 class Framing:
-    """How large one run is shown, in px; no size of what decides where nothing does."""
+    """Sizes in the picture of one run, in px; None for what decides if nothing does."""
 
     ball: float
     to_scale: float

@@ -148,8 +148,8 @@ def tiles(names: Sequence[str] = ()) -> None:
 
 
 def _hero(view: View[Any], larger: float = 1.0, moment: float = 0.0, wide: float = 0.0) -> pygame.Surface:
-    """What decides a run, and the ball on its way there, so large that both are known at a glance; or the ball at a
-    ``moment`` in s, with so many m around it."""
+    """The thing that decides a run, and the ball on its way there, so large that both are known at a glance; or the
+    ball at a ``moment`` in s, in a picture ``wide`` m across."""
     story, (width, height), ball = view.story, view.size, view.ball
     if story is None and not wide:
         return _whole(Shot(view.run.scene, view.run))

@@ -35,8 +35,8 @@ def players_spread(scene: Scene, width: float = 1.0) -> dict[str, tuple[Paramete
 def scattered(
     scene: Scene, random: np.random.Generator, width: float = 1.0, keys: Collection[str] | None = None
 ) -> dict[str, float]:
-    """The values of these parameters in one shot of a player whose scatter is ``width`` times the usual one; only of those
-    among ``keys`` if given."""
+    """The values of these parameters in one shot of a player with ``width`` times the usual scatter; only those among
+    ``keys`` if given."""
     return {
         key: known.within(float(random.normal(known.value, sd)))
         for key, (known, sd) in players_spread(scene, width).items()

@@ -174,7 +174,7 @@ class Camerawork:
         gone = (wide - here[2]) / change if abs(change) > 1e-6 * here[2] else eased
         return np.column_stack([here[:2] + gone[:, None] * (there[:2] - here[:2]), wide])
 
-    # What is asked of it
+    # Queries
 
     def camera(self, t: float) -> Camera:
         """The camera at a time of the run, in s; for times after its end the viewer's clock goes on."""

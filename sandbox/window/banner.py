@@ -47,8 +47,8 @@ class Banner:
         self._at = known_at(shot) if known is None else known
 
     def _show(self, shot: Shot) -> None:
-        """Show the verdict of a shot: of all that score, and in a contest of the one that counts. Who just plays, a
-        drive for example, has missed nothing."""
+        """Show the verdict of a shot: in a contest of the one that counts, else of any in a scene where shots can
+        score. Outside a contest one that does not score, such as a drive, is no miss."""
         contest = self.referee.contest
         if contest is None and shot.scene.controls.scores:
             self.call, self.left = (shot.verdict, shot.scored or None), LASTS

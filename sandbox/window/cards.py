@@ -83,7 +83,7 @@ class Cards:
                 text, said, colour = headline_of(referee, contest)
                 notes = notes if self.game.grasp.holds else said
             else:
-                stand = [] if contest.in_hand else [contest.stand]  # what is in hand, is so no longer
+                stand = [] if contest.in_hand else [contest.stand]  # the ball was in hand only until the shot
                 text, notes = contest.headline, [*stand, *notes]
             pulled = playback is None and self.game.session.may_change(_aim_keys(shot))
             entries = [

@@ -15,7 +15,7 @@ from sandbox.errors import RequestError
 from sandbox.picture.palette import mix, palette
 from sandbox.scene import load as load_scene
 from sandbox.scene.finding import docstring, installed_folders, listings_in
-from sandbox.tasks import Task, find_task, load
+from sandbox.tasks import Task, load
 from sandbox.tasks.daily import task_of_day
 from sandbox.tasks.file import LEVELS, read_task_file
 from sandbox.tasks.games import game_names, game_of
@@ -299,10 +299,10 @@ class Front(Overlay):
         return (f"{best[0].score:,.0f}" if best else ""), None
 
     def _mosaic(self, entry: Entry, place: pygame.Rect) -> None:
-        """The picture of the task of the day: that of its sport; and that of a decathlon: pictures of its sports."""
+        """Draw the picture of its sport for the task of the day, and for a decathlon those of nine of its sports."""
         if entry.kind == "day":
-            folder = find_task(task_of_day(self.day)).parent.parent
-            self._picture(next(sport for sport in self.all if sport.folder == folder), place)
+            task = task_of_day(self.day)
+            self._picture(next(sport for sport in self.all if task in sport.tasks), place)
             return
         gap = max(1, self.sheet.gap // 4)
         wide, tall = (place.width - 2 * gap) // 3, (place.height - 2 * gap) // 3

@@ -182,11 +182,13 @@ class Game:
         if contest is self._recorded:
             return
         self._recorded, self.record = contest, None
-        best = self.best.of(contest.name)[:1] if isinstance(contest, AtTask) else []
-        if not best or not best[0].flight or not isinstance(contest, AtTask):
+        if not isinstance(contest, AtTask):
+            return
+        best = next(iter(self.best.of(contest.name)), None)
+        if best is None or not best.flight:
             return
         with suppress(RequestError):  # the task has changed since
-            scene = contest.task.scene.changed(best[0].flight)
+            scene = contest.task.scene.changed(best.flight)
             work = self.workers.helper.submit(computed, scene)
             self.jobs.ask(work, lambda found: self._take_record(contest, scene, found[0]))
 

@@ -175,14 +175,15 @@ class Playback:
         if self.playing:
             self.seek(self.t + min(dt, LONGEST_FRAME) * self.pace)
             self.playing = not self.over
-        elif self.moves_on and self.story is not None:
+        elif self.story is not None and self.moves_on:
             self.rested = min(self.rested + dt, self.story.goes_on)
 
     @property
     def pace(self) -> float:
         """The rate at which time passes now: that of the story, unless another is chosen."""
-        follows = self.story is not None and self.chosen is None and self.rate == self.usual
-        return 1.0 / self.story.slower(self.t) if follows and self.story is not None else self.rate
+        if self.story is None or self.chosen is not None or self.rate != self.usual:
+            return self.rate
+        return 1.0 / self.story.slower(self.t)
 
     @property
     def camera_time(self) -> float:

@@ -1,4 +1,4 @@
-"""What decides a run, and the ball, are large at that moment: in all scenes, and in tasks of each kind."""
+"""The ball, and the thing that decides a run, are large at that moment: in all scenes, presets and tasks."""
 
 import re
 
