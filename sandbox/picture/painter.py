@@ -26,11 +26,9 @@ OVERSAMPLING = 4
 _ARROW = 0.62
 #: Discs are kept for centres this far apart (px) and radii half as far: finer than the eye, coarse enough to be reused.
 _PHASE = 1 / 8
-#: So many shapes are kept, none of more than so many px.
+#: So many shapes are kept, none of more than so many px. Larger discs and shadows are computed anew, where they are
+#: seen: under a camera that zooms each frame has its own, and they may be far larger than the picture.
 _MOST_KEPT, _LARGEST_KEPT = 512, 40_000
-#: Discs, shadows and panels longer than this, in px, are computed only where they are seen: a camera that zooms in may
-#: make them far larger than the picture.
-_LARGEST_WHOLE = 2000
 
 
 def blank(size: tuple[int, int], transparent: bool = False) -> pygame.Surface:
@@ -124,11 +122,13 @@ def _cornered(across: np.ndarray, down: np.ndarray, size: tuple[int, int], corne
 
 
 def around_corners(surface: pygame.Surface, rect: pygame.Rect, corner: float) -> pygame.Surface:
-    """The part of a surface's rectangle outside its round corners: to be put back when the rectangle is filled."""
-    kept = blank(rect.size, transparent=True)
-    kept.blit(surface, (0, 0), rect)
+    """The part in sight of a surface's rectangle outside its round corners: to be put back once that is filled."""
+    seen = rect.clip(surface.get_rect())
+    inside, kept = blank(seen.size, transparent=True), blank(seen.size, transparent=True)
+    Painter(inside).panel(rect.move(-seen.left, -seen.top), (0, 0, 0), 1.0, corner)
+    kept.blit(surface, (0, 0), seen)
     alpha = pygame.surfarray.pixels_alpha(kept)
-    alpha[...] = 255 - pygame.surfarray.array_alpha(_panel(rect.size, (0, 0, 0), corner))
+    alpha[...] = 255 - pygame.surfarray.array_alpha(inside)
     del alpha  # unlocks the surface
     return kept
 
@@ -141,15 +141,15 @@ class Painter:
 
     def disc(self, centre: Point, radius: float, colour: Colour, opacity: float = 1.0, width: float = 0.0) -> None:
         """A disc, or with ``width`` > 0 the ring of that width along its edge."""
-        if 2 * radius > _LARGEST_WHOLE:
-            self._large(
-                centre, (radius + width + 1,) * 2, lambda x, y: _round(np.hypot(x, y), radius, width), colour, opacity
-            )
-            return
         x, y = (round(value / _PHASE) * _PHASE for value in centre)
+        radius = round(radius * 2 / _PHASE) * _PHASE / 2
+        if (2 * radius + width) ** 2 > _LARGEST_KEPT:
+            reach = radius + width / 2 + 1
+            self._large((x, y), (reach, reach), lambda x, y: _round(np.hypot(x, y), radius, width), colour, opacity)
+            return
         column, row = floor(x), floor(y)  # pixel i covers i to i + 1, so its centre is at i + 1/2
         phase = x - column - 0.5, y - row - 0.5
-        sprite = _disc(round(radius * 2 / _PHASE) * _PHASE / 2, width, phase, colour)
+        sprite = _disc(radius, width, phase, colour)
         self._blit(sprite, (column - sprite.get_width() // 2, row - sprite.get_height() // 2), opacity)
 
     def ring(self, centre: Point, radius: float, width: float, colour: Colour, opacity: float = 1.0) -> None:
@@ -157,13 +157,14 @@ class Painter:
 
     def shadow(self, centre: Point, half_width: float, half_height: float, colour: Colour, opacity: float) -> None:
         """A soft ellipse, fading over its outer half."""
-        if 2 * max(half_width, half_height) > _LARGEST_WHOLE:
-            reach = 1.5 * half_width, 1.5 * half_height
-            self._large(centre, reach, lambda x, y: _soft(x / half_width, y / half_height), colour, opacity)
+        half_width, half_height = (max(0.5, round(half * 2) / 2) for half in (half_width, half_height))
+        width, height = 2 * ceil(half_width * 1.5) + 1, 2 * ceil(half_height * 1.5) + 3
+        left, top = round(centre[0] - width / 2), round(centre[1] - height / 2)
+        if width * height > _LARGEST_KEPT:
+            middle, reach = (left + width / 2, top + height / 2), (width / 2, height / 2)
+            self._large(middle, reach, lambda x, y: _soft(x / half_width, y / half_height), colour, opacity)
             return
-        sprite = _shadow(max(0.5, round(half_width * 2) / 2), max(0.5, round(half_height * 2) / 2), colour)
-        left, top = centre[0] - sprite.get_width() / 2, centre[1] - sprite.get_height() / 2
-        self._blit(sprite, (round(left), round(top)), opacity)
+        self._blit(_shadow(half_width, half_height, colour), (left, top), opacity)
 
     def polygon(self, points: _Points, colour: Colour, opacity: float = 1.0) -> None:
         self._shape(points, 0, colour, opacity, pygame.draw.polygon)
@@ -245,7 +246,7 @@ class Painter:
 
     def panel(self, rect: pygame.Rect, colour: Colour, opacity: float, corner: float) -> None:
         """A rectangle with round corners."""
-        if max(rect.size) > _LARGEST_WHOLE:
+        if not self.surface.get_rect().contains(rect):
             centre, reach = (rect.left + rect.width / 2, rect.top + rect.height / 2), (rect.width / 2, rect.height / 2)
             self._large(centre, reach, lambda x, y: _cornered(x, y, rect.size, corner), colour, opacity)
             return

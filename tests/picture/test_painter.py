@@ -4,7 +4,7 @@ import numpy as np
 import pygame
 import pytest
 
-from sandbox.picture.painter import Painter, blank, from_colours
+from sandbox.picture.painter import Painter, _disc, _shadow, blank, from_colours
 from sandbox.picture.palette import mix, palette
 
 WHITE = (255, 255, 255)
@@ -85,6 +85,16 @@ def test_nothing_happens_off_the_surface(far):
 def test_a_shape_may_reach_far_beyond_the_surface():
     light = drawn(lambda p: p.line([(-1e5, 30), (1e5, 30)], 4, WHITE))
     assert light.sum() == pytest.approx(80 * 4, rel=0.07)
+
+
+@pytest.mark.parametrize(("kept", "draw"), [(_disc, Painter.disc), (_shadow, Painter.shadow)], ids=["disc", "shadow"])
+def test_large_shapes_of_a_camera_that_zooms_are_not_kept(kept, draw):
+    """Each is of another size: they used to fill the memory, by a gigabyte in a film."""
+    before = kept.cache_info().currsize
+    for half in range(150, 160):
+        more = (half, WHITE, 0.5) if draw is Painter.shadow else (WHITE,)
+        assert drawn(lambda p, half=half, more=more: draw(p, (40.0, 30.0), half, *more)).max() > 0.4
+    assert kept.cache_info().currsize == before
 
 
 def test_colours():

@@ -192,24 +192,29 @@ class Lamp:
 
     def draw(self, painter: Painter, camera: Camera) -> None:
         surface, table = painter.surface, on_pixels(camera, around(self.outer))
+        lit = table.clip(surface.get_rect())
+        if not lit:
+            return
         floor = around_corners(surface, table, _CORNER * camera.scale)
-        across, up = _coarse(camera, table)
+        across, up = _coarse(camera, lit)
         far = np.hypot(across / (self.bed[0] * 1.12), up / (self.bed[1] * 1.35)) / hypot(1 / 1.12, 1 / 1.35)
         light = (_AT_CORNER + (1 - _AT_CORNER) * np.exp(-1.3 * far**2.4))[:, :, None]
         colours = from_colours(255 * light * (np.array(_WARM) + (1 - np.array(_WARM)) * (1 - light)))
-        surface.blit(pygame.transform.smoothscale(colours, table.size), table, special_flags=pygame.BLEND_RGB_MULT)
-        bed = on_pixels(camera, around(self.bed))
+        surface.blit(pygame.transform.smoothscale(colours, lit.size), lit, special_flags=pygame.BLEND_RGB_MULT)
+        whole = on_pixels(camera, around(self.bed))
+        bed = whole.clip(surface.get_rect())
         shade, reach = blank(bed.size), _SHADE_REACH * camera.scale
         shade.fill((255, 255, 255))
-        for i in range(min(round(5 * reach), min(bed.size) // 2)):
+        for i in range(min(round(5 * reach), min(whole.size) // 2)):
             level = round(255 * (1 - _SHADE * exp(-(i + 0.5) / reach)))
-            pygame.draw.rect(shade, (level, level, level), shade.get_rect().inflate(-2 * i, -2 * i), 1)
+            edge = whole.move(-bed.left, -bed.top).inflate(-2 * i, -2 * i)
+            pygame.draw.rect(shade, (level, level, level), edge, 1)
         surface.blit(shade, bed, special_flags=pygame.BLEND_RGB_MULT)
-        surface.blit(floor, table)
+        surface.blit(floor, lit)
 
 
 def _coarse(camera: Camera, rect: pygame.Rect) -> tuple[np.ndarray, np.ndarray]:
     """World coordinates in m of places in a part of the picture, ``_COARSE`` px apart: light changes slowly."""
     (left, top), (right, bottom) = camera.world(*rect.topleft), camera.world(*rect.bottomright)
-    across, up = ((np.arange(n) + 0.5) / n for n in (rect.width // _COARSE, rect.height // _COARSE))
+    across, up = ((np.arange(n) + 0.5) / n for n in (max(1, px // _COARSE) for px in rect.size))
     return left + (right - left) * across[:, None], top + (bottom - top) * up[None, :]
