@@ -54,8 +54,11 @@ class AboveView(View[P]):
 
     @cached_property
     def camera(self) -> Camera:
+        return self.fitted(self.area)
+
+    def fitted(self, area: Area) -> Camera:
         """Shows all that must be seen in the middle of its area."""
-        low, high, area = self.must_show.min(axis=0), self.must_show.max(axis=0), self.area
+        low, high = self.must_show.min(axis=0), self.must_show.max(axis=0)
         wide, tall = np.maximum(high - low, _LEAST * self.radius)
         scale = min((area.right - area.left) / wide, (area.bottom - area.top) / tall)
         x, y = (low + high) / 2

@@ -14,7 +14,7 @@ import numpy as np
 import pygame
 
 from sandbox.picture.above import AboveView
-from sandbox.picture.camera import Box, Camera
+from sandbox.picture.camera import Area, Box, Camera
 from sandbox.picture.marks import mark_impacts
 from sandbox.picture.painter import Painter, blank
 from sandbox.picture.palette import Colour, palette
@@ -64,8 +64,7 @@ class LongView(AboveView[P]):
     def moment(self) -> float:
         return self.story_end
 
-    @cached_property
-    def camera(self) -> Camera:
+    def fitted(self, area: Area) -> Camera:
         """The strip's camera."""
         return self._whole
 

@@ -113,18 +113,27 @@ class View(BallDrawing[P]):
 
     # The camera of frames
 
+    @property
+    def frame_area(self) -> Area:
+        """The part of a frame for what must be seen, in px."""
+        area = self.area
+        return area._replace(top=min(area.top, area.bottom - _LEAST_AREA * self.size[1]))
+
+    def fitted(self, area: Area) -> Camera:
+        """The camera that shows in an area of the picture, in px, all that must be seen."""
+        raise NotImplementedError
+
     @cached_property
     def camerawork(self) -> Camerawork | None:
         """The camera that goes with the story of the run; None if it stays where it is."""
-        return self.camerawork_from(self.camera)
+        return self.camerawork_from(self.camera if self.frame_area == self.area else self.fitted(self.frame_area))
 
     def camerawork_from(self, first: Camera, last: Camera | None = None) -> Camerawork | None:
         """The same, where another camera shows the start, or another the end."""
         if self.story is None or self.still:
             return None
-        slower, height, area = self.slow_motion, self.size[1], self.area
-        area = area._replace(top=min(area.top, area.bottom - _LEAST_AREA * height))
-        return Camerawork(self.run, self.story, self.ball, area, height, first, slower, self.floor, last)
+        slower, height = self.slow_motion, self.size[1]
+        return Camerawork(self.run, self.story, self.ball, self.frame_area, height, first, slower, self.floor, last)
 
     def view(self, t: float) -> Camera:
         """The camera of the frame at time t in s."""

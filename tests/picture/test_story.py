@@ -82,6 +82,14 @@ def test_any_time_in_any_order(penalty):
     assert (penalty.view(0.2), penalty.view(0.8)) == (before, later)
 
 
+@pytest.mark.parametrize("name", ["basketball", "hockey", "soccer-curl"])
+def test_a_small_picture_begins_near_enough(name):
+    """Where the path has no room under the headline it is seen behind that, and not from far away."""
+    run = sandbox.simulate(name)
+    wide, small = (run.scene.picture(run, size).view(0.0) for size in ((1280, 720), (240, 135)))
+    assert 240 / small.scale < 2.0 * 1280 / wide.scale  # m
+
+
 def test_a_fast_ball_is_slowed_more_but_not_without_end():
     run = sandbox.simulate("basketball")
     slow, fast = (work(run, Story(Box(4.0, 2.6, 4.6, 3.1), run.duration / 4, share)) for share in (0.05, 0.5))
