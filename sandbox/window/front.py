@@ -282,7 +282,7 @@ class Front(Overlay):
         said = START_HERE if row is self.first_sport else _TODAY if row is self.others[0] else ""
         if said:
             wide = sheet.lettering.width(said, "small", True) + 4 * gap
-            badge = pygame.Rect(place.left, place.top, wide, below + gap)
+            badge = pygame.Rect(place.right - wide, place.top, wide, below + gap)  # balls come from the left
             sheet.painter.panel(badge, _CARD["accent"], 1.0, 5 * unit)
             sheet.write(said, "small", badge.center, _CARD["background"], "center", bold=True)
 
