@@ -22,10 +22,10 @@ from sandbox.picture.frames import to_image
 from sandbox.picture.long import LongView
 from sandbox.picture.view import View
 from sandbox.scene import listings
-from sandbox.scene.finding import installed_folders
+from sandbox.scene.discovery import installed_folders
 from sandbox.scene.scene_run import SceneRun
 from sandbox.tasks import load as load_task
-from sandbox.tasks.finding import tasks
+from sandbox.tasks.discovery import tasks
 from sandbox.tasks.games import game_names, game_of
 
 SIZE = (1280, 720)

@@ -19,7 +19,7 @@ from pathlib import Path
 from sandbox.parameters import Group, groups_of
 from sandbox.physics.coefficients import ANY, Coefficient, Laws, Origin, Range
 from sandbox.scene import parameters_of
-from sandbox.scene.finding import docstring, installed_folders
+from sandbox.scene.discovery import docstring, installed_folders
 from sandbox.schema import json_schema
 from sandbox.text import with_noun
 

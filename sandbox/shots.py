@@ -15,7 +15,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from sandbox.errors import RequestError
 from sandbox.scene import load, simulate
-from sandbox.scene.finding import as_path, installed_folder
+from sandbox.scene.discovery import as_path, installed_folder
 from sandbox.toml import read_toml, short_toml
 
 if TYPE_CHECKING:

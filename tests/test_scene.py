@@ -20,7 +20,7 @@ from sandbox.cli.new import new_scene
 from sandbox.errors import RequestError
 from sandbox.parameters import Group, walk
 from sandbox.scene import listings, reference
-from sandbox.scene.finding import folder_of, is_installed
+from sandbox.scene.discovery import folder_of, is_installed
 from sandbox.scene.modules import read_again
 from sandbox.toml import read_toml
 from tests.own_scene import DROP, change

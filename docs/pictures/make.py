@@ -29,7 +29,7 @@ from sandbox.picture.places.plan import Person as Above
 from sandbox.picture.places.things import Person as Side
 from sandbox.picture.places.things import poses as all_poses
 from sandbox.picture.view import View
-from sandbox.scene.finding import installed_folders
+from sandbox.scene.discovery import installed_folders
 from sandbox.window.app import App
 from sandbox.window.canvas import Canvas
 from sandbox.window.front import TILE

@@ -13,7 +13,7 @@ from sandbox import resources
 from sandbox.errors import RequestError, RunError
 from sandbox.files import check_name, check_writable, folder_of_parts, reason
 from sandbox.scene import listings, load, parameters_of, simulate
-from sandbox.scene.finding import find
+from sandbox.scene.discovery import find
 from sandbox.schema import json_schema
 
 #: The folder of each template, which is also the name of its scene, in file names and in the files.

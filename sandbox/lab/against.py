@@ -15,7 +15,7 @@ from sandbox.lab.published import KINDS, Case, assignments, cases_by_form, form_
 from sandbox.lab.selection import used
 from sandbox.lab.table_file import Table, read_table
 from sandbox.scene import Scene, load
-from sandbox.scene.finding import is_path
+from sandbox.scene.discovery import is_path
 from sandbox.text import argument, no_such_result, shortened
 
 #: The columns that such a table needs, and what the others are where they are missing.

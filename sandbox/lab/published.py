@@ -18,7 +18,7 @@ from typing import Any
 
 from sandbox.errors import RequestError
 from sandbox.parameters import parse_assignment
-from sandbox.scene.finding import installed_folders
+from sandbox.scene.discovery import installed_folders
 from sandbox.toml import read_toml
 
 #: What a published number is. Only those of COUNTED say how true a model is.

@@ -14,7 +14,7 @@ from sandbox.lab.published import COUNTED, KINDS, Case, assignments, cases, case
 from sandbox.lab.report import Chart, Column, Notes, Panel, Report, Table, words
 from sandbox.lab.runs import Progress, no_progress
 from sandbox.scene import Scene, load, simulate
-from sandbox.scene.finding import as_path, find, is_installed
+from sandbox.scene.discovery import as_path, find, is_installed
 from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.amounts import significant
 

@@ -8,13 +8,13 @@ _TYPE_CHECKING = False
 if _TYPE_CHECKING:
     from typing import Any
 
-    from sandbox.scene.finding import Listing, listings, listings_in, listings_of, reference
+    from sandbox.scene.discovery import Listing, listings, listings_in, listings_of, reference
     from sandbox.scene.running import Check, check, compare, simulate
     from sandbox.scene.scene import Scene, as_scene, load, parameters_of
 
 #: The names of each module, which is imported on first use: to list scenes takes none of what it takes to run one.
 _MODULES = {
-    "finding": ("Listing", "listings", "listings_in", "listings_of", "reference"),
+    "discovery": ("Listing", "listings", "listings_in", "listings_of", "reference"),
     "running": ("Check", "check", "compare", "simulate"),
     "scene": ("Scene", "as_scene", "load", "parameters_of"),
 }

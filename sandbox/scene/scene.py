@@ -21,7 +21,7 @@ from sandbox import parameters as declared
 from sandbox.engine.model.setup import Setup
 from sandbox.errors import RequestError, RunError, sys_exit_as_error
 from sandbox.files import from_here, is_given
-from sandbox.scene.finding import SceneSource, default_file, docstring, find, first_comment
+from sandbox.scene.discovery import SceneSource, default_file, docstring, find, first_comment
 from sandbox.scene.modules import module_in
 from sandbox.sport.controls import Controls
 from sandbox.sport.facts import ENDED, FALLBACK_FACTS, Fact, FinalWhen, fallback_verdict, problem_with

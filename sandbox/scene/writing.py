@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from sandbox.parameters import walk
-from sandbox.scene.finding import as_path, is_installed, reference
+from sandbox.scene.discovery import as_path, is_installed, reference
 from sandbox.scene.scene import Scene, load
 from sandbox.scene.setup_scene import SetupScene
 from sandbox.text import command_line

@@ -13,7 +13,7 @@ import uvicorn
 
 from sandbox.errors import RequestError
 from sandbox.files import reason
-from sandbox.scene.finding import first_comment, folder_of, listings, listings_of
+from sandbox.scene.discovery import first_comment, folder_of, listings, listings_of
 from sandbox.serve import calls
 from sandbox.serve.app import app_of
 from sandbox.serve.limits import CONNECTIONS, MESSAGE, PLAYERS

@@ -14,7 +14,7 @@ _TYPE_CHECKING = False
 if _TYPE_CHECKING:
     from typing import Any
 
-    from sandbox.tasks.finding import find_task, is_task, tasks
+    from sandbox.tasks.discovery import find_task, is_task, tasks
     from sandbox.tasks.parsing import TaskListing, listed, load
     from sandbox.tasks.scoring import Score
     from sandbox.tasks.session import Attempt, Session, Shot
@@ -22,7 +22,7 @@ if _TYPE_CHECKING:
 
 #: The names of each module, which is imported on first use.
 _MODULES = {
-    "finding": ("find_task", "is_task", "tasks"),
+    "discovery": ("find_task", "is_task", "tasks"),
     "parsing": ("TaskListing", "listed", "load"),
     "scoring": ("Score",),
     "session": ("Attempt", "Session", "Shot"),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from datetime import date
 
-from sandbox.tasks.finding import tasks
+from sandbox.tasks.discovery import tasks
 
 #: A prime number greater than the number of tasks: each comes once before any comes again, in no order that is seen.
 _STEP = 7919

@@ -13,9 +13,9 @@ from sandbox import scene as scenes
 from sandbox import units
 from sandbox.errors import RequestError
 from sandbox.files import from_here
-from sandbox.scene.finding import is_installed
+from sandbox.scene.discovery import is_installed
+from sandbox.tasks.discovery import find_task, tasks
 from sandbox.tasks.file import ScoreEntry, TaskFile, read_task_file
-from sandbox.tasks.finding import find_task, tasks
 from sandbox.tasks.scoring import KINDS, Condition, Score
 from sandbox.tasks.task import Control, Start, Task
 from sandbox.text import nearest, no_such_result, with_noun

@@ -14,7 +14,7 @@ from typing import Any
 import pygame
 
 from sandbox.errors import RequestError, RunError
-from sandbox.scene.finding import find, installed_folder
+from sandbox.scene.discovery import find, installed_folder
 from sandbox.tasks import is_task
 from sandbox.tasks import load as load_task
 from sandbox.window import commands, replay

@@ -20,7 +20,7 @@ from sandbox.errors import RequestError
 from sandbox.lab.scatter import scattered
 from sandbox.parameters import value_at, walk
 from sandbox.scene import Scene, load
-from sandbox.scene.finding import is_installed
+from sandbox.scene.discovery import is_installed
 from sandbox.scene.scene_run import SceneRun
 from sandbox.tasks.daily import seed_of_day, task_of_day
 from sandbox.tasks.games import game_names, game_of

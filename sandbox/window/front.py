@@ -14,7 +14,7 @@ import pygame
 from sandbox.errors import RequestError
 from sandbox.picture.palette import mix, palette
 from sandbox.scene import load as load_scene
-from sandbox.scene.finding import docstring, installed_folders, listings_in
+from sandbox.scene.discovery import docstring, installed_folders, listings_in
 from sandbox.tasks import Task, load
 from sandbox.tasks.daily import task_of_day
 from sandbox.tasks.file import LEVELS, read_task_file

@@ -11,7 +11,7 @@ import pygame
 from sandbox.errors import SandboxError
 from sandbox.picture.palette import palette
 from sandbox.scene import load, simulate
-from sandbox.scene.finding import folder_of, is_installed
+from sandbox.scene.discovery import folder_of, is_installed
 from sandbox.window.canvas import Canvas
 from sandbox.window.overlay import HOVERED, Overlay, Row
 from sandbox.workers import Processes

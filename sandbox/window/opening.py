@@ -11,7 +11,7 @@ from time import perf_counter
 from typing import NamedTuple
 
 from sandbox.errors import RunError
-from sandbox.scene.finding import folder_of, is_installed
+from sandbox.scene.discovery import folder_of, is_installed
 from sandbox.scene.modules import forget
 from sandbox.window import replay
 from sandbox.window.aiming import Aiming

@@ -27,7 +27,7 @@ from sandbox.engine.paths.run import Event, Numerics
 from sandbox.errors import RequestError, RunError
 from sandbox.files import atomic_write, read_given, writing
 from sandbox.scene import Scene, load
-from sandbox.scene.finding import folder_of, is_installed
+from sandbox.scene.discovery import folder_of, is_installed
 from sandbox.scene.scene_run import SceneRun
 from sandbox.text import shortened
 from sandbox.window.session import Session

@@ -8,7 +8,7 @@ from typing import Any
 
 from sandbox import parameters as declared
 from sandbox.scene import Scene, load
-from sandbox.scene.finding import find
+from sandbox.scene.discovery import find
 from sandbox.scene.modules import read_again
 from sandbox.sport.controls import Controls
 from sandbox.text import command_line

@@ -11,7 +11,7 @@ from typing import Any
 
 from sandbox.errors import RunError, SandboxError
 from sandbox.scene import Scene, check, load, simulate
-from sandbox.scene.finding import folder_of
+from sandbox.scene.discovery import folder_of
 from sandbox.scene.modules import read_again
 from sandbox.scene.scene_run import SceneRun
 from sandbox.tracebacks import one_line_error

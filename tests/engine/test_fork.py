@@ -19,7 +19,7 @@ from sandbox.engine.paths.phase import InCluster, Phase
 from sandbox.engine.simulation import Simulation
 from sandbox.errors import RequestError, RunError
 from sandbox.physics.forces import Gravity
-from sandbox.scene.finding import listings
+from sandbox.scene.discovery import listings
 
 G = 9.81
 FLOOR = Surface("floor", Segment((-50.0, 0.0), (50.0, 0.0)), restitution=0.8, friction=0.4)

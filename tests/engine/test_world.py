@@ -27,7 +27,7 @@ from sandbox import (
     World,
 )
 from sandbox.engine.model.accuracy import resolve
-from sandbox.scene.finding import listings
+from sandbox.scene.discovery import listings
 from tests.engine.test_fork import FLOOR, SCENES, ball, heap_of_three
 
 ROOT = Path(__file__).parents[2]

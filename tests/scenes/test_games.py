@@ -11,7 +11,7 @@ import pytest
 import sandbox
 from sandbox import resources
 from sandbox.errors import RequestError
-from sandbox.scene.finding import installed_folder
+from sandbox.scene.discovery import installed_folder
 from sandbox.tasks.games import game_names, game_of
 from sandbox.tasks.match import Match
 from sandbox.toml import read_toml

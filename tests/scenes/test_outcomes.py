@@ -8,7 +8,7 @@ import pytest
 
 import sandbox
 from sandbox.scene import listings
-from sandbox.scene.finding import installed_folders
+from sandbox.scene.discovery import installed_folders
 from sandbox.shots import Shot, differences, known_shots
 from tests.scenes.play import run_of
 

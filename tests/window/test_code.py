@@ -11,7 +11,7 @@ import pytest
 
 from sandbox.cli.new import new_scene
 from sandbox.errors import RequestError, RunError
-from sandbox.scene.finding import installed_folder
+from sandbox.scene.discovery import installed_folder
 from sandbox.window import replay
 from sandbox.window.app import play
 from sandbox.window.opening import LOADING, limit_of

@@ -17,7 +17,7 @@ import pytest
 from sandbox import tasks
 from sandbox.errors import RequestError
 from sandbox.scene import simulate
-from sandbox.scene.finding import installed_folder, installed_folders
+from sandbox.scene.discovery import installed_folder, installed_folders
 from sandbox.tasks.games import game_of
 from sandbox.window import commands, keeping, opponent
 from sandbox.window.app import play

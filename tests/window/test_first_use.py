@@ -11,7 +11,7 @@ import pytest
 
 from sandbox.cli.new import new_scene
 from sandbox.scene import listings
-from sandbox.scene.finding import installed_folders
+from sandbox.scene.discovery import installed_folders
 from sandbox.window.app import App
 from sandbox.window.front import sports
 from sandbox.window.game import Game

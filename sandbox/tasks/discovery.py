@@ -1,4 +1,4 @@
-"""Finding tasks: those in the folders of installed scenes, and files of one's own."""
+"""Discovery of tasks: those in the folders of installed scenes, and files of one's own."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from sandbox.errors import RequestError
-from sandbox.scene.finding import installed_folder, installed_folders
+from sandbox.scene.discovery import installed_folder, installed_folders
 from sandbox.tasks.file import looks_like_task, read_task_file
 from sandbox.text import nearest, shortened
 from sandbox.toml import read_toml

@@ -1,5 +1,5 @@
-"""Finding scenes: those that come with the sandbox, with an installed package (entry point group ``sandbox.scenes``),
-and those anywhere on disk.
+"""Discovery of scenes: those that come with the sandbox, with an installed package (entry point group
+``sandbox.scenes``), and those anywhere on disk.
 
 Opening data runs only the code of installed scenes: a name, on the command line or in a file, always means one of them.
 A user's own ``scene.py`` runs only if its folder is given as a path: ``./volleyball``, ``../volleyball`` or an absolute
