@@ -30,11 +30,10 @@ from sandbox.picture.places.things import Person as Side
 from sandbox.picture.places.things import poses as all_poses
 from sandbox.picture.view import View
 from sandbox.scene.discovery import installed_folders
+from sandbox.tasks.sports import TILE, TILE_FILE
 from sandbox.window.app import App
 from sandbox.window.canvas import Canvas
-from sandbox.window.front import TILE
 from sandbox.window.game import Game
-from sandbox.window.menu import TILE_FILE
 from sandbox.window.session import Session
 from sandbox.window.shots import Shot
 from sandbox.window.stage import Stage

@@ -16,9 +16,10 @@ from sandbox.picture.energy_chart import energy_chart
 from sandbox.picture.graph import graph
 from sandbox.picture.palette import palette
 from sandbox.scene import Listing, listings, listings_in
+from sandbox.tasks.sports import sports
 from sandbox.window import aim, keeping
 from sandbox.window.find import Found, Question, find, questions, range_text
-from sandbox.window.front import Entry, Front, begin, sports
+from sandbox.window.front import Entry, Front, begin
 from sandbox.window.measure import Tape
 from sandbox.window.menu import Menu
 from sandbox.window.overlay import Chart, Choice, Overlay, PictureChoice, Row

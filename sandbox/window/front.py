@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from datetime import date
-from functools import cache
-from math import inf
 from pathlib import Path
 from typing import NamedTuple
 
@@ -14,13 +12,13 @@ import pygame
 from sandbox.errors import RequestError
 from sandbox.picture.palette import mix, palette
 from sandbox.scene import load as load_scene
-from sandbox.scene.discovery import docstring, installed_folders, listings_in
+from sandbox.scene.discovery import docstring, installed_folders
 from sandbox.tasks import Task, load
 from sandbox.tasks.daily import task_of_day
 from sandbox.tasks.file import LEVELS, read_task_file
 from sandbox.tasks.games import game_names, game_of
+from sandbox.tasks.sports import TILE, Sport, easiest, sports
 from sandbox.text import title_of, with_noun
-from sandbox.toml import read_toml
 from sandbox.window.best import BestList
 from sandbox.window.contest import STRENGTHS, AtMatch, AtTask, AtTaskOfDay, Contest
 from sandbox.window.decathlon import EVENTS, Decathlon
@@ -32,8 +30,6 @@ from sandbox.window.scoreboard import SMALL_STAR, star, stars
 
 _CARD = palette("card")
 
-#: The size of the picture of a tile, in px.
-TILE = (320, 180)
 #: Width of a tile in px on 720 rows, at most.
 _WIDEST = 240
 START_HERE, _TODAY = "Start here", "Today"
@@ -51,57 +47,12 @@ class Entry(NamedTuple):
     level: int = 0  # of a task; of a game the strength of the computer, 0 for two players
 
 
-class _Sport(NamedTuple):
-    """A scene on the first screen."""
-
-    name: str  # or the path of a user's own, such as ./beachvolley
-    folder: Path
-    files: Sequence[Path]  # of its tasks, in no order
-    own: bool  # a user's, whose tasks are known by their paths
-
-    @property
-    def tasks(self) -> list[str]:
-        """The names of its tasks, or the paths of a user's own."""
-        return [str(file) if self.own else file.stem for file in self.files]
-
-    @property
-    def title(self) -> str:
-        """Its name for people."""
-        return title_of(self.folder.name)
-
-
 def first_task() -> Task:
     """The task to begin with: the easiest of the first sport that has one."""
-    return load(_easiest(next(sport for sport in sports() if sport.tasks)))
+    return load(easiest(next(sport for sport in sports() if sport.tasks)))
 
 
-def _easiest(sport: _Sport) -> str:
-    return min(zip(sport.tasks, sport.files, strict=True), key=lambda task: read_task_file(task[1]).level)[0]
-
-
-def sports() -> list[_Sport]:
-    """All installed scenes, in the order of their tiles, and after them the user's own in this folder."""
-    installed = sorted(installed_folders().items(), key=lambda item: (_place(item[1]), item[0]))
-    own = [(item.name, Path(item.name).resolve()) for item in listings_in(Path()) if item.name.count("/") == 1]
-    return [
-        *(_Sport(name, folder, _task_files(folder), own=False) for name, folder in installed),
-        *(_Sport(name, folder, _task_files(folder), own=True) for name, folder in own),
-    ]
-
-
-def _task_files(folder: Path) -> list[Path]:
-    return sorted((folder / "tasks").glob("*.toml"))
-
-
-@cache
-def _place(folder: Path) -> float:
-    """The place of an installed scene's tile in ``tile.toml``; after all others without one."""
-    file = folder / "tile.toml"
-    place = read_toml(file).get("place") if file.is_file() else None
-    return float(place) if isinstance(place, int | float) else inf
-
-
-def entries_of(sport: _Sport) -> list[Entry]:
+def entries_of(sport: Sport) -> list[Entry]:
     """All that can be played in a sport: its tasks in rising order, games for two, and the scene. A task or a game that
     is damaged says so instead of what it is about."""
     found = []
@@ -131,7 +82,7 @@ def entries_of(sport: _Sport) -> list[Entry]:
 
 def events() -> list[str]:
     """The tasks of a decathlon: the easiest of each of the first ten sports."""
-    return [_easiest(sport) for sport in sports() if sport.tasks][:EVENTS]
+    return [easiest(sport) for sport in sports() if sport.tasks][:EVENTS]
 
 
 def begin(game: Game, entry: Entry) -> None:
@@ -163,23 +114,23 @@ class Front(Overlay):
         self.begin, self.best, self.all, self.day = begin, best, sports(), day
         today = Entry("day", day.isoformat(), "", title_of(task_of_day(day)))
         self.others = [today, Entry("decathlon", "", "", "Decathlon")]
-        self.sport: _Sport | None = None
+        self.sport: Sport | None = None
         self.entries: list[Entry] = []
         self.across = 1  # tiles in a row
         self.first_sport = next((sport for sport in self.all if sport.tasks), None)
-        if self.first_sport is not None and self.best.of(_easiest(self.first_sport)):
+        if self.first_sport is not None and self.best.of(easiest(self.first_sport)):
             self.first_sport = None  # it was played
-        self.chosen: _Sport | Entry = self.all[0]
+        self.chosen: Sport | Entry = self.all[0]
         self._images: dict[tuple[str, tuple[int, int]], pygame.Surface | None] = {}
 
     @property
-    def rows(self) -> Sequence[_Sport | Entry]:
+    def rows(self) -> Sequence[Sport | Entry]:
         return self.entries if self.sport is not None else [*self.all, *self.others]
 
-    def do(self, what: _Sport | Entry | str) -> bool:
-        if isinstance(what, _Sport):
+    def do(self, what: Sport | Entry | str) -> bool:
+        if isinstance(what, Sport):
             if what is self.first_sport:
-                self.begin(Entry("task", _easiest(self.first_sport)))
+                self.begin(Entry("task", easiest(self.first_sport)))
                 return False
             self.sport, self.entries, self.first = what, entries_of(what), 0
             self.chosen = self.entries[0]
@@ -208,7 +159,7 @@ class Front(Overlay):
         if self.sport is None:
             self.step(by)
 
-    def show(self, row: _Sport | Entry) -> None:
+    def show(self, row: Sport | Entry) -> None:
         line = self.rows.index(row) // self.across * self.across
         self.first = min(max(self.first, line - self.seen + self.across), line)
 
@@ -259,11 +210,11 @@ class Front(Overlay):
                 break
         return across, (wide, tall)
 
-    def _tile(self, row: _Sport | Entry, place: pygame.Rect, below: int) -> None:
+    def _tile(self, row: Sport | Entry, place: pygame.Rect, below: int) -> None:
         sheet, gap, unit = self.sheet, self.sheet.gap, self.sheet.unit
         whole = pygame.Rect(place.left, place.top, place.width, place.height + below).inflate(gap, gap)
         self.part(whole, row)
-        if isinstance(row, _Sport):
+        if isinstance(row, Sport):
             self._picture(row, place)
         else:
             self._mosaic(row, place)
@@ -286,10 +237,10 @@ class Front(Overlay):
             sheet.painter.panel(badge, _CARD["accent"], 1.0, 5 * unit)
             sheet.write(said, "small", badge.center, _CARD["background"], "center", bold=True)
 
-    def _got(self, row: _Sport | Entry) -> tuple[str, bool | None]:
+    def _got(self, row: Sport | Entry) -> tuple[str, bool | None]:
         """The best in a sport, at the task of the day, or in a decathlon, in a few words; and whether there is
         a lit star before them, None for no star."""
-        if isinstance(row, _Sport):
+        if isinstance(row, Sport):
             got = sum(self.best.stars(task) for task in row.tasks)
             return (f"{got} of {3 * len(row.tasks)}", got > 0) if row.tasks else ("", None)
         if row.kind == "day":
@@ -310,7 +261,7 @@ class Front(Overlay):
             left, top = place.left + i % 3 * (wide + gap), place.top + i // 3 * (tall + gap)
             self._picture(sport, pygame.Rect(left, top, wide, tall))
 
-    def _picture(self, sport: _Sport, place: pygame.Rect) -> None:
+    def _picture(self, sport: Sport, place: pygame.Rect) -> None:
         """The picture of a sport, or a pale panel where it has none."""
         image = self._image(sport, place.size)
         if image is not None:
@@ -318,13 +269,13 @@ class Front(Overlay):
         else:
             self.sheet.painter.panel(place, _CARD["quiet"], 0.12, 4 * self.sheet.unit)
 
-    def _image(self, sport: _Sport, size: tuple[int, int]) -> pygame.Surface | None:
+    def _image(self, sport: Sport, size: tuple[int, int]) -> pygame.Surface | None:
         key = sport.name, size
         if key not in self._images:
             self._images[key] = tile_of(sport.folder, size)
         return self._images[key]
 
-    def _page(self, sport: _Sport, room: pygame.Rect) -> None:
+    def _page(self, sport: Sport, room: pygame.Rect) -> None:
         """The page of a sport: its picture, and a row for each thing that can be played."""
         gap, letters = self.sheet.gap, self.sheet.lettering
         small = letters.height("small")

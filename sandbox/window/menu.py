@@ -12,6 +12,7 @@ from sandbox.errors import SandboxError
 from sandbox.picture.palette import palette
 from sandbox.scene import load, simulate
 from sandbox.scene.discovery import folder_of, is_installed
+from sandbox.tasks.sports import TILE_FILE
 from sandbox.window.canvas import Canvas
 from sandbox.window.overlay import HOVERED, Overlay, Row
 from sandbox.workers import Processes
@@ -20,8 +21,8 @@ _CARD = palette("card")
 
 #: Size of a thumbnail in px, and width of the column of groups in px on 720 rows.
 THUMBNAIL, _COLUMN = (160, 90), 170
-#: The picture of a scene in its folder; and its opacity (of 255) in place of a thumbnail that is still made.
-TILE_FILE, _UNTIL_THEN = "tile.jpg", 90
+#: The opacity (of 255) of a scene's tile in place of a thumbnail that is still made.
+_UNTIL_THEN = 90
 
 
 def tile_of(folder: Path | None, size: tuple[int, int]) -> pygame.Surface | None:

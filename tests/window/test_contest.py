@@ -19,14 +19,14 @@ from sandbox.errors import RequestError
 from sandbox.scene import simulate
 from sandbox.scene.discovery import installed_folder, installed_folders
 from sandbox.tasks.games import game_of
+from sandbox.tasks.sports import TILE, TILE_FILE, sports
 from sandbox.window import commands, keeping, opponent
 from sandbox.window.app import play
 from sandbox.window.banner import LASTS
 from sandbox.window.best import MOST, Best, BestList, usual_file
 from sandbox.window.contest import AtMatch, AtTask, AtTaskOfDay
 from sandbox.window.decathlon import EVENTS, Decathlon
-from sandbox.window.front import START_HERE, TILE, Front, entries_of, events, first_task, sports
-from sandbox.window.menu import TILE_FILE
+from sandbox.window.front import START_HERE, Front, entries_of, events, first_task
 from sandbox.window.panel import SLIDER_OF
 from sandbox.window.prediction import Prediction
 from sandbox.window.referee import AFTER, COMPUTER, decided_at, deciding_ball

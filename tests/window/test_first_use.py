@@ -12,8 +12,8 @@ import pytest
 from sandbox.cli.new import new_scene
 from sandbox.scene import listings
 from sandbox.scene.discovery import installed_folders
+from sandbox.tasks.sports import sports
 from sandbox.window.app import App
-from sandbox.window.front import sports
 from sandbox.window.game import Game
 from sandbox.window.memory import HINTS, MOST, Memory, usual_place
 from sandbox.window.menu import THUMBNAIL, thumbnail, tile_of

@@ -14,8 +14,8 @@ import pytest
 
 import sandbox
 from sandbox.scene import Scene, listings
+from sandbox.tasks.sports import sports
 from sandbox.window.commands import TABLE
-from sandbox.window.front import sports
 from sandbox.window.screen import SMALLEST
 from sandbox.window.shots import LONGEST_FRAME, STEP
 from tests.own_scene import HANG
