@@ -78,7 +78,7 @@ def wind_in(air: AirByDensity) -> Wind | None:
     """The wind as a velocity field, or None for still air."""
     outdoors = air if isinstance(air, OutdoorAir) else None
     gusty = outdoors is not None and anywhere(outdoors.gusts > 0.0)
-    if air.wind == (0.0, 0.0) and not gusty:
+    if not gusty and not any(anywhere(part != 0.0) for part in air.wind):
         return None
     mean: UniformWind | LogWind = UniformWind(*air.wind)
     if outdoors is not None and outdoors.profile == "log":

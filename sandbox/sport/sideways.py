@@ -16,16 +16,15 @@ landing. docs/physics.md has the errors. The equations are ours.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from math import hypot
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from sandbox.engine.model.ball import Ball
 from sandbox.engine.paths.run import Run
 from sandbox.parameters import Group, quantity
 from sandbox.physics.coefficients import Scaled
-from sandbox.physics.elementwise import cos, sin
+from sandbox.physics.elementwise import anywhere, cos, hypot, sin, where
 from sandbox.physics.forces import Drag, Magnus
 from sandbox.sport.air import Air, wind_in
 from sandbox.sport.facts import Fact, FinalWhen
@@ -69,15 +68,21 @@ class SidewaysLaunch(Launch):
 
     def square_to(self, ball: Ball) -> complex:
         """The direction in the plane to which the tilted axis is square: that of the launch, which is assumed."""
-        vx, vy = ball.velocity
-        return complex(vx, vy) / (hypot(vx, vy) or 1.0)
+        (vx, vy), speed = ball.velocity, hypot(*ball.velocity)
+        return (vx + 1j * vy) / where(speed == 0.0, 1.0, speed)
 
     def in_plane(self, air: Air) -> Air:
-        across = getattr(air, "crosswind", None) or 0.0
-        if self.direction is None or (air.wind == (0.0, 0.0) and across == 0.0):
+        across = _across(air)
+        if self.direction is None or not anywhere((across != 0.0) | (air.wind[0] != 0.0) | (air.wind[1] != 0.0)):
             return air
         (along, up), c, s = air.wind, cos(self.direction * DEGREE), sin(self.direction * DEGREE)
         return air.model_copy(update={"wind": (along * c + across * s, up), "crosswind": across * c - along * s})
+
+
+def _across(air: Air) -> float:
+    """The wind across in m/s, from left to right."""
+    given: float | None = getattr(air, "crosswind", None)
+    return 0.0 if given is None else given
 
 
 def _may_leave_plane(parameters: Flight) -> bool:
@@ -97,61 +102,53 @@ class GroundPlace(NamedTuple):
 class _Rates(NamedTuple):
     """Coefficients of the equations at one time."""
 
-    drag: float  # 1/s
-    lift: float  # 1/s, of the whole spin
-    through: complex  # m/s, u for the lift, which may be over the ground
-    wind: float  # m/s, across
-    lift_wind: float  # m/s, the same as the lift feels it
+    drag: Any  # 1/s
+    lift: Any  # 1/s, of the whole spin
+    through: Any  # m/s, u for the lift, which may be over the ground
+    wind: Any  # m/s, across
+    lift_wind: Any  # m/s, the same as the lift feels it
 
 
 #: w, q, z, and the integral of q, in m/s and m.
-Sideways = tuple[float, complex, float, complex]
+Sideways = tuple[Any, Any, Any, Any]
 
 
 def ground_track(run: Run, parameters: Flight, end: Moment | None, forward: bool = False) -> list[GroundPlace]:
     """The track of the ball ``"ball"`` over the ground, from above, until it comes as low as ``end`` has it in the
-    plane; or, with ``forward``, as far. [] where nothing takes it out of the plane, or without an end."""
+    plane; or, with ``forward``, as far. [] where nothing takes it out of the plane, or without an end. Of many shots at
+    once the places are arrays."""
     if end is None or not _may_leave_plane(parameters):
         return []
     launch: Any = parameters.launch
     square_to = launch.square_to(run.setup.balls[0])
-    shares = launch.lift_share or 1.0, launch.side_share
+    in_plane, to_side = 1.0 if launch.lift_share is None else launch.lift_share, launch.side_share
 
     def slope(rates: _Rates, at: Sideways) -> Sideways:
         w, q, _, _ = at
-        pull, lifted = rates.lift * shares[1], w - rates.lift_wind
+        pull, lifted = rates.lift * to_side, w - rates.lift_wind
         along = ((rates.through + q) * square_to.conjugate()).real
-        into_plane = (1j * rates.lift * shares[0] - rates.drag) * q - pull * lifted * square_to
+        into_plane = (1j * rates.lift * in_plane - rates.drag) * q - pull * lifted * square_to
         return pull * along - rates.drag * (w - rates.wind), into_plane, w, q
 
-    import numpy as np
-
     at: Sideways = (0.0, 0j, 0.0, 0j)
-    track = [GroundPlace(run.state("ball", 0.0).x, 0.0)]
-    arcs = [(arc, min(arc.t1, end.t) - arc.t0) for arc in run.arcs["ball"] if arc.t0 < end.t]
-    times = [t for arc, h in arcs for t in (arc.t0, arc.t0 + 0.5 * h, arc.t0 + h)]
-    ends = [arc.state(arc.t0 + h) for arc, h in arcs]
-    states = [
-        state[:5]
-        for (arc, h), last in zip(arcs, ends, strict=True)
-        for state in (arc.state(arc.t0), arc.state(arc.t0 + 0.5 * h), last)
-    ]
-    rates = iter(_rates(run, parameters, np.array(times), np.array(states).reshape(-1, 5).T))
-    for (_, h), last_state in zip(arcs, ends, strict=True):
-        first, middle, last = next(rates), next(rates), next(rates)
+    durations, found = run.steps("ball", end.t)
+    arcs = (durations.tolist(), found[1, :, 2].tolist()) if durations.ndim == 1 else (durations, found[1, :, 2])
+    track = [GroundPlace(run.setup.balls[0].position[0], 0.0)]
+    for h, x, (first, middle, last) in zip(*arcs, _rates(run, parameters, found), strict=True):
         k1 = slope(first, at)
         k2 = slope(middle, _ahead(at, 0.5 * h, k1))
         k3 = slope(middle, _ahead(at, 0.5 * h, k2))
         k4 = slope(last, _ahead(at, h, k3))
         for part, k in ((1, k1), (2, k2), (2, k3), (1, k4)):
             at = _ahead(at, part * h / 6.0, k)
-        track.append(GroundPlace(last_state[0] + at[3].real, at[2]))
+        track.append(GroundPlace(x + at[3].real, at[2]))
     w, q, z, back = at
     vx, vy = end.vx + q.real, end.vy + q.imag
     behind, speed = (back.real, vx) if forward else (back.imag, vy)
-    late = -behind / speed if speed else 0.0  # s
+    late = where(speed == 0.0, 0.0, -behind / where(speed == 0.0, 1.0, speed))  # s
     track[-1] = GroundPlace(end.x + back.real + late * vx, z + late * w)
-    c, s = cos((launch.direction or 0.0) * DEGREE), sin((launch.direction or 0.0) * DEGREE)
+    turned = 0.0 if launch.direction is None else launch.direction * DEGREE
+    c, s = cos(turned), sin(turned)
     return [GroundPlace(x * c - side * s, x * s + side * c) for x, side in track]
 
 
@@ -161,19 +158,19 @@ def _ahead(at: Sideways, h: float, rate: Sideways) -> Sideways:
     return w + h * dw, q + h * dq, z + h * dz, p + h * dp
 
 
-def _rates(run: Run, parameters: Flight, t: Any, states: np.ndarray) -> list[_Rates]:
-    """The coefficients at times in s with these states, shape (5, times): all at once, since a force takes as long for
-    one of them."""
+def _rates(run: Run, parameters: Flight, states: np.ndarray) -> Iterator[list[_Rates]]:
+    """The coefficients at start, middle and end of each arc, from times and states of shape (6, arcs, 3) or (6, arcs,
+    3, shots): all at once, since a force takes as long for one of them."""
     import numpy as np
 
+    t, x, y, vx, vy, spin = states
     ball, air = run.setup.balls[0], parameters.launch.in_plane(parameters.air.air)
-    mean = {"wind": (getattr(air, "crosswind", None) or 0.0, 0.0), "gusts": 0.0}
+    mean = {"wind": (_across(air), 0.0), "gusts": 0.0}
     across = wind_in(air.model_copy(update={key: value for key, value in mean.items() if hasattr(air, key)}))
     drag = next((force for force in ball.forces if isinstance(force, Drag)), None)
     lift = next((force for force in ball.forces if isinstance(force, Magnus)), None)
     if lift is not None and isinstance(lift.coefficient, Scaled):
         lift = replace(lift, coefficient=lift.coefficient.coefficient)
-    x, y, vx, vy, spin = states
     velocity = vx + 1j * vy
 
     def through(force: Drag | Magnus | None) -> np.ndarray:
@@ -182,19 +179,21 @@ def _rates(run: Run, parameters: Flight, t: Any, states: np.ndarray) -> list[_Ra
 
     def rate(force: Drag | Magnus | None) -> np.ndarray:
         if force is None:
-            return np.zeros(len(t), complex)
+            return np.zeros(t.shape, complex)
         try:
             fx, fy = force(t, (x, y), (vx, vy), spin)
         except (TypeError, ValueError):  # a law of an author's own, for numbers only
-            each = (force(at, place[:2], place[2:4], place[4]) for at, place in zip(t, states.T, strict=True))
-            fx, fy = np.array(list(each)).T
+            each = (force(at, (x, y), (vx, vy), spin) for at, x, y, vx, vy, spin in states.reshape(6, -1).T)
+            fx, fy = (values.reshape(t.shape) for values in np.array(list(each)).T)
         u = through(force)
         return np.where(u == 0.0, 0.0, fx + 1j * fy) / np.where(u == 0.0, 1.0, u) / ball.mass
 
-    wind = np.zeros(len(t)) if across is None else np.broadcast_to(across(t, (x, y))[0], t.shape)
-    lift_wind = np.zeros(len(t)) if lift is not None and lift.along_ground else wind
+    wind = np.zeros(t.shape) if across is None else np.broadcast_to(across(t, (x, y))[0], t.shape)
+    lift_wind = np.zeros(t.shape) if lift is not None and lift.along_ground else wind
     columns = (-rate(drag).real, rate(lift).imag, through(lift), wind, lift_wind)
-    return [_Rates(*row) for row in zip(*(column.tolist() for column in columns), strict=True)]
+    of_one = t.ndim == 2
+    for arc in zip(*(column.tolist() if of_one else column for column in columns), strict=True):
+        yield [_Rates(*at) for at in zip(*arc, strict=True)]
 
 
 def side(track: Callable[[Run, Any], Sequence[GroundPlace]], final_when: FinalWhen = "end") -> Fact:

@@ -117,7 +117,8 @@ class BattedBall(SidewaysLaunch):
     @property
     def lift_share(self) -> float:
         """The share of the backspin in both."""
-        return super().lift_share or abs(self.spin) / (abs(self.active_spin) + 1e-30)
+        tilted = super().lift_share
+        return abs(self.spin) / (abs(self.active_spin) + 1e-30) if tilted is None else tilted
 
     @property
     def spin_share(self) -> None:
@@ -126,7 +127,10 @@ class BattedBall(SidewaysLaunch):
 
     @property
     def side_share(self) -> float:
-        return super().side_share if self.axis is not None else self.side / (self.active_spin or inf)
+        if self.axis is not None:
+            return super().side_share
+        both = self.active_spin
+        return self.side / where(both == 0.0, inf, both)
 
     def square_to(self, ball: Ball) -> complex:
         return super().square_to(ball) if self.axis is not None else 1.0 + 0.0j

@@ -6,6 +6,7 @@ from scipy.integrate import solve_ivp
 
 import sandbox
 from sandbox.physics.forces import SpinDecay
+from sandbox.sport import sideways
 from sandbox.sport.flight import RPM
 from sandbox.sport.readings import Moment
 from sandbox.sport.sideways import ground_track
@@ -121,10 +122,26 @@ def test_a_shot_to_the_side_is_not_holed():
     assert result["distance_to_pin"] > 0.3
 
 
-def test_many_shots_drift_as_each_alone():
-    axes = np.linspace(-30.0, 30.0, 41)
-    many = sandbox.simulate_many("golf", {"launch.axis": axes}, facts=("side", "carry"))
+@pytest.mark.parametrize(
+    ("name", "changes", "key", "facts"),
+    [
+        ("golf", {}, "launch.axis", ("side", "carry")),
+        ("golf", {"air.wind": [-3.0, 0.0], "air.crosswind": 2.0}, "launch.direction", ("side", "carry")),
+        ("baseball", {}, "launch.direction", ("side", "distance")),
+    ],
+)
+def test_many_shots_drift_together_as_each_alone(name, changes, key, facts, monkeypatch):
+    tracks = []
+    rates, angles, scene = sideways._rates, np.linspace(-30.0, 30.0, 41), sandbox.load(name, changes)
+    monkeypatch.setattr(sideways, "_rates", lambda *given: tracks.append(1) or rates(*given))
+    many = sandbox.simulate_many(scene, {key: angles}, facts=facts)
+    assert len(tracks) < len(angles)
     for place in (0, 20, 33):
-        alone = sandbox.simulate(sandbox.load("golf", {"launch.axis": axes[place]})).result
-        assert many["side"][place] == pytest.approx(alone["side"], abs=1e-9)
-        assert many["carry"][place] == pytest.approx(alone["carry"], abs=1e-9)
+        alone = sandbox.simulate(scene.changed({key: angles[place]})).result
+        assert [many[fact][place] for fact in facts] == pytest.approx([alone[fact] for fact in facts], abs=1e-9)
+
+
+def test_a_shot_that_does_not_come_down_has_no_drift():
+    far = sandbox.load("golf", {"launch.axis": 10.0, "gravity": 0.001, "air.density": 0.0})
+    speeds = {"launch.speed": [0.05, *[70.0] * 19]}
+    assert np.isnan(sandbox.simulate_many(far, speeds, facts=("side",))["side"]).tolist() == [False, *[True] * 19]

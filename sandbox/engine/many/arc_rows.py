@@ -87,6 +87,28 @@ class Paths:
         times[numbers], found[numbers] = t, states
         return times, found
 
+    def steps(self, until: Any) -> tuple[np.ndarray, np.ndarray]:
+        """The duration in s of each arc of all paths up to a time of its own, shape (arcs, paths), and time and state
+        at its start, middle and end, shape (6, arcs, 3, paths): a path with fewer arcs has its last again, with a
+        duration of 0; NaN where ``until`` is."""
+        limits, first = np.broadcast_to(until, len(self.lengths)), np.array(self._bounds[:-1])
+        counts = np.bincount(self._numbers[self.rows[:, T0] < np.repeat(limits, self.lengths)], minlength=len(limits))
+        turn = np.arange(counts.max(initial=0))[:, None]
+        rows = self.rows[np.minimum(first + np.clip(turn, 0, np.maximum(counts - 1, 0)), len(self.rows) - 1)]
+        t0, t1 = rows[..., T0], rows[..., T1]
+        h = np.where(turn < counts, np.minimum(t1, limits) - t0, 0.0 * limits)
+        states = np.stack((rows[..., START], rows[..., START], rows[..., END]))
+        for place, part, some in ((1, 0.5, t1 > t0), (2, 1.0, t1 > limits)):
+            u = part * (np.minimum(t1, limits) - t0)[some] / (t1 - t0)[some]
+            states[place, some] = np.array([evaluate(rows[some][:, curve].T, u) for curve in CURVES]).T
+        times = t0 + np.multiply.outer((0.0, 0.5, 1.0), h)
+        return h, np.moveaxis(np.concatenate((times[..., None], states), axis=-1), (3, 1, 0, 2), (0, 1, 2, 3))
+
+    @cached_property
+    def _numbers(self) -> np.ndarray:
+        """The path of each row."""
+        return np.repeat(np.arange(len(self.lengths)), self.lengths)
+
     @cached_property
     def _summits(self) -> list[Passage]:
         return _listed(*self.summits())

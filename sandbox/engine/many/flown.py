@@ -146,6 +146,13 @@ class AllRuns:
         numbers = np.repeat(np.arange(len(paths.lengths)), paths.lengths)
         return self._in_turn(ball, numbers, paths.rows[:, T0], paths.rows[:, START])
 
+    def steps(self, ball: str, until: Any) -> tuple[np.ndarray, np.ndarray]:
+        """As ``Run.steps``, shapes (arcs, shots) and (6, arcs, 3, shots): a shot with fewer arcs has its last again,
+        with a duration of 0; NaN where ``until`` is."""
+        if ball != self._flown.ball:
+            raise KeyError(ball)
+        return self._paths.steps(until)
+
     def first_event(self, partner: str) -> Event | None:
         """As ``Run.first_event``: one with arrays, not a number for runs without; None if all are."""
         firsts = [next((each for each in events if each.partner == partner), None) for events in self._flown.events]

@@ -299,6 +299,16 @@ class Run(Drawable):
         """Time (s) and State at the start of each arc of a ball's path."""
         return ((arc.t0, State(*arc.start)) for arc in self._path(ball))
 
+    def steps(self, ball: str, until: float) -> tuple[np.ndarray, np.ndarray]:
+        """Each arc of a ball's path up to a time in s: its duration in s, shape (arcs,), and time and state at its
+        start, middle and end, shape (6, arcs, 3): t, x, y, vx, vy, spin."""
+        import numpy as np
+
+        arcs = [(arc, min(arc.t1, until) - arc.t0) for arc in self._path(ball) if arc.t0 < until]
+        times = [(arc, arc.t0 + part * h) for arc, h in arcs for part in (0.0, 0.5, 1.0)]
+        states = np.array([(t, *arc.state(t)[:5]) for arc, t in times]).reshape(-1, 3, 6)
+        return np.array([h for _, h in arcs]), np.moveaxis(states, 2, 0)
+
     def first_event(self, partner: str) -> Event | None:
         """The first event with this partner; None if there is none."""
         return next((event for event in self.events if event.partner == partner), None)
