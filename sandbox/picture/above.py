@@ -31,6 +31,7 @@ class AboveView(View[P]):
     """One run seen from above; a scene declares its ``plan``."""
 
     SPIN_NAMES = ("right", "left")
+    FROM_ABOVE = True
     #: The colour of the darkness at the picture's edges.
     DUSK: ClassVar[Colour | None] = None
     #: True leaves that out, for a part that is put into another picture.

@@ -294,7 +294,7 @@ class BallDrawing(SceneOptions[P]):
         """Draw where the balls have been: a thin line, and a thick one of late; and where those of other runs are. All
         under the headline."""
         painter = sheet.painter
-        sheet.surface.set_clip((0, sheet.top_row, *self.size))
+        sheet.surface.set_clip(pygame.Rect((0, sheet.top_row), self.size).clip(self.opening))
         for ghost in self.ghosts:
             ghost.draw_in_frame(sheet, self.traced(camera, ghost.points), self.spots(camera, ghost.at(t), 0.0)[0])
         for name, (moments, places) in self._tracks.items():

@@ -19,6 +19,7 @@ import pygame
 from sandbox.engine.contact.touch import Outline
 from sandbox.errors import RunError
 from sandbox.parameters import Group
+from sandbox.picture.answer import Pulled, pulled_nets
 from sandbox.picture.ball import SMALLEST, Fall, Look, least_radius, seams
 from sandbox.picture.camera import Box, Camera
 from sandbox.picture.painter import Painter
@@ -73,6 +74,8 @@ class SceneOptions(Generic[P]):
     rows: int  # for which letters and lines are made
     radii: dict[str, float]  # m, of each ball
     radius: float  # m, of the ball that is played
+    #: The time in s at which what was hit answers, which goes on after the end of the run; None: it stands still.
+    answering: float | None = None
 
     # Colours and words
 
@@ -110,6 +113,8 @@ class SceneOptions(Generic[P]):
     MIN_IMPACT_SHARE: ClassVar[float] = 0.03
     #: Width of the paths of other balls, and of bodies, which may be thin, as a share of that of the ball in play.
     OTHER_WIDTH: ClassVar[float] = 0.6
+    #: True if the plane of play is the ground.
+    FROM_ABOVE: ClassVar[bool] = False
     #: True if all runs share the ground, so that one cannot be moved up or down to lie over another.
     SHARED_GROUND: ClassVar[bool] = False
 
@@ -295,6 +300,11 @@ class SceneOptions(Generic[P]):
     def inset(self, sheet: Sheet, camera: Camera, t: float | None) -> pygame.Rect | None:
         """Draw a small picture in the upper right corner, at time t in s or on the poster; where it is."""
         return None
+
+    @cached_property
+    def pulled(self) -> Sequence[Pulled]:
+        """The nets that the ball pulls out: surfaces of that name that it hits."""
+        return pulled_nets(self.run, self.ball, self.FROM_ABOVE)
 
     def rolls(self, name: str) -> bool:
         """True if a ball turns about level axes, too."""

@@ -15,7 +15,7 @@ import pygame
 
 from sandbox.engine.model.surface import Circle, Segment, Surface
 from sandbox.errors import RequestError
-from sandbox.picture.camera import Area, Camera
+from sandbox.picture.camera import Area, Camera, Eye
 from sandbox.picture.marks import Ghost, mark_impacts, mark_measured
 from sandbox.picture.moving import NOT_WORTH_NOTING, BallDrawing
 from sandbox.picture.options import P
@@ -246,11 +246,12 @@ class View(BallDrawing[P]):
 
     def frame(self, t: float) -> pygame.Surface:
         """The scene at time t in s of the run, after whose end only the camera goes on."""
-        camera, t = self.view(t), min(max(t, 0.0), self.run.duration)
+        camera, self.answering, t = self.view(t), t, min(max(t, 0.0), self.run.duration)
         sheet = self.sheet = Sheet(self.size, self.on_dark, self._still(camera).copy())
         painter = sheet.painter
         placed = self._ball_places(camera, t, in_frame=True)
         self.behind(painter, camera, t)
+        self._pull_nets(painter, camera)
         self.draw_driven(painter, camera, t)
         self._strings(painter, camera, t)
         for name, spot in placed.items():
@@ -277,6 +278,16 @@ class View(BallDrawing[P]):
         rows = [(ghost.light, ghost.view.live(min(t, ghost.run.duration))) for ghost in self.ghosts]
         sheet.columns(self.card_row, self.live(t), rows)
         return sheet.surface
+
+    def _pull_nets(self, painter: Painter, camera: Camera) -> None:
+        """Draw the nets that the ball pulls out."""
+        if self.answering is not None:
+            for net in self.pulled:
+                net.draw(painter, self.seen_from(camera), self.answering)
+
+    def seen_from(self, camera: Camera) -> Camera | Eye:
+        """Sees what the camera shows."""
+        return camera
 
     def live(self, t: float) -> list[Entry]:
         """The entries of a frame's card at time t in s; a ball that was caught does nothing any more."""
@@ -320,10 +331,14 @@ class View(BallDrawing[P]):
         """The place alone, as a camera sees it."""
         return self._still(camera).copy()
 
-    def draw_balls(self, painter: Painter, camera: Camera, t: float, ahead: float = 0.0) -> None:
-        """All that moves, at time t in s, on the stage that the camera sees; paths in a lens until ``ahead`` in s."""
-        self.ahead = ahead
+    def draw_balls(
+        self, painter: Painter, camera: Camera, t: float, ahead: float = 0.0, answering: float | None = None
+    ) -> None:
+        """All that moves, at time t in s, on the stage that the camera sees; paths in a lens until ``ahead`` in s.
+        What was hit answers at the time ``answering`` in s; with None it stands still."""
+        self.ahead, self.answering = ahead, answering
         self.behind(painter, camera, t)
+        self._pull_nets(painter, camera)
         self.draw_driven(painter, camera, t)
         self._strings(painter, camera, t)
         self.place_balls(painter, camera, t)

@@ -336,7 +336,7 @@ def switch_confetti(view: View, by: float) -> None:
     memory = view.game.memory
     memory.calm = not memory.calm
     memory.save()
-    view.game.messages.tell("no confetti" if memory.calm else "confetti after a success")
+    view.game.messages.tell("no confetti, nets stand still" if memory.calm else "confetti after a success, nets bulge")
 
 
 # More

@@ -21,6 +21,7 @@ from sandbox.window import commands, replay
 from sandbox.window.background import steady
 from sandbox.window.best import BestList, usual_file
 from sandbox.window.contest import AtMatch, AtTask, Contest, source_of
+from sandbox.window.desktop import reduces_motion
 from sandbox.window.front import first_task
 from sandbox.window.game import Game
 from sandbox.window.history import Changes
@@ -223,7 +224,7 @@ def play(
             _load_there(worker, shown, changes)
         first = replay.read(Path(shown), scene).changes if recorded else Changes(shown, dict(changes))
         session = Session(first.source, first.values)
-        played = Game(session, worker, helper=helper, memory=Memory(usual_place()), best=BestList(usual_file()))
+        played = Game(session, worker, helper=helper, memory=Memory(usual_place(), reduces_motion()), best=BestList(usual_file()))
         with opened(f"{session.title} – Sports sandbox", played.memory.size) as screen:
             if recorded:
                 played.opening.open_replay(Path(shown), scene)

@@ -182,7 +182,7 @@ TABLE: tuple[_Command, ...] = (
     _Command("text_size", ("alt +", "alt -"), "larger, smaller text", "More", actions.change_text_size),
     _Command("contrast", ("alt c",), "high contrast", "More",
             lambda view, by: view.set_look(view.game.memory.look[0], not view.game.memory.look[1])),
-    _Command("calm", ("5",), "confetti after a success, or none", "More", actions.switch_confetti),
+    _Command("calm", ("5",), "confetti and nets that bulge, or neither", "More", actions.switch_confetti),
     _Command("cost", ("f3",), "what a frame and a run cost", "More"),
     _Command("fullscreen", ("f11",), "full screen", "More", lambda view, by: view.toggle_full_screen()),
     _Command("help", ("h",), "all keys", "More", _help),

@@ -257,7 +257,7 @@ class Drawing:
         stage.draw_path(sheet, shot, shown.until(shot))
         sheet.surface.set_clip(None)
         stage.draw_measured(sheet)
-        stage.draw_balls(sheet, shot, t, shown.until(shot))
+        stage.draw_balls(sheet, shot, t, shown.until(shot), shown.answering)
         if not shown.sees("arrows"):
             return ()
         vectors: Vectors = self._once("vectors", shot, lambda: Vectors(shot.run, shot.ball))

@@ -131,6 +131,12 @@ class Shown:
         playback = self.game.watching.playback
         return playback.t if playback is not None else 0.0
 
+    @property
+    def answering(self) -> float | None:
+        """The time of the shot, and on after its end, at which what was hit answers; None if nothing is to."""
+        playback = self.game.watching.playback
+        return playback.camera_time if self.follows and playback is not None and not self.game.memory.calm else None
+
     def until(self, shot: Shot) -> float | None:
         """The time until which the path is shown, in s; None for all of it."""
         if self.game.watching.playback is not None:

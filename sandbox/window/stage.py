@@ -219,10 +219,13 @@ class Stage:
         draw_line(sheet.surface, line, width, colour_of(shot.ball))
         self._contacts(sheet, shot, until)
 
-    def draw_balls(self, sheet: Canvas, shot: Shot, t: float, until: float | None = None) -> None:
-        """The balls of a shot at time t in s; in a lens their paths until a time in s, or all of them."""
+    def draw_balls(
+        self, sheet: Canvas, shot: Shot, t: float, until: float | None = None, answering: float | None = None
+    ) -> None:
+        """The balls of a shot at time t in s; in a lens their paths until a time in s, or all of them. What was hit
+        answers at a time in s, or stands still."""
         ahead = shot.run.duration if until is None else until
-        self.picture_of(shot).draw_balls(sheet.painter, self.camera, t, ahead)
+        self.picture_of(shot).draw_balls(sheet.painter, self.camera, t, ahead, answering)
 
     def picture_of(self, shot: Shot) -> Picture[Any]:
         """The picture of a shot from the same place, as this stage's camera shows it and on the same ground."""

@@ -8,6 +8,7 @@ from math import cos, exp, pi, sin, tau
 import numpy as np
 
 from sandbox.kit import Eye, Painter, Post, SceneRun, Shape, Thing, mix, palette, scene_colours
+from sandbox.picture.answer import yielding
 
 from .scene import Parameters, on_floor
 
@@ -17,6 +18,9 @@ COLOURS, SHADOW = scene_colours(__file__)["hoop"], palette("card")["shadow"]
 BOARD, SQUARE, SQUARE_HEIGHT = 0.915, 0.305, 0.46
 #: Strands around the ring, knots on each, and the width of the net's lower end over that of the ring.
 STRANDS, KNOTS, NARROW = 11, 9, 0.56
+#: Board and ring go down by so many m for each m/s of an impact on the ring or the board, at most so far, swing at this
+#: rate (rad/s) and settle at this one (1/s); assumed.
+SHAKES, DIPS, DEEPEST, RATTLES, CALMS = ("rim front", "rim back", "backboard"), 0.006, 0.03, 38.0, 5.0
 #: After the ball has left, the net swings at this rate (rad/s) and settles at this rate (1/s), until its swing
 #: has fallen to exp(-SETTLED).
 SWING, SETTLE, SETTLED = 11.0, 3.0, 5.0
@@ -56,6 +60,13 @@ def hoop(parameters: Parameters) -> list[Thing]:
         Post(behind, tube, shaded),
         Post(before, tube, COLOURS["ring"], near=True),
     ]
+
+
+def shaken(run: SceneRun, t: float) -> float:
+    """How far in m board and ring are down at a time in s of a run, from what the ball has hit so far."""
+    hits = (e for e in run.events if e.kind == "impact" and e.partner in SHAKES and e.t < t)
+    down = sum(DIPS * hit.speed * yielding(t - hit.t, RATTLES, CALMS) for hit in hits)
+    return min(max(down, -DEEPEST), DEEPEST)
 
 
 class HangingNet:

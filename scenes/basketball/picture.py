@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import cached_property
 from math import cos, radians, sin
@@ -23,6 +24,7 @@ from sandbox.kit import (
     Sheet,
     SideView,
     Story,
+    Thing,
     around_corners,
     boards,
     courts,
@@ -104,14 +106,40 @@ class Picture(SideView[Parameters]):
         face = self.parameters.board[0]
         lines = courts.basketball_lines(face, self.ring[0])
         ground = boards(FLOOR, areas=[(courts.basketball_key(face), FLOOR["key"])], lines=lines)
-        things = [*hoop.stand(self.parameters), *hoop.hoop(self.parameters), *self.thrower]
+        things = [*hoop.stand(self.parameters), *self.hoop, *self.thrower]
         return Place(Hall(**COLOURS["hall"]), ground, things)
 
+    @cached_property
+    def hoop(self) -> Sequence[Thing]:
+        """Board and ring, which shake when the ball hits them."""
+        return hoop.hoop(self.parameters)
+
+    def draw_things(self, painter: Painter, eye: Eye, near: bool) -> None:
+        """All but board and ring, which are drawn as they shake."""
+        for thing in self.standing:
+            if thing.near == near and thing not in self.hoop:
+                thing.draw(painter, eye)
+
+    def draw_hoop(self, painter: Painter, camera: Camera, t: float, near: bool) -> None:
+        """Board, ring and net, those parts that are before the ball or those that are not."""
+        eye = self.eye(camera)
+        if self.answering is not None:
+            down = hoop.shaken(self.run, self.answering) * eye.camera.scale
+            x, y = eye.camera.anchor
+            eye = replace(eye, camera=replace(eye.camera, anchor=(x, y + down)))
+        if near:
+            self.net.draw(painter, eye, near, t)
+        for thing in self.hoop:
+            if thing.near == near:
+                thing.draw(painter, eye)
+        if not near:
+            self.net.draw(painter, eye, near, t)
+
     def behind(self, painter: Painter, camera: Camera, t: float) -> None:
-        self.net.draw(painter, self.eye(camera), False, t)
+        self.draw_hoop(painter, camera, t, near=False)
 
     def before(self, painter: Painter, camera: Camera, t: float) -> None:
-        self.net.draw(painter, self.eye(camera), True, t)
+        self.draw_hoop(painter, camera, t, near=True)
         super().before(painter, camera, t)
 
     @property

@@ -57,6 +57,8 @@ TURF, HOLLOW, LEAST_CUP = 7, 16, 10
 #: A ball that ends so near to the cup, in m, is decided there.
 CLOSE = 0.5
 
+#: A flag over a ball that is holed flutters so much wider, in px on 720 rows, and as before after so many s.
+LIVELY, CALMS = 3.0, 2.0
 #: A pin as near as this, in m, is in the picture of a putt however short it is.
 NEAR_PIN = 15.0
 
@@ -229,11 +231,19 @@ class Picture(SideView[Parameters]):
         foot = ground + (deep if deep > LEAST_CUP * unit else 3 * unit if deep else 0.0)
         painter.shadow((x + 12 * unit, ground - unit), 16 * unit, 2.5 * unit, CARD["shadow"], 0.3)
         painter.trace([(x, foot), (x, top)], max(2.0, 2.6 * unit), HOLE["pole"], CARD["shadow"], 0.7 * unit)
-        share = np.linspace(0, 1, 9)
+        share, wide = np.linspace(0, 1, 9), (1.6 + self._lively()) * unit
         along = x + (-1 if self.wind[0] < 0 else 1) * 30 * unit * share
-        wave = top + np.array([1.6 * unit * s * sin(5 * s - 9 * t) for s in share])
+        t = t if self.answering is None else self.answering
+        wave = top + np.array([wide * s * sin(5 * s - 9 * t) for s in share])
         edges = np.concatenate([wave + 9 * unit * share, (wave + (19 - 9 * share) * unit)[::-1]])
         painter.polygon(np.column_stack([[*along, *along[::-1]], edges]), HOLE["flag"])
+
+    def _lively(self) -> float:
+        """How much more the flag flutters now that the ball is in the cup, in px on 720 rows."""
+        if self.answering is None or not self.run.result["holed"]:
+            return 0.0
+        since = self.answering - self.decided
+        return LIVELY * max(0.0, 1.0 - since / CALMS) if since > 0.0 else 0.0
 
     @property
     def standing(self) -> Sequence[Thing]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import cached_property
 from itertools import chain, product
-from math import dist
+from math import dist, inf
 
 import numpy as np
 import pygame
@@ -19,6 +19,7 @@ from sandbox.kit import (
     Box,
     Camera,
     Colour,
+    Event,
     Look,
     Mark,
     Painter,
@@ -28,6 +29,7 @@ from sandbox.kit import (
     near,
     scene_colours,
 )
+from sandbox.picture.answer import Pulled
 from sandbox.picture.places.plan import Ground, Kit, Line, Person, Plan, Point, Spot, Worn, arc
 from sandbox.sport.dive import place_of
 
@@ -126,6 +128,30 @@ class Picture(AboveView[Parameters]):
             return dives
         x, y, *_ = self.run.state(name, t)
         return x, y
+
+    @cached_property
+    def goal(self) -> Event | None:
+        """The goal, if it is one."""
+        return next((e for e in self.run.events if e.kind == "caught" and e.ball == "puck"), None)
+
+    @cached_property
+    def pulled(self) -> Sequence[Pulled]:
+        """The back of the net behind a goal, too, which ends the run."""
+        nets, goal, half = [*super().pulled], self.goal, 0.5 * self.parameters.rink.goal_width
+        if goal is not None and not self.table:
+            _, _, vx, vy, _ = self.run.before("puck", goal.t)
+            back = self.parameters.rink.line + DEPTH
+            far = back - goal.x
+            y = goal.y + far * vy / vx
+            nets.append(Pulled(goal.t, (back, y), (1.0, 0.0), (half - y, y + half), vx, True, COLOURS["net"]))
+        return nets
+
+    def position_of(self, name: str, t: float) -> Point:
+        """A puck in the goal goes on into the net, as that answers."""
+        if self.answering is None or self.table or t < self.caught.get(name, inf):
+            return super().position_of(name, t)
+        (x, y), (nx, _) = self.pulled[-1].at, self.pulled[-1].normal
+        return x - nx * self.radii[name], y
 
     def draw_driven(self, painter: Painter, camera: Camera, t: float, opacity: float = 1.0) -> None:
         """Nothing moves but the goalie, who is drawn as a person."""

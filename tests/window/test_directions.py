@@ -14,7 +14,7 @@ WINDOW = Path(sandbox.window.__file__).parent
 
 #: A module may import, late or for types too, only from rows above its own.
 ROWS = (
-    {"background", "best", "contest", "history", "layout", "memory", "messages", "sound"},
+    {"background", "best", "contest", "desktop", "history", "layout", "memory", "messages", "sound"},
     {"canvas", "jobs", "shots"},
     {"bar", "charts", "decathlon", "fan_card", "prediction"},
     {"fan", "live", "measure", "session", "stage"},

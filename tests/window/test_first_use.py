@@ -106,6 +106,29 @@ def test_recent_files_are_remembered_the_last_first(tmp_path):
     assert len(memory.recent) == MOST
 
 
+def test_less_motion_as_the_desktop_asks_until_chosen(tmp_path):
+    file = tmp_path / "window.json"
+    memory = Memory(file, less_motion=True)
+    assert (memory.still, memory.calm) == (True, True)
+    memory.calm = False
+    memory.save()
+    again, elsewhere = Memory(file, less_motion=True), Memory(file, less_motion=False)
+    assert (again.still, again.calm) == (True, False)
+    assert (elsewhere.still, elsewhere.calm) == (False, False)
+
+
+def test_nothing_that_is_hit_answers_with_confetti_off(remembering):
+    shown, game = remembering.view.shown, remembering.game
+    shown.on.add("view")
+    remembering.key(pygame.K_SPACE)
+    assert shown.answering == game.watching.playback.camera_time
+    remembering.key(pygame.K_5)
+    assert shown.answering is None
+    remembering.key(pygame.K_5)
+    shown.on.discard("view")  # the camera stands still: less motion
+    assert shown.answering is None
+
+
 @pytest.mark.parametrize("text", ["", "[1]", '{"recent": 5}', '{"recent": [5], "followed": null}'])
 def test_a_damaged_memory_is_no_matter(tmp_path, text):
     file = tmp_path / "window.json"

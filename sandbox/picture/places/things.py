@@ -20,7 +20,9 @@ from sandbox.picture.sheet import rows_of
 
 _PERSON, SHADOW = palette("person"), palette("card")["shadow"]
 #: Of posts and nets of a scene that has no colours of its own.
-_POST, _MESH = palette("plain")["surface"], (236, 240, 244)
+_POST, MESH = palette("plain")["surface"], (236, 240, 244)
+#: Width of the mesh of a net, in m, unless it says otherwise.
+MESH_WIDTH = 0.12
 
 #: The least that is drawn of a net's mesh, of a post's width and of a person's height, px on 720 rows.
 _LEAST_MESH, _LEAST_POST, _LEAST_PERSON = 4.0, 1.8, 30.0
@@ -58,9 +60,9 @@ class Net:
     """Flat nets, each from a corner along two edges (m), with meshes ``mesh`` m wide."""
 
     planes: Sequence[tuple[_Point3, _Point3, _Point3]]
-    colour: Colour = _MESH
+    colour: Colour = MESH
     opacity: float = 0.5
-    mesh: float = 0.12
+    mesh: float = MESH_WIDTH
     near: bool = False
 
     @property
