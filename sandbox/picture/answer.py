@@ -1,5 +1,6 @@
-"""What is hit answers: a net is pulled out, a ring shakes. Drawn apart from the physics, in which nothing gives way; the
-rates and lengths are assumed."""
+"""What is hit answers: a net is pulled out, a ring shakes. Drawn apart from the physics, in which nothing gives way.
+
+The rates and lengths are assumed."""
 
 from __future__ import annotations
 

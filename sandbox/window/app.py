@@ -224,7 +224,9 @@ def play(
             _load_there(worker, shown, changes)
         first = replay.read(Path(shown), scene).changes if recorded else Changes(shown, dict(changes))
         session = Session(first.source, first.values)
-        played = Game(session, worker, helper=helper, memory=Memory(usual_place(), reduces_motion()), best=BestList(usual_file()))
+        played = Game(
+            session, worker, helper=helper, memory=Memory(usual_place(), reduces_motion()), best=BestList(usual_file())
+        )
         with opened(f"{session.title} – Sports sandbox", played.memory.size) as screen:
             if recorded:
                 played.opening.open_replay(Path(shown), scene)
