@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import cache, reduce
 from types import FunctionType
 from typing import Any
@@ -137,8 +137,25 @@ def of_floats(law: Any) -> Any:
 
 @cache
 def _made_of_floats(law: FunctionType) -> Any:
-    named = {name: law.__globals__.get(name) for name in law.__code__.co_names}
-    instead = {name: _OF_FLOATS.get(f) or of_floats(f) for name, f in named.items() if isinstance(f, FunctionType)}
-    if all(instead[name] is named[name] for name in instead):
-        return law
-    return FunctionType(law.__code__, {**law.__globals__, **instead}, law.__name__, law.__defaults__, law.__closure__)
+    return remade(law, _OF_FLOATS)
+
+
+def remade(function: Any, others: Mapping[Any, Any]) -> Any:
+    """Return a function with the same code that calls ``others`` in place of some of the sandbox's functions, and so do
+    all that it calls; itself, where nothing changes."""
+    return _remade(function, others, {})
+
+
+def _remade(function: Any, others: Mapping[Any, Any], made: dict[Any, Any]) -> Any:
+    if function in others:
+        return others[function]
+    if not (isinstance(function, FunctionType) and function.__module__.startswith("sandbox.")):
+        return function
+    if function not in made:
+        named = {name: function.__globals__.get(name) for name in function.__code__.co_names}
+        instead = {name: _remade(f, others, made) for name, f in named.items() if isinstance(f, FunctionType)}
+        changed = any(instead[name] is not named[name] for name in instead)
+        globals_, closure = {**function.__globals__, **instead}, function.__closure__
+        code, defaults = function.__code__, function.__defaults__
+        made[function] = FunctionType(code, globals_, function.__name__, defaults, closure) if changed else function
+    return made[function]

@@ -8,22 +8,16 @@ any speed.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from functools import lru_cache
-from math import sqrt
+from math import inf, sqrt
 from typing import Any, NamedTuple
 
+from sandbox.engine.contact.fixed_touch import first_touch, first_within
 from sandbox.engine.model.surface import Circle, Segment, Surface
-from sandbox.engine.model.tolerances import FLUSH, GAP_ROUNDING, SEAM, SKIN, TINY, TOUCHING_GAP
+from sandbox.engine.model.tolerances import FLUSH, SEAM, SKIN, TINY, TOUCHING_GAP
 from sandbox.engine.paths.arc import Arc
-from sandbox.engine.paths.bernstein import (
-    downward_crossings,
-    elevate,
-    evaluate,
-    piece,
-    squared_length,
-    without_root_at_start,
-)
+from sandbox.engine.paths.bernstein import crossing, elevate, piece
 from sandbox.physics.elementwise import hypot, maximum, minimum, where
 
 Point = tuple[Any, Any]
@@ -190,8 +184,8 @@ class Obstacle:
             _CORNER_A: ([-s for s in along],),
             _CORNER_B: ([s - length for s in along],),
         }
-        found = (next(downward_crossings(end), None) for end in ends[feature])
-        return min((u for u in found if u is not None), default=None)
+        u = min([crossing(end, -1.0) for end in ends[feature]])
+        return u if u < inf else None
 
     def on_feature(self, feature: int, x: float, y: float) -> Touching:
         """Gap and normal of a ball centred at (x, y) to this feature."""
@@ -205,35 +199,8 @@ class Obstacle:
 
     def first_touch(self, arc: Arc) -> float | None:
         """The first u in [0, 1] of the arc at which the ball starts to touch, or None."""
-        ax, ay, bx, by, reach, length, tx, ty = self.outline
-        radius = reach - self.skin
-        if length == 0.0:
-            return _corner(arc, ax, ay, radius)
-        across = [(y - ay) * tx - (x - ax) * ty for x, y in zip(arc.curves[0], arc.curves[1], strict=True)]
-        low, high = min(across), max(across)
-        if low > reach or high < -reach:
-            return None
-        touches = (_corner(arc, ax, ay, radius), self._side(arc, across, low, high), _corner(arc, bx, by, radius))
-        return min((u for u in touches if u is not None), default=None)
-
-    def _side(self, arc: Arc, across: Sequence[float], low: float, high: float) -> float | None:
-        xs, ys, reach = arc.curves[0], arc.curves[1], self.outline.reach
-        first = None
-        for side in (1.0, -1.0):
-            farthest = high if side > 0.0 else -low
-            if farthest - reach + self.skin <= -GAP_ROUNDING and side * across[0] <= 0.0:
-                continue  # entirely beyond the line
-            gap = [side * d - reach + self.skin for d in across]
-            for u in _closings(gap, side * across[0] > 0.0 and self._within(xs[0], ys[0], TOUCHING_GAP)):
-                if first is not None and u >= first:
-                    break
-                if self._within(evaluate(xs, u), evaluate(ys, u)):
-                    first = u
-                    break
-        return first
-
-    def _within(self, x: float, y: float, margin: float = 0.0) -> bool:
-        return -margin <= self.outline.along(x, y) <= self.outline.length + margin
+        u = first_touch(self.outline, arc.curves[0], arc.curves[1], self.skin)
+        return u if u < inf else None
 
 
 Near = tuple[Obstacle, Touching]
@@ -250,47 +217,6 @@ def touched(obstacles: Sequence[Obstacle], x: float, y: float, gap: float = TOUC
             if touching.gap <= gap:
                 found.append((obstacle, touching))
     return found
-
-
-def _corner(arc: Arc, x: float, y: float, radius: float) -> float | None:
-    left, bottom, right, top = arc.box()
-    if x - radius > right or x + radius < left or y - radius > top or y + radius < bottom:
-        return None
-    return _first_within(arc.curves[0], arc.curves[1], (x, y), radius)
-
-
-def _first_within(xs: Sequence[float], ys: Sequence[float], center: Point, radius: float) -> float | None:
-    """First u at which a path comes within ``radius`` of a point."""
-    cx, cy = center
-    dx = [x - cx for x in xs]
-    dy = [y - cy for y in ys]
-    if min(dx) > radius or max(dx) < -radius or min(dy) > radius or max(dy) < -radius:
-        return None
-    # all control points are beyond a tangent of the circle, towards the path's middle or square to it: no touch
-    middle, ex, ey = len(dx) // 2, dx[-1] - dx[0], dy[-1] - dy[0]
-    if dx[0] * ey < dy[0] * ex:
-        ex, ey = -ex, -ey
-    for mx, my in ((dx[middle], dy[middle]), (ey, -ex)):
-        if min([x * mx + y * my for x, y in zip(dx, dy, strict=True)]) > radius * sqrt(mx * mx + my * my):
-            return None
-    inner, over = radius * radius, 0.5 / radius
-    gap = [over * (square - inner) for square in squared_length(dx, dy)]
-    return next(iter(_closings(gap, True)), None)
-
-
-def _closings(gap: list[float], starts_touching: bool) -> Iterable[float]:
-    """Times u at which a gap closes. One that is closed at the start, within rounding, counts only if it closes
-    further.
-    """
-    if len(gap) == 1:
-        return ()  # nothing moves
-    if starts_touching and gap[0] <= GAP_ROUNDING:
-        opening = without_root_at_start([g - gap[0] for g in gap])
-        if opening[0] < -GAP_ROUNDING:
-            # closing, but perhaps only by rounding, as when a ball that slides along a side passes its end
-            return downward_crossings([g - gap[0] + GAP_ROUNDING for g in gap])
-        return downward_crossings([g + GAP_ROUNDING for g in opening])
-    return downward_crossings(gap)
 
 
 def balls_touch(first: Arc, second: Arc, reach: float, t: float, skin: float = SKIN) -> float | None:
@@ -317,8 +243,8 @@ def balls_touch(first: Arc, second: Arc, reach: float, t: float, skin: float = S
     degree = max(len(xs), len(us)) - 1
     dx = [a - b for a, b in zip(elevate(xs, degree), elevate(us, degree), strict=True)]
     dy = [a - b for a, b in zip(elevate(ys, degree), elevate(vs, degree), strict=True)]
-    u = _first_within(dx, dy, (0.0, 0.0), reach - skin)
-    return None if u is None else t + u * (until - t)
+    u = first_within(dx, dy, reach - skin)
+    return t + u * (until - t) if u < inf else None
 
 
 def _between(arc: Arc, t: float, until: float) -> tuple[Sequence[float], Sequence[float]]:

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from math import inf
 from typing import Any
 
-from sandbox.engine.contact.quintic_touch import first_touch, nearest
+from sandbox.engine.contact.fixed_touch import first_touch_of_quintics, nearest
 from sandbox.engine.contact.surfaces import press, takeoff_speed, tilted
 from sandbox.engine.kernel import laws
 from sandbox.engine.kernel.laws import BALL_RADIUS, FACTOR, MASS, Row
@@ -28,7 +28,7 @@ from sandbox.physics.impulse import after_plane_impulse, exchange, plane_speeds
 #: step is an error; there is no room for more rows.
 DURATION, UNTIL, BEFORE_IMPACT, AFTER_IMPACT, ERROR, _FULL = range(6)
 
-#: Places in the row of a surface: the shape's as in ``quintic_touch.py``, its box, and how it responds: the height of
+#: Places in the row of a surface: the shape's as in ``fixed_touch.py``, its box, and how it responds: the height of
 #: its lowest bounce in m, its kick in N s, its contact law with four numbers.
 _LEFT, _BOTTOM, _RIGHT, _TOP, LOWEST, KICK, LAW, _LAW_A, _LAW_B, _LAW_C, _LAW_D = range(8, 19)
 SURFACE_COLUMNS = _LAW_D + 1
@@ -125,7 +125,7 @@ def fly(
                 and top >= surface[_BOTTOM]
             ):
                 queries += 1
-                u = min(u, first_touch(surface, xs, ys, skin))
+                u = min(u, first_touch_of_quintics(surface, xs, ys, skin))
         t0, start, t = t, state, t + h
         if u < inf:
             t = t0 + u * h

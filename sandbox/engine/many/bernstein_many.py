@@ -76,7 +76,7 @@ def without_root(b: np.ndarray) -> np.ndarray:
 
 @lru_cache
 def _dividing(n: int) -> np.ndarray:
-    return np.array([elevate(without_root_at_start(one), n) for one in np.eye(n + 1).tolist()]).T
+    return np.array([without_root_at_start(one) for one in np.eye(n + 1).tolist()]).T
 
 
 def first_part(b: np.ndarray, u: np.ndarray) -> np.ndarray:

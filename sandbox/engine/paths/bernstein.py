@@ -10,9 +10,13 @@ Source: Farin, Curves and Surfaces for CAGD, 5th ed., chapters 4 to 6.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import cache
-from math import comb
+from math import comb, inf
+from typing import Any
+
+from sandbox.engine.paths import quintic
+from sandbox.physics.elementwise import remade
 
 #: After a Newton step shorter than this, the error is its square times a moderate factor, which is rounding.
 CONVERGED = 1e-12
@@ -55,13 +59,8 @@ def first_part(b: Sequence[float], u: float) -> list[float]:
     """Return the coefficients on [0, u], by de Casteljau: each level takes the weighted mean of neighbours in the level
     before, and the first of each level is a coefficient."""
     w, degree = 1.0 - u, len(b) - 1
-    if 3 <= degree <= 5:  # as those of a ball's path, written out: a coefficient depends only on those before it
-        b0, b1, b2, b3, b4, b5 = (*b, 0.0, 0.0, 0.0, 0.0, 0.0)[:6]
-        b1, b2, b3, b4, b5 = w * b0 + u * b1, w * b1 + u * b2, w * b2 + u * b3, w * b3 + u * b4, w * b4 + u * b5
-        b2, b3, b4, b5 = w * b1 + u * b2, w * b2 + u * b3, w * b3 + u * b4, w * b4 + u * b5
-        b3, b4, b5 = w * b2 + u * b3, w * b3 + u * b4, w * b4 + u * b5
-        b4, b5 = w * b3 + u * b4, w * b4 + u * b5
-        return [b0, b1, b2, b3, b4, w * b4 + u * b5][: degree + 1]
+    if 3 <= degree <= 5:  # as those of a ball's path: a coefficient depends only on those before it
+        return [*quintic.first_part((*b, 0.0, 0.0)[:6], u)[: degree + 1]]  # type: ignore[arg-type]
     left = list(b)
     for level in range(1, degree + 1):
         for k in range(degree, level - 1, -1):
@@ -121,33 +120,88 @@ def products(count: int) -> Sequence[tuple[int, int, float]]:
     ]
 
 
-def without_root_at_start(b: Sequence[float]) -> list[float]:
-    """Return the coefficients of f(u) / u, where f(0) is taken as exactly zero."""
+def without_root_at_start(b: Sequence[float]) -> Sequence[float]:
+    """Return the coefficients of (f(u) - f(0)) / u, at the degree of f."""
     n = len(b) - 1
-    return [b[k + 1] * n / (k + 1) for k in range(n)]
+    return elevate([(b[k + 1] - b[0]) * n / (k + 1) for k in range(n)] or [0.0], n)
+
+
+def plus(b: Sequence[float], c: float) -> Sequence[float]:
+    """Return the coefficients of f(u) + c."""
+    return [value + c for value in b]
+
+
+def times(b: Sequence[float], c: float) -> Sequence[float]:
+    """Return the coefficients of c f(u)."""
+    return [c * value for value in b]
+
+
+def moved(b: Sequence[float], c: float) -> Sequence[float]:
+    """Return the coordinate of a path as seen from a place."""
+    return [value - c for value in b]
+
+
+def across(xs: Sequence[float], ys: Sequence[float], tx: float, ty: float) -> Sequence[float]:
+    """Return the distance of a path from the line through 0 along (tx, ty), positive to its left."""
+    return [y * tx - x * ty for x, y in zip(xs, ys, strict=True)]
+
+
+def as_squared(b: Sequence[float]) -> Sequence[float]:
+    """Return a distance as it can be compared with squared ones: those of a quintic path are of degree 10."""
+    return b
+
+
+def halves(b: Sequence[float]) -> tuple[Sequence[float], Sequence[float]]:
+    """Return the coefficients on [0, 1/2] and on [1/2, 1]."""
+    return first_part(b, 0.5), last_part(b, 0.5)
 
 
 def downward_crossings(b: Sequence[float]) -> Iterator[float]:
     """Yield every u in [0, 1] where f goes from positive to negative, in ascending order."""
+    u = crossing(b, -1.0)
+    while u < inf:
+        yield u
+        u = crossing(b, u)
+
+
+def crossing(b: Any, after: float) -> float:
+    """The first u > ``after`` in [0, 1] where f goes from positive to negative, inf if there is none: halving isolates
+    each root, from left to right.
+
+    The piece looked at is the ``place``-th of 2**depth, found by halving anew: a path that comes so near to a root
+    twice that signs do not tell them apart is rare, and no list is needed."""
     if min(b) > 0.0 or max(b) <= 0.0:
-        return
-    pieces = [(b, 0.0, 1.0, 0, False)]  # coefficients on [u0, u1], halvings so far, and True if f crosses zero at u0
-    while pieces:
-        b, u0, u1, depth, crosses_at_start = pieces.pop()
-        if crosses_at_start:
-            yield u0
-        changes, last = _sign_changes(b)
+        return inf
+    depth, place = 0, 0
+    while True:
+        part, wide, starts = b, 1.0, False
+        for level in range(depth - 1, -1, -1):
+            left, right = halves(part)
+            wide *= 0.5
+            if (place >> level) % 2 == 0:
+                part, starts = left, False
+            else:
+                part, starts = right, left[-1] == 0.0 and left[-2] > 0.0 > right[1]
+        u0 = place * wide
+        if starts and u0 > after:
+            return u0
+        changes, last = _sign_changes(part)
         if changes == 1:
             if last < 0.0:  # it ends negative, so it started positive
-                yield u0 + (u1 - u0) * _single_root(b)
+                u = u0 + wide * _single_root(part)
+                if u > after:
+                    return u
         elif changes > 1 and depth == _DEEPEST:
-            if b[0] > 0.0 > b[-1]:
-                yield u0
+            if part[0] > 0.0 > part[-1] and u0 > after:
+                return u0
         elif changes > 1:
-            middle = 0.5 * (u0 + u1)
-            left, right = first_part(b, 0.5), last_part(b, 0.5)
-            pieces.append((right, middle, u1, depth + 1, left[-1] == 0.0 and left[-2] > 0.0 > right[1]))
-            pieces.append((left, u0, middle, depth + 1, False))  # the next to be looked at
+            depth, place = depth + 1, 2 * place
+            continue
+        while place % 2 == 1:  # on to the next piece
+            depth, place = depth - 1, place // 2
+        if depth == 0:
+            return inf
+        place += 1
 
 
 def _sign_changes(b: Sequence[float]) -> tuple[int, float]:
@@ -161,7 +215,7 @@ def _sign_changes(b: Sequence[float]) -> tuple[int, float]:
     return changes, last
 
 
-def _single_root(b: Sequence[float]) -> float:
+def _single_root(b: Any) -> float:
     """Return the root of a polynomial with exactly one in [0, 1], where it falls: Newton, kept inside a bracket."""
     slopes, low, high = derivative(b), 0.0, 1.0
     back, slopes_back = b[::-1], slopes[::-1]
@@ -169,9 +223,11 @@ def _single_root(b: Sequence[float]) -> float:
     for _ in range(100):
         w = 1.0 - u  # f and df/du, both over w^(n - 1) or u^(n - 1)
         if u <= w:
-            value, fall = _horner(back, u / w) * w, _horner(slopes_back, u / w)
+            value, fall = _value_and_slope(back, slopes_back, u / w)
+            value = value * w
         else:
-            value, fall = _horner(b, w / u) * u, _horner(slopes, w / u)
+            value, fall = _value_and_slope(b, slopes, w / u)
+            value = value * u
         if value == 0.0 and fall < 0.0:
             return u
         if value < 0.0:
@@ -185,3 +241,30 @@ def _single_root(b: Sequence[float]) -> float:
             following = 0.5 * (low + high)
         u = following
     return u
+
+
+def _value_and_slope(b: Sequence[float], slopes: Sequence[float], r: float) -> tuple[float, float]:
+    """Return both as ``_horner`` does."""
+    return _horner(b, r), _horner(slopes, r)
+
+
+#: Functions of this module that quintic.py has written out for a path of degree 5, or its distances of degree 10.
+_WRITTEN_OUT: dict[Callable[..., Any], Callable[..., Any]] = {
+    evaluate: quintic.evaluate,
+    derivative: quintic.derivative,
+    squared_length: quintic.squared_length,
+    without_root_at_start: quintic.without_root_at_start,
+    plus: quintic.plus,
+    times: quintic.times,
+    moved: quintic.moved,
+    across: quintic.across,
+    as_squared: quintic.as_squared,
+    halves: quintic.halves,
+    _value_and_slope: quintic.value_and_slope,
+}
+
+
+def of_quintics(function: Any) -> Any:
+    """Return a function of paths as it is for tuples of degree 5: the same code, with what is written out for them, as
+    numba takes it."""
+    return remade(function, _WRITTEN_OUT)

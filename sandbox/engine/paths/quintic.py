@@ -1,40 +1,41 @@
 """Polynomials of degree 5 and 10 on [0, 1] in Bernstein form, as tuples of floats: those of a ball's path after a step,
 and of its distance from a fixed shape.
 
-The same as in ``bernstein.py``, written out for these degrees, in what both Python and numba take: the kernel runs
-interpreted or compiled.
+What ``bernstein.py`` does with loops for any degree is written out here for these, in what both Python and numba take.
 """
 
 from __future__ import annotations
 
-from math import inf
-
-#: After a Newton step shorter than this, the error is its square times a moderate factor, which is rounding.
-CONVERGED = 1e-12
-
-#: Deepest halving of [0, 1]: two roots closer than 2**-40 of the interval count as a touch without crossing.
-_DEEPEST = 40
-
-#: Coefficients of polynomials of degree 3, 4, 5 and 10.
+#: Coefficients of polynomials of degree 3, 4, 5, 9 and 10.
 _Cubic = tuple[float, float, float, float]
 _Quartic = tuple[float, float, float, float, float]
 Quintic = tuple[float, float, float, float, float, float]
+_Nonic = tuple[float, float, float, float, float, float, float, float, float, float]
 Decic = tuple[float, float, float, float, float, float, float, float, float, float, float]
 
 
-def _horner(b0: float, b1: float, b2: float, b3: float, b4: float, b5: float, r: float) -> float:
-    """Return sum_k C(5, k) b[k] r^(5 - k)."""
-    return ((((b0 * r + 5.0 * b1) * r + 10.0 * b2) * r + 10.0 * b3) * r + 5.0 * b4) * r + b5
+def evaluate(b: Quintic, u: float) -> float:
+    """Return f(u)."""
+    return first_part(b, u)[5]
 
 
-def at(b: Quintic, u: float) -> float:
-    """Return f(u), by Horner's rule in u / (1 - u) or its inverse, whichever is at most 1."""
-    w = 1.0 - u
-    if u <= w:
-        s = w * w
-        return _horner(b[5], b[4], b[3], b[2], b[1], b[0], u / w) * (s * s * w)
-    s = u * u
-    return _horner(b[0], b[1], b[2], b[3], b[4], b[5], w / u) * (s * s * u)
+def moved(b: Quintic, c: float) -> Quintic:
+    """Return the coordinate of a path as seen from a place."""
+    return b[0] - c, b[1] - c, b[2] - c, b[3] - c, b[4] - c, b[5] - c
+
+
+def across(xs: Quintic, ys: Quintic, tx: float, ty: float) -> Quintic:
+    """Return the distance of a path from the line through 0 along (tx, ty), positive to its left."""
+    x0, x1, x2, x3, x4, x5 = xs
+    y0, y1, y2, y3, y4, y5 = ys
+    return (
+        y0 * tx - x0 * ty,
+        y1 * tx - x1 * ty,
+        y2 * tx - x2 * ty,
+        y3 * tx - x3 * ty,
+        y4 * tx - x4 * ty,
+        y5 * tx - x5 * ty,
+    )
 
 
 def first_part(b: Quintic, u: float) -> Quintic:
@@ -61,7 +62,7 @@ def first_of_cubic(b: _Cubic, u: float) -> _Cubic:
     return b0, b1, b2, b3
 
 
-def elevated(b: Quintic) -> Decic:
+def as_squared(b: Quintic) -> Decic:
     """Return the same polynomial at degree 10."""
     b0, b1, b2, b3, b4, b5 = b
     return (
@@ -102,6 +103,28 @@ def plus(b: Decic, c: float) -> Decic:
     """Return the coefficients of f(u) + c."""
     b0, b1, b2, b3, b4, b5, b6, b7, b8, b9, b10 = b
     return b0 + c, b1 + c, b2 + c, b3 + c, b4 + c, b5 + c, b6 + c, b7 + c, b8 + c, b9 + c, b10 + c
+
+
+def times(b: Decic, c: float) -> Decic:
+    """Return the coefficients of c f(u)."""
+    b0, b1, b2, b3, b4, b5, b6, b7, b8, b9, b10 = b
+    return c * b0, c * b1, c * b2, c * b3, c * b4, c * b5, c * b6, c * b7, c * b8, c * b9, c * b10
+
+
+def derivative(b: Decic) -> _Nonic:
+    """Return the coefficients of df/du."""
+    b0, b1, b2, b3, b4, b5, b6, b7, b8, b9, b10 = b
+    d0, d1, d2, d3, d4 = 10.0 * (b1 - b0), 10.0 * (b2 - b1), 10.0 * (b3 - b2), 10.0 * (b4 - b3), 10.0 * (b5 - b4)
+    d5, d6, d7, d8 = 10.0 * (b6 - b5), 10.0 * (b7 - b6), 10.0 * (b8 - b7), 10.0 * (b9 - b8)
+    return d0, d1, d2, d3, d4, d5, d6, d7, d8, 10.0 * (b10 - b9)
+
+
+def value_and_slope(b: Decic, d: _Nonic, r: float) -> tuple[float, float]:
+    """Return sum_k C(10, k) b[k] r^(10 - k), and the same of the derivative d."""
+    f = ((((b[0] * r + 10.0 * b[1]) * r + 45.0 * b[2]) * r + 120.0 * b[3]) * r + 210.0 * b[4]) * r + 252.0 * b[5]
+    f = ((((f * r + 210.0 * b[6]) * r + 120.0 * b[7]) * r + 45.0 * b[8]) * r + 10.0 * b[9]) * r + b[10]
+    s = (((d[0] * r + 9.0 * d[1]) * r + 36.0 * d[2]) * r + 84.0 * d[3]) * r + 126.0 * d[4]
+    return f, ((((s * r + 126.0 * d[5]) * r + 84.0 * d[6]) * r + 36.0 * d[7]) * r + 9.0 * d[8]) * r + d[9]
 
 
 def without_root_at_start(b: Decic) -> Decic:
@@ -153,92 +176,3 @@ def halves(b: Decic) -> tuple[Decic, Decic]:
     r0, r1 = 0.5 * (r0 + r1), 0.5 * (r1 + r2)
     l9, r0 = r0, 0.5 * (r0 + r1)
     return (l0, l1, l2, l3, l4, l5, l6, l7, l8, l9, r0), (r0, r1, r2, r3, r4, r5, r6, r7, r8, r9, r10)
-
-
-def crossing(b: Decic, after: float) -> float:
-    """The first u > ``after`` in [0, 1] where f goes from positive to negative, inf if there is none: halving isolates
-    each root, from left to right.
-
-    The piece looked at is the ``place``-th of 2**depth, found by halving anew: a path that comes so near to a root
-    twice that signs do not tell them apart is rare, and no list is needed."""
-    if min(b) > 0.0 or max(b) <= 0.0:
-        return inf
-    depth, place = 0, 0
-    while True:
-        part, wide, starts = b, 1.0, False
-        for level in range(depth - 1, -1, -1):
-            left, right = halves(part)
-            wide *= 0.5
-            if (place >> level) % 2 == 0:
-                part, starts = left, False
-            else:
-                part, starts = right, left[10] == 0.0 and left[9] > 0.0 > right[1]
-        u0 = place * wide
-        if starts and u0 > after:
-            return u0
-        changes, last = _sign_changes(part)
-        if changes == 1:
-            if last < 0.0:  # it ends negative, so it started positive
-                u = u0 + wide * _single_root(part)
-                if u > after:
-                    return u
-        elif changes > 1 and depth == _DEEPEST:
-            if part[0] > 0.0 > part[10] and u0 > after:
-                return u0
-        elif changes > 1:
-            depth, place = depth + 1, 2 * place
-            continue
-        while place % 2 == 1:  # on to the next piece
-            depth, place = depth - 1, place // 2
-        if depth == 0:
-            return inf
-        place += 1
-
-
-def _sign_changes(b: Decic) -> tuple[int, float]:
-    """Return how often the coefficients change sign, and the last one that is not zero."""
-    changes, last = 0, b[0]
-    for value in b:
-        if value > 0.0 > last or value < 0.0 < last:
-            changes += 1
-        if value != 0.0:
-            last = value
-    return changes, last
-
-
-def _single_root(b: Decic) -> float:
-    """Return the root of a polynomial with exactly one in [0, 1], where it falls: Newton, kept inside a bracket."""
-    low, high = 0.0, 1.0
-    u = b[0] / (b[0] - b[10]) if b[0] > 0.0 > b[10] else 0.5
-    for _ in range(100):
-        value, fall = _value_and_slope(b, u)
-        if value == 0.0 and fall < 0.0:
-            return u
-        if value < 0.0:
-            high = u
-        else:
-            low = u
-        following = u - value / fall if fall < 0.0 else low  # where it rises the root is only rounding
-        if (fall < 0.0 and abs(following - u) <= CONVERGED) or high - low <= 1e-16:
-            return min(max(following, low), high)
-        if not low < following < high:
-            following = 0.5 * (low + high)
-        u = following
-    return u
-
-
-def _value_and_slope(b: Decic, u: float) -> tuple[float, float]:
-    """Return f(u) and df/du, both over w^9 or u^9, with w = 1 - u."""
-    b0, b1, b2, b3, b4, b5, b6, b7, b8, b9, b10 = b
-    w = 1.0 - u
-    if u <= w:
-        b0, b1, b2, b3, b4, b5, b6, b7, b8, b9, b10 = b10, b9, b8, b7, b6, b5, b4, b3, b2, b1, b0
-        r, over, sign = u / w, w, -10.0
-    else:
-        r, over, sign = w / u, u, 10.0
-    f = ((((b0 * r + 10.0 * b1) * r + 45.0 * b2) * r + 120.0 * b3) * r + 210.0 * b4) * r + 252.0 * b5
-    f = ((((f * r + 210.0 * b6) * r + 120.0 * b7) * r + 45.0 * b8) * r + 10.0 * b9) * r + b10
-    d = (((b1 - b0) * r + 9.0 * (b2 - b1)) * r + 36.0 * (b3 - b2)) * r + 84.0 * (b4 - b3)
-    d = ((d * r + 126.0 * (b5 - b4)) * r + 126.0 * (b6 - b5)) * r + 84.0 * (b7 - b6)
-    d = ((d * r + 36.0 * (b8 - b7)) * r + 9.0 * (b9 - b8)) * r + (b10 - b9)
-    return f * over, sign * d

@@ -93,20 +93,21 @@ def test_compile_without_numba_says_what_is_missing(monkeypatch: pytest.MonkeyPa
 
 def test_quintics_are_those_of_any_degree() -> None:
     numbers = random.Random(5)
+    crossing = bernstein.of_quintics(bernstein.crossing)
     for _ in range(400):
         x, y = (tuple(numbers.uniform(-1.0, 1.0) for _ in range(6)) for _ in range(2))
         u = numbers.random()
-        assert quintic.at(x, u) == pytest.approx(bernstein.evaluate(x, u), abs=1e-14)
-        assert [*quintic.first_part(x, u)] == pytest.approx(bernstein.first_part(x, u), abs=1e-15)
-        assert [*quintic.elevated(x)] == pytest.approx([*bernstein.elevate(x, 10)], abs=1e-14)
-        assert [*quintic.squared_length(x, y)] == pytest.approx(bernstein.squared_length(x, y), abs=1e-14)
-        b = tuple(value - 0.5 for value in quintic.squared_length(x, y))
-        left, right = quintic.halves(b)
-        assert [*left, *right] == pytest.approx(
-            [*bernstein.first_part(b, 0.5), *bernstein.last_part(b, 0.5)], abs=1e-14
-        )
-        roots = [*bernstein.downward_crossings(b)]
-        found = [quintic.crossing(b, -1.0)]
+        assert quintic.evaluate(x, u) == pytest.approx(bernstein.evaluate(x, u), abs=1e-14)
+        assert [*quintic.as_squared(x)] == pytest.approx([*bernstein.elevate(x, 10)], abs=1e-14)
+        assert [*quintic.across(x, y, u, 0.3)] == bernstein.across(x, y, u, 0.3)
+        assert [*quintic.moved(x, u)] == bernstein.moved(x, u)
+        b = quintic.plus(quintic.squared_length(x, y), -0.5)
+        assert [*b] == bernstein.plus(bernstein.squared_length(x, y), -0.5)
+        assert [*quintic.times(b, u)] == bernstein.times(b, u)
+        assert [*quintic.halves(b)] == [tuple(half) for half in bernstein.halves(b)]
+        assert [*quintic.derivative(b)] == bernstein.derivative(b)
+        assert [*quintic.without_root_at_start(b)] == pytest.approx([*bernstein.without_root_at_start(b)], abs=1e-14)
+        roots, found = [*bernstein.downward_crossings(b)], [crossing(b, -1.0)]
         while found[-1] < inf:
-            found.append(quintic.crossing(b, found[-1]))
-        assert found[:-1] == pytest.approx(roots, abs=1e-11)
+            found.append(crossing(b, found[-1]))
+        assert found[:-1] == roots
