@@ -46,9 +46,8 @@ class Paths:
         self.rows = rows
         self.contacts = contacts
         self._bounds = [0, *ends]
-        self._asked: dict[Curve, set[int]] = {}
-        self._of_one: dict[tuple[Curve, int], list[Passage]] = {}
-        self._passages: dict[Curve, list[list[Passage]]] = {}
+        self._asked: dict[Curve, dict[int, list[Passage]]] = {}
+        self._of_all: dict[Curve, tuple[np.ndarray, np.ndarray, np.ndarray]] = {}
 
     def __getitem__(self, number: int) -> ArcRows:
         return ArcRows(self, number, *self._bounds[number : number + 2])
@@ -64,6 +63,16 @@ class Paths:
         """The number of arcs of each path."""
         return np.diff(self._bounds)
 
+    @cached_property
+    def _as_one(self) -> Arc:
+        """All arcs as one with arrays; the curves that are asked for most lie together in memory."""
+        columns = self.rows.T
+        arc = arc_of(columns)
+        arc.curves = tuple(
+            np.ascontiguousarray(columns[part]) if part in (X, Y, VY) else columns[part] for part in CURVES
+        )
+        return arc
+
     def summits(self, until: Any = inf) -> tuple[np.ndarray, np.ndarray]:
         """The time in s and the state where each path is highest, up to a time of its own or of all, shapes (paths,)
         and (paths, 5); NaN without arcs. It is the start, the end of an arc, or where it turns downwards."""
@@ -72,7 +81,7 @@ class Paths:
         y = np.where(ends, self.rows[:, END.start + 1], -inf)
         highest = np.flatnonzero(y == np.repeat(np.maximum.reduceat(y, first), self.lengths[numbers]))
         top = highest[np.searchsorted(highest, first)]  # the first of equal ones
-        turning, t, states = self.passing(0, len(self.rows), climb)
+        turning, t, states = self.passages_of_all(climb)
         of = np.concatenate((numbers, numbers, turning))
         t = np.concatenate((self.rows[first, T0], self.rows[top, T1], t))
         states = np.concatenate((self.rows[first, START], self.rows[top, END], states))
@@ -120,44 +129,52 @@ class Paths:
     def passages(self, path: ArcRows, curve: Curve) -> list[Passage]:
         """Each time and state at which a curve becomes negative along a path. All paths are computed together as soon
         as many are asked for the same curve."""
-        found = self._passages.get(curve)  # once: the hash of a curve takes as long as the rest
-        if found is None:
-            asked = self._asked.setdefault(curve, set())
-            asked.add(path.number)
-            if len(asked) < _MANY:
-                key = curve, path.number
-                if key not in self._of_one:
-                    self._of_one[key] = _listed(*self.passing(path.first, path.last, curve)[1:])
-                return self._of_one[key]
-            found = self._passages[curve] = [[] for _ in self._bounds]
-            numbers, t, states = self.passing(0, len(self.rows), curve)
-            for number, passage in zip(numbers.tolist(), _listed(t, states), strict=True):
-                found[number].append(passage)
-        return found[path.number]
+        asked = self._asked.setdefault(curve, {})
+        if path.number not in asked:
+            if curve in self._of_all or len(asked) >= _MANY:
+                numbers, t, states = self.passages_of_all(curve)
+                first, last = np.searchsorted(numbers, (path.number, path.number + 1))
+                asked[path.number] = _listed(t[first:last], states[first:last])
+            else:
+                asked[path.number] = _listed(*self.passing(curve, path.first, path.last)[1:])
+        return asked[path.number]
 
-    def passing(self, first: int, last: int, curve: Curve) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def passages_of_all(self, curve: Curve) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """The passages of all paths, as ``passing`` gives them, computed once."""
+        if curve not in self._of_all:
+            self._of_all[curve] = self.passing(curve)
+        return self._of_all[curve]
+
+    def passing(
+        self, curve: Curve, first: int = 0, last: int | None = None
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """The passages on the arcs in these rows, as in ``Path.passages``: the number of the path, the time in s, and
         the state, shape (passages, 5); those of each path in order."""
-        rows = self.rows[first:last]
-        values, places = np.array(curve(arc_of(rows.T))), np.arange(len(rows))
-        numbers = np.searchsorted(self._bounds, first + places, side="right") - 1
+        values = np.array(curve(self._as_one if last is None else arc_of(self.rows[first:last].T)))
         starts, ends = _first_signs(values), _first_signs(values[::-1])
-        signed = starts != 0.0
-        latest = np.append(-1, np.maximum.accumulate(np.where(signed, places, -1)))[:-1]  # arc before that is not zero
-        turned = (starts < 0.0) & (latest >= 0) & (ends[latest] > 0.0) & (numbers[latest] == numbers)
+        falls = np.flatnonzero(starts < 0.0)
+        signed = np.where(starts != 0.0, np.arange(len(starts)), -1)
+        before = np.append(-1, np.maximum.accumulate(signed))[falls]  # the last arc before that is not zero
+        same = self._number(first + before) == self._number(first + falls)
+        turned = falls[(before >= 0) & (ends[before] > 0.0) & same]
         some = np.flatnonzero((values.min(axis=0) <= 0.0) & (values.max(axis=0) > 0.0))
         among, u, doubtful, _ = crossings_of_many(values[:, some])
         clear = ~np.isin(among, doubtful)
-        found: list[tuple[Any, Any]] = [(np.flatnonzero(turned), 0.0), (some[among[clear]], u[clear])]
+        found: list[tuple[Any, Any]] = [(turned, 0.0), (some[among[clear]], u[clear])]
         for place in some[np.unique(doubtful)].tolist():
             found += [([place], u) for u in downward_crossings(values[:, place].tolist())]
         at = np.concatenate([where for where, _ in found]).astype(int)
         u = np.concatenate([np.broadcast_to(u, len(where)) for where, u in found])
         order = np.lexsort((u, at))
-        rows, u = rows[at[order]], u[order]
+        at, u = at[order], u[order]
+        rows = self.rows[first + at]
         t = rows[:, T0] + u * (rows[:, T1] - rows[:, T0])
         states = np.array([evaluate(rows[:, part].T, u) for part in CURVES]).T
-        return numbers[at[order]], t, states
+        return self._number(first + at), t, states
+
+    def _number(self, rows: np.ndarray) -> np.ndarray:
+        """The number of the path to which each of these rows belongs."""
+        return np.searchsorted(self._bounds, rows, side="right") - 1
 
 
 class ArcRows(Path):

@@ -112,7 +112,8 @@ class AllRuns:
         self.setup: Setup = flown.setups.whole
         self.missing: list[np.ndarray] = []  # masks, shape (shots,)
         self._flown = flown
-        self._passed: list[tuple[tuple[Any, ...], tuple[np.ndarray, np.ndarray, np.ndarray]]] = []
+        self._passed: list[tuple[Above, tuple[np.ndarray, np.ndarray, np.ndarray]]] = []
+        self._met: dict[tuple[str | None, str], np.ndarray] = {}
 
     def highest(self, ball: str, until: Any = inf) -> tuple[np.ndarray, State]:
         """As ``Run.highest``."""
@@ -120,23 +121,24 @@ class AllRuns:
 
     def first_crossing(self, ball: str, point: Vector, normal: Vector, before: Any = inf) -> tuple[np.ndarray, State]:
         """As ``Run.first_crossing``; line and time may be others for each run."""
-        numbers, t, states = self._passing((*point, *normal))
+        numbers, t, states = self._passing(Above.line(point, normal))
         numbers, first = np.unique(numbers, return_index=True)
         return self._found(ball, *self._paths.spread(numbers, t[first], states[first]), before)
 
     def crossings(self, ball: str, point: Vector, normal: Vector) -> Iterator[tuple[np.ndarray, State]]:
         """As ``Run.crossings``: the first of all runs, then the second, and so on; NaN where a run has fewer."""
-        return self._in_turn(ball, *self._passing((*point, *normal)))
+        return self._in_turn(ball, *self._passing(Above.line(point, normal)))
 
-    def _passing(self, line: tuple[Any, ...]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """The passages of all through a line, which may be another for each: point and normal, x and y."""
+    def _passing(self, line: Above) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """The passages of all through a line, which may be another for each."""
+        if all(type(part) is float for part in line):
+            return self._paths.passages_of_all(line)
         for known, found in self._passed:
-            alike = (a is b or (type(a) is type(b) is float and a == b) for a, b in zip(known, line, strict=True))
-            if all(alike):
+            if all(a is b or (type(a) is type(b) is float and a == b) for a, b in zip(known, line, strict=True)):
                 return found
-        count, lengths = len(self._flown), self._paths.lengths
-        lines: list[Any] = [np.repeat(np.broadcast_to(part, count), lengths) for part in line]
-        found = self._paths.passing(0, len(self._paths.rows), Above(*lines))
+        lengths = self._paths.lengths
+        lines = (np.repeat(part, lengths) if isinstance(part, np.ndarray) else part for part in line)
+        found = self._paths.passing(Above(*lines))
         self._passed.append((line, found))
         return found
 
@@ -174,19 +176,23 @@ class AllRuns:
     ) -> tuple[np.ndarray, State]:
         """As ``Run.before_meeting``."""
         flown, paths = self._flown, self._paths
-        times = [meeting_time(events, partner, ball) for events in flown.events]
-        t = np.array(times)
+        t = self._meeting_times(partner, ball)
         ends = np.flatnonzero(paths.rows[:, T1] == np.repeat(t, paths.lengths))
         numbers, first = np.unique(np.repeat(np.arange(len(t)), paths.lengths)[ends], return_index=True)
         _, states = paths.spread(numbers, t[numbers], paths.rows[ends[first], END])
         for shot in np.flatnonzero(np.isfinite(t) & np.isnan(states[:, 0])).tolist():  # at its start
-            states[shot] = flown[shot].before(flown.ball, times[shot])
+            states[shot] = flown[shot].before(flown.ball, float(t[shot]))
         return self._found(ball, t, states, before)
 
     def until_meeting(self, partner: str) -> np.ndarray:
         """As ``Run.until_meeting``."""
-        times = [meeting_time(events, partner) for events in self._flown.events]
-        return np.minimum(times, self._flown.durations)
+        return np.minimum(self._meeting_times(partner), self._flown.durations)
+
+    def _meeting_times(self, partner: str | None, ball: str = "") -> np.ndarray:
+        """``meeting_time`` of each run, computed once."""
+        if (partner, ball) not in self._met:
+            self._met[partner, ball] = np.array([meeting_time(events, partner, ball) for events in self._flown.events])
+        return self._met[partner, ball]
 
     def _in_turn(
         self, ball: str, numbers: np.ndarray, t: np.ndarray, states: np.ndarray
@@ -195,8 +201,8 @@ class AllRuns:
         if ball != self._flown.ball:
             raise KeyError(ball)
         place = np.arange(len(numbers)) - np.searchsorted(numbers, numbers)
-        for turn in range(place.max(initial=-1) + 1):
-            here = place == turn
+        order = np.argsort(place, kind="stable")
+        for here in np.split(order, np.cumsum(np.bincount(place))[:-1]) if len(order) else ():
             times, there = self._paths.spread(numbers[here], t[here], states[here])
             yield times, State(*there.T)
 

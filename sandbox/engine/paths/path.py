@@ -30,6 +30,14 @@ class Above(NamedTuple):
     nx: float
     ny: float
 
+    @classmethod
+    def line(cls, point: tuple[Any, Any], normal: tuple[Any, Any]) -> Above:
+        """A line; of a level or an upright one the coordinate that does not matter is 0, so that equal lines compare
+        equal."""
+        (x, y), (nx, ny) = point, normal
+        level, upright = (type(part) is float and part == 0.0 for part in normal)
+        return cls(0.0 if level else x, 0.0 if upright else y, nx, ny)
+
     def __call__(self, arc: Arc) -> list[Any]:
         return [(x - self.x) * self.nx + (y - self.y) * self.ny for x, y in zip(arc.x, arc.y, strict=True)]
 

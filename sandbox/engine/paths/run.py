@@ -270,7 +270,7 @@ class Run(Drawable):
         With a normal of (0, 1) that is on its way down, with (-1, 0) on its way forward. As exact as the path itself,
         for any step: roots of its polynomials.
         """
-        return ((t, State(*state)) for t, state in self._path(ball).passages(Above(*point, *normal)))
+        return ((t, State(*state)) for t, state in self._path(ball).passages(Above.line(point, normal)))
 
     def first_crossing(
         self, ball: str, point: Vector, normal: Vector, before: float = inf
