@@ -16,7 +16,7 @@ import pytest
 
 from sandbox.errors import ExitCalled, sys_exit_as_error
 from sandbox.files import write_together
-from sandbox.lab.plan import Record
+from sandbox.lab.plan import Rows
 from sandbox.lab.sweep import InTurn, RowsInOrder
 from tests.own_scene import BUILD, COMMAND, DROP, HANG, Outcome, assert_refused, change, wait_for_work
 
@@ -206,7 +206,7 @@ def test_a_second_ctrl_c_still_says_what_a_sweep_has_kept(
     def interrupted(*_: Any, **__: Any) -> Any:
         raise KeyboardInterrupt
 
-    def rows_of_one(self: RowsInOrder) -> Iterator[list[Record]]:
+    def rows_of_one(self: RowsInOrder) -> Iterator[Rows]:
         self._queue_calls()
         yield self._next()[:1]
         raise KeyboardInterrupt

@@ -14,7 +14,7 @@ from sandbox.lab.axes import Values, points_given
 from sandbox.lab.mapped import choices_of
 from sandbox.lab.plan import Plan
 from sandbox.lab.points import points_from
-from sandbox.lab.runs import Progress, no_progress, outcomes, runs
+from sandbox.lab.runs import Progress, columns_at, no_progress, runs
 from sandbox.lab.selection import LeftOut
 from sandbox.scene import Scene, as_scene
 from sandbox.scene.scene_run import SceneRun
@@ -99,23 +99,23 @@ def simulate_many(
         check_mapping("points", points, '{"launch.angle": [10, 20, 30]}')
         axes = points_given(chosen, points)
     plan = Plan(chosen, axes, listed=True, facts=wanted)
-    rows = {key: list[Any]() for key in plan.facts_read}
-    done = 0
+    rows: dict[str, list[Any]] = {key: [] for key in plan.facts_read}
     kept: list[SceneRun | None] = []
     errors: dict[int, str] = {}
     for start in range(0, plan.size, plan.block):
         progress(start, plan.size)
         some = list(plan.points(start, start + plan.block))
-        compute = runs if paths else outcomes
-        for found in compute(chosen, plan.keys, some, asked=() if paths else plan.facts_read):
-            if isinstance(found, Exception):
-                errors[done] = one_line_error(found)
-            result = {} if isinstance(found, Exception) else found.result
-            for key, values in rows.items():
-                values.append(result.get(key))
-            done += 1
-            if paths:
-                kept.append(found if isinstance(found, SceneRun) else None)
+        if paths:
+            each = list(runs(chosen, plan.keys, some))
+            kept += [run if isinstance(run, SceneRun) else None for run in each]
+            failed = {place: run for place, run in enumerate(each) if isinstance(run, Exception)}
+            results = [{} if isinstance(run, Exception) else run.result for run in each]
+            found = {key: [result.get(key) for result in results] for key in rows}
+        else:
+            found, failed, *_ = columns_at(chosen, plan.keys, some, asked=plan.facts_read)
+        for key, values in rows.items():
+            values += found[key]
+        errors |= {start + place: one_line_error(error) for place, error in failed.items()}
     progress(plan.size, plan.size)
     given = {axis.key: as_array(axis.values) for axis in plan.axes if isinstance(axis, Values)}
     found_facts = {key: as_array(values) for key, values in rows.items()}

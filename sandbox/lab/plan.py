@@ -5,18 +5,20 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from functools import cached_property
+from itertools import chain, product
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from sandbox.engine.many.batch_forces import why_alone
+from sandbox.engine.many.flown import COUNTS
 from sandbox.errors import RequestError
 from sandbox.lab.axes import MOST_POINTS, Axis, Normal, Span, Values
 from sandbox.lab.provenance import Provenance, provenance
-from sandbox.lab.runs import Outcome, fly_together, outcomes, runs
+from sandbox.lab.runs import columns_at, fly_together, runs
 from sandbox.scene import Scene, compare
 from sandbox.tracebacks import one_line_error
 
@@ -195,7 +197,40 @@ def _drawn(axis: Axis, share: float) -> Any:
 # ---------------------------------------------------------------------------------------------------------------------
 
 
-def records(plan: Plan, start: int, stop: int, alone: bool = False) -> list[Record]:
+class Rows(Sequence[Record]):
+    """Rows of a sweep, kept as columns: values by name, None where a row has no such value."""
+
+    def __init__(self, columns: Mapping[str, Sequence[Any]]) -> None:
+        self.columns = columns  # one is ``error``
+
+    @classmethod
+    def of(cls, rows: Sequence[Record]) -> Rows:
+        """The same rows as columns."""
+        names = dict.fromkeys(name for row in rows for name in row)
+        return cls({name: [row.get(name) for row in rows] for name in names})
+
+    @classmethod
+    def joined(cls, parts: Sequence[Rows]) -> Rows:
+        """The rows of all parts."""
+        names = dict.fromkeys(name for part in parts for name in part.columns)
+        return cls({name: [*chain(*(part.column(name) for part in parts))] for name in names})
+
+    def column(self, name: str) -> Sequence[Any]:
+        """The values of a column; None in each row without it."""
+        return self.columns.get(name) or [None] * len(self)
+
+    def __len__(self) -> int:
+        return len(self.columns["error"])
+
+    def __getitem__(self, place: Any) -> Any:
+        """One row, in which a point that failed has only its values and the error; of a slice rows."""
+        if isinstance(place, slice):
+            return Rows({name: values[place] for name, values in self.columns.items()})
+        row = {name: values[place] for name, values in self.columns.items()}
+        return {name: value for name, value in row.items() if value is not None} if row["error"] else row
+
+
+def records(plan: Plan, start: int, stop: int, alone: bool = False) -> Rows:
     """The rows of the points from ``start`` up to ``stop``. A point that fails is a row with its error.
 
     Points are always computed in whole blocks, so that a row has the same digits on every worker with the same kind of
@@ -203,46 +238,48 @@ def records(plan: Plan, start: int, stop: int, alone: bool = False) -> list[Reco
     """
     if alone:
         return _rows(plan, start, stop)
-    rows = []
+    parts = []
     while start < stop:
         first = start - start % plan.block
         last = min(first + plan.block, plan.size)
-        rows += _rows(plan, first, last)[start - first : stop - first]
+        part = _rows(plan, first, last)
+        parts.append(part[start - first : stop - first])
         start = last
-    return rows
+    return Rows.joined(parts)
 
 
-def _rows(plan: Plan, start: int, stop: int) -> list[Record]:
+def _rows(plan: Plan, start: int, stop: int) -> Rows:
     points = list(plan.points(start, stop))
-    if not plan.check:
-        found = outcomes(plan.scene, plan.keys, points, asked=plan.facts_read)
-        return [_record(plan.keys, values, outcome) for values, outcome in zip(points, found, strict=True)]
+    if plan.check:
+        return Rows.of(_checked(plan, points))
+    found = columns_at(plan.scene, plan.keys, points, asked=plan.facts_read)
+    errors = [""] * len(points)
+    for place, error in found.errors.items():
+        errors[place] = one_line_error(error)
+    swept = dict(zip(plan.keys, zip(*points, strict=True), strict=True))
+    flags = {flag: found.counts[:, COUNTS.index(flag)].tolist() for flag in FLAGS}
+    for place, values in product(found.errors, flags.values()):
+        values[place] = None
+    ended = [ended or None for ended in found.ended]
+    return Rows({**swept, **found.facts, "ended": ended, **flags, "error": errors})
+
+
+def _checked(plan: Plan, points: Sequence[Sequence[Any]]) -> list[Record]:
+    """The rows of these points with the estimated errors of their results."""
     coarser, finer = (runs(plan.scene, plan.keys, points, how, plan.facts_read) for how in (False, True))
     rows = []
     for values, run, other in zip(points, coarser, finer, strict=True):
-        row = _record(plan.keys, values, run)
-        error = row.pop("error")
-        rows.append(row | _accuracy_columns(run, other) | {"error": error})
+        row: Record = dict(zip(plan.keys, values, strict=True))
+        if isinstance(run, Exception):
+            rows.append(row | {"error": one_line_error(run)})
+            continue
+        row |= {**run.result, "ended": run.ended, **{flag: getattr(run.numerics, flag) for flag in FLAGS}}
+        rows.append(row | _accuracy_columns(run, other) | {"error": ""})
     return rows
 
 
-def _record(keys: Sequence[str], values: Sequence[Any], found: Outcome | SceneRun | Exception) -> Record:
-    row: Record = dict(zip(keys, values, strict=True))
-    if isinstance(found, Exception):
-        return row | {"error": one_line_error(found)}
-    run = found.run if isinstance(found, Outcome) else found
-    row.update(found.result)
-    row.setdefault("ended", run.ended)
-    for flag in FLAGS:
-        row[flag] = getattr(run.numerics, flag)
-    row["error"] = ""
-    return row
-
-
-def _accuracy_columns(run: SceneRun | Exception, finer: SceneRun | Exception) -> Record:
+def _accuracy_columns(run: SceneRun, finer: SceneRun | Exception) -> Record:
     """The estimated error of each number, and which other results depend on the accuracy."""
-    if isinstance(run, Exception):
-        return {}
     if isinstance(finer, Exception):
         return {CHANGED: f"a finer run fails: {one_line_error(finer)}"}
     outcome = compare(run, finer)

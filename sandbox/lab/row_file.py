@@ -9,9 +9,10 @@ import io
 import json
 import re
 import shutil
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
+from types import NoneType
 from typing import TYPE_CHECKING, Any
 
 from sandbox.errors import RequestError
@@ -19,7 +20,7 @@ from sandbox.files import backup_of, check_replaced, is_stream, json_ready, keep
 from sandbox.text import csv_text
 
 if TYPE_CHECKING:
-    from sandbox.lab.plan import Plan
+    from sandbox.lab.plan import Plan, Rows
 
 #: A value as JSON, on one line.
 _as_json = json.JSONEncoder(ensure_ascii=False, default=str).encode
@@ -78,7 +79,7 @@ class RowFile:
             if self.before.is_file() and filecmp.cmp(self._file_path, self.before, shallow=False):
                 self.before.unlink()
 
-    def append(self, records: Sequence[Mapping[str, Any]]) -> None:
+    def append(self, rows: Rows) -> None:
         """Add rows; they have been passed to the operating system on return.
 
         Raises RunError if writing fails, for example on a full disk; earlier rows are kept.
@@ -86,10 +87,9 @@ class RowFile:
         with writing("--out", self.path):
             if not self.done:
                 self._file.write(self._first_line)
-            lines, columns = csv.writer(self._file, lineterminator="\n"), self._plan.columns
-            for record in records:
-                lines.writerow([cell(record.get(name)) for name in columns])
-                self.done += 1
+            columns = [_texts(rows.column(name)) for name in self._plan.columns]
+            self._file.write("".join(f"{','.join(cells)}\n" for cells in zip(*columns, strict=True)))
+            self.done += len(rows)
             self._file.flush()
 
     # Before the first row
@@ -187,6 +187,31 @@ def _line(cells: Iterable[str]) -> str:
     text = io.StringIO()
     csv.writer(text, lineterminator="\n").writerow(cells)
     return text.getvalue()
+
+
+def _texts(values: Sequence[Any]) -> list[str]:
+    """The values of a column as they stand in the file; words and lists of words, of which few differ, once each."""
+    kinds = {*map(type, values)}
+    if kinds <= {float, NoneType}:  # by far the most common
+        return ["" if value is None or value != value else repr(value) for value in values]
+    if kinds == {int}:
+        return [*map(repr, values)]
+    known: dict[Any, str] = {}
+    texts = []
+    for value in values:
+        words = tuple(value) if type(value) is list else (value,)
+        if {*map(type, words)} <= {str}:
+            name = type(value), words
+            text = known[name] if name in known else known.setdefault(name, _text(value))
+        else:
+            text = _text(value)
+        texts.append(text)
+    return texts
+
+
+def _text(value: Any) -> str:
+    """A value as it stands in a line with others: in quotes where it has to be."""
+    return _line((cell(value), ""))[:-2]
 
 
 def _cells(line: bytes) -> list[str] | None:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from itertools import repeat
+from itertools import product, repeat
 from math import isclose, isfinite
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -13,7 +13,7 @@ import numpy as np
 
 from sandbox import parameters as declared
 from sandbox.engine import can_batch, simulate_many, simulate_together
-from sandbox.engine.many.flown import AllRuns, Flown
+from sandbox.engine.many.flown import COUNTS, AllRuns, Flown
 from sandbox.engine.many.stacking import FEWEST, Stack, agree
 from sandbox.engine.model.accuracy import Accuracy, resolve
 from sandbox.engine.model.setup import Rule, Setup, Touches, Until, is_over
@@ -54,6 +54,65 @@ class Outcome(NamedTuple):
     def of(self, scene: Scene) -> SceneRun:
         """The whole run of this scene, with its parameters at this point."""
         return SceneRun.of(self.run, replace(scene, parameters=self.parameters_at(self.place)), self.result)
+
+
+class Columns(NamedTuple):
+    """What was asked of the runs at many points, in order: a column for each fact."""
+
+    facts: dict[str, list[Any]]  # in their units; None for what did not happen, or could not be computed
+    errors: dict[int, Exception]  # by the place of the point
+    ended: list[str]
+    counts: np.ndarray  # what each run cost, shape (points, those of COUNTS)
+
+    @classmethod
+    def empty(cls, facts: Sequence[str], count: int) -> Columns:
+        """Columns of so many points, to be filled."""
+        return cls({fact: [None] * count for fact in facts}, {}, [""] * count, np.zeros((count, len(COUNTS)), int))
+
+    def put(self, places: Sequence[int], part: Columns) -> None:
+        """Fill the rows at these places."""
+        for fact, column in part.facts.items():
+            for place, value in zip(places, column, strict=True):
+                self.facts[fact][place] = value
+        for place, ended in zip(places, part.ended, strict=True):
+            self.ended[place] = ended
+        self.counts[places] = part.counts
+        self.errors.update((places[place], error) for place, error in part.errors.items())
+
+    def results(self) -> list[dict[str, Any] | None]:
+        """The facts of each point; None for one that could not be computed."""
+        rows = zip(*self.facts.values(), strict=True) if self.facts else repeat((), len(self.ended))
+        found: list[dict[str, Any] | None] = [dict(zip(self.facts, row, strict=True)) for row in rows]
+        for place in self.errors:
+            found[place] = None
+        return found
+
+
+def columns_at(
+    scene: Scene,
+    keys: Sequence[str],
+    points: Sequence[Sequence[Any]],
+    finer: bool = False,
+    asked: Sequence[str] = (),
+    progress: Progress = no_progress,
+) -> Columns:
+    """The facts at each of the points, as ``outcomes`` computes them, without its runs. Where these are computed one by
+    one, ``progress`` is called with the number that is done."""
+    facts = [key for key in scene.facts if not asked or key in asked]
+    build, varied, done = builder(scene, asked), _varied(scene, keys), 0
+    found = Columns.empty(facts, len(points))
+
+    def one_more() -> None:
+        nonlocal done
+        done += 1
+        progress(done, len(points))
+
+    for places, many in varied.together(points):
+        part = _Together(build, many, _Each(varied, points, places)).columns(scene, facts, finer, one_more)
+        if len(places) == len(points):
+            return part
+        found.put(places, part)
+    return found
 
 
 def runs(
@@ -129,26 +188,55 @@ class _Together(NamedTuple):
 
     def outcomes(self, scene: Scene, facts: Sequence[str], finer: bool) -> Iterator[Outcome | Exception]:
         """The outcome at each of them, with these facts."""
+        flown, values = self._computed(scene, facts, finer)
+        if isinstance(flown, Exception):
+            yield from repeat(flown, len(self.each))
+        elif isinstance(flown, Flown) and len(values) == len(facts):  # no run is made that is not asked for
+            for place, row in enumerate(zip(*values.values(), strict=True) if facts else repeat((), len(flown))):
+                made = Outcome(flown.__getitem__, dict(zip(facts, row, strict=True)), self.each.__getitem__, place)
+                yield flown.failures.get(place, made)
+        else:
+            read = scene.reader([fact for fact in facts if fact not in values])
+            for place, run in enumerate(flown):
+                yield run if isinstance(run, Exception) else self._outcome(run, place, facts, values, read)
+
+    def columns(self, scene: Scene, facts: Sequence[str], finer: bool, done: Callable[[], None]) -> Columns:
+        """The same as columns; ``done`` is called after each that is computed alone."""
+        flown, values = self._computed(scene, facts, finer)
+        if isinstance(flown, Flown) and len(values) == len(facts):
+            found = Columns({fact: values[fact] for fact in facts}, flown.failures, flown.ended, flown.counts)
+            for place, column in product(flown.failures, found.facts.values()):
+                column[place] = None
+            return found
+        count = len(self.each)
+        found, read = Columns.empty(facts, count), scene.reader([fact for fact in facts if fact not in values])
+        for place, run in enumerate(repeat(flown, count) if isinstance(flown, Exception) else flown):
+            outcome = run if isinstance(run, Exception) else self._outcome(run, place, facts, values, read)
+            if isinstance(outcome, Exception):
+                found.errors[place] = outcome
+            elif not isinstance(run, Exception):
+                for fact, value in outcome.result.items():
+                    found.facts[fact][place] = value
+                found.ended[place] = run.ended
+                found.counts[place] = [getattr(run.numerics, name) for name in COUNTS]
+            done()
+        return found
+
+    def _computed(
+        self, scene: Scene, facts: Sequence[str], finer: bool
+    ) -> tuple[Flown | Iterable[Run | Exception] | Exception, dict[str, list[Any]]]:
+        """The runs, or why there is none; and those of these facts that are computed for all of them at once."""
         try:
             if isinstance(self.many, Exception):
                 raise self.many
             accuracy = _resolved(self.many.accuracy, finer)
         except Exception as error:
-            yield from repeat(error, len(self.each))
-            return
+            return error, {}
         stack = built_at_once(self.build, self.many, self.each)
         flown = None if stack is None else simulate_together(stack, accuracy)
-        columns = {} if flown is None else facts_at_once(scene, facts, flown, self.many, self.each)
-        if flown is not None and len(columns) == len(facts):  # no run is made that is not asked for
-            rows = zip(*(columns[fact] for fact in facts), strict=True) if facts else repeat(())
-            for place, row in zip(range(len(flown)), rows, strict=False):
-                failed = flown.failure(place)
-                made = Outcome(flown.__getitem__, dict(zip(facts, row, strict=True)), self.each.__getitem__, place)
-                yield made if failed is None else failed
-            return
-        read = scene.reader([fact for fact in facts if fact not in columns])
-        for place, run in enumerate(self._alone(accuracy) if flown is None else flown):
-            yield run if isinstance(run, Exception) else self._outcome(run, place, facts, columns, read)
+        if flown is None:
+            return self._alone(accuracy), {}
+        return flown, facts_at_once(scene, facts, flown, self.many, self.each)
 
     def _alone(self, accuracy: Accuracy) -> Iterator[Run | Exception]:
         """The runs of what was built for each point."""
@@ -157,14 +245,15 @@ class _Together(NamedTuple):
         return (setup if isinstance(setup, Exception) else next(found) for setup in setups)
 
     def _outcome(
-        self, run: Run, place: int, facts: Sequence[str], columns: Mapping[str, Sequence[Any]], read: Read
+        self, run: Run, place: int, facts: Sequence[str], values: Mapping[str, Sequence[Any]], read: Read
     ) -> Outcome | Exception:
-        """The outcome of a run, with facts in columns and those that are ``read`` from it, or what they raise."""
+        """The outcome of a run, with the values known of all, and facts that are ``read`` from it, or what they
+        raise."""
         try:
             own = read(run, self.each[place])
         except Exception as error:
             return error
-        result = {fact: columns[fact][place] if fact in columns else own[fact] for fact in facts}
+        result = {fact: values[fact][place] if fact in values else own[fact] for fact in facts}
         return Outcome(lambda _: run, result, self.each.__getitem__, place)
 
 

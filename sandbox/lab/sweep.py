@@ -22,7 +22,7 @@ from sandbox.lab.axes import Values, as_axis
 from sandbox.lab.chart import image
 from sandbox.lab.many import as_array
 from sandbox.lab.maps import chart_of, check_plot, read
-from sandbox.lab.plan import Plan, Record, records
+from sandbox.lab.plan import Plan, Record, Rows, records
 from sandbox.lab.report import Chart, Notes, Report
 from sandbox.lab.row_file import RowFile, cell
 from sandbox.lab.runs import Progress, no_progress
@@ -199,7 +199,7 @@ def sweep_to_file(plan: Plan, path: Path, pool: Workers, progress: Progress = no
         try:
             for rows in handout:
                 file.append(rows)
-                errors = [row["error"] for row in rows if row["error"]]
+                errors = [*filter(None, rows.columns["error"])]
                 failures += len(errors)
                 first_error = first_error or "".join(errors[:1])
         except KeyboardInterrupt:
@@ -256,12 +256,12 @@ class RowsInOrder:
         self._reached = first
         progress(first, plan.size)
 
-    def __iter__(self) -> Iterator[list[Record]]:
+    def __iter__(self) -> Iterator[Rows]:
         while self._reached < self._plan.size:
             self._queue_calls()
             yield self._next()
 
-    def finished(self, first: int) -> Iterator[list[Record]]:
+    def finished(self, first: int) -> Iterator[Rows]:
         """The rows already computed, in order from ``first``, without waiting."""
         while self._waiting and self._waiting[0][0] == first and self._waiting[0][2].done():
             start, _, call = self._waiting.popleft()
@@ -277,7 +277,7 @@ class RowsInOrder:
             self._waiting.append((start, stop, self._submit(start, stop)))
             self._following = stop
 
-    def _next(self) -> list[Record]:
+    def _next(self) -> Rows:
         start, stop, call = self._waiting[0]
         rows, seconds = self._result(start, stop, call)
         self._waiting.popleft()
@@ -292,38 +292,38 @@ class RowsInOrder:
     def _submit(self, start: int, stop: int, alone: bool = False) -> Call:
         return self._pool.submit(_computed, self._payload, start, stop, alone)
 
-    def _result(self, start: int, stop: int, call: Call, alone: bool = False) -> tuple[list[Record], float]:
+    def _result(self, start: int, stop: int, call: Call, alone: bool = False) -> tuple[Rows, float]:
         """The result of a call. If its worker dies it is repeated, at last point by point, so that one point cannot
         spoil others."""
         for _ in range(_TRIES):
             try:
-                found: tuple[list[Record], float] = call.result()
+                found: tuple[Rows, float] = call.result()
                 return found
             except WorkerLost:
                 call = self._submit(start, stop, alone)
         if stop - start == 1:
             why = f"the process that ran it was killed {_TRIES} times: out of memory?"
             (values,) = self._plan.points(start, stop)
-            return [dict(zip(self._plan.keys, values, strict=True)) | {"error": why}], 0.0
+            return Rows.of([dict(zip(self._plan.keys, values, strict=True)) | {"error": why}]), 0.0
         rows: list[Record] = []
         for number in range(start, stop):
             one = self._submit(number, number + 1, alone=True)
             rows += self._result(number, number + 1, one, alone=True)[0]
-        return rows, 0.0
+        return Rows.of(rows), 0.0
 
 
-def _computed(payload: bytes, start: int, stop: int, alone: bool = False) -> tuple[list[Record], float]:
+def _computed(payload: bytes, start: int, stop: int, alone: bool = False) -> tuple[Rows, float]:
     """The rows of the points from ``start`` that fit in a call's time, at least one block, and their time in s; runs in
     the worker."""
     began = perf_counter()
     plan = _plan(payload)
     if alone:
         return records(plan, start, stop, alone), perf_counter() - began
-    rows: list[Record] = []
-    while start + len(rows) < stop and (not rows or perf_counter() - began < CALL):
-        first = start + len(rows)
-        rows += records(plan, first, min(stop, first - first % plan.block + plan.block))
-    return rows, perf_counter() - began
+    parts: list[Rows] = []
+    while start < stop and (not parts or perf_counter() - began < CALL):
+        parts.append(records(plan, start, min(stop, start - start % plan.block + plan.block)))
+        start += len(parts[-1])
+    return Rows.joined(parts), perf_counter() - began
 
 
 @lru_cache(maxsize=2)

@@ -12,7 +12,7 @@ from sandbox.cli import main
 from sandbox.engine.paths.run import Run
 from sandbox.errors import RequestError
 from sandbox.lab import provenance as provenances
-from sandbox.lab.plan import CHANGED, Plan, records
+from sandbox.lab.plan import CHANGED, Plan, Rows, records
 from sandbox.lab.report import as_text
 from sandbox.lab.row_file import RowFile
 from sandbox.lab.sweep import SweepSummary, sweep_to_file, workers
@@ -123,7 +123,7 @@ def test_files_of_the_users_are_kept(falling, tmp_path):
 def test_another_sweep_never_replaces_an_interrupted_one(falling, tmp_path):
     path = tmp_path / "rows.csv"
     with RowFile(path, grid(falling, "launch.height=0.5:2:40")) as file:
-        file.append([{"launch.height": 9.0, "error": ""}])
+        file.append(Rows.of([{"launch.height": 9.0, "error": ""}]))
     kept = path.read_bytes()
     other = grid(falling, "launch.height=0.5:2:3")
     with pytest.raises(RequestError, match=r"rows\.csv: contains rows of another interrupted sweep"):
@@ -219,11 +219,11 @@ def test_the_columns_are_those_of_the_plan_whatever_fails_first(falling, tmp_pat
     path, plan = tmp_path / "rows.csv", grid(falling, "launch.height=1,2,3")
     x = "launch.height"
     with RowFile(path, plan) as file:
-        file.append([{x: 1.0, "error": "no way"}])
-        file.append([{x: 2.0, "bounces": 3, "error": ""}])
+        file.append(Rows.of([{x: 1.0, "error": "no way"}]))
+        file.append(Rows.of([{x: 2.0, "bounces": 3, "error": ""}]))
     with RowFile(path, plan) as file:
         assert file.done == 2
-        file.append([{x: 3.0, "bounced": True, "error": ""}])
+        file.append(Rows.of([{x: 3.0, "bounced": True, "error": ""}]))
     first = "launch.height,bounces,first_touch,bounced,final_height,ended,impacts,steps,refined_steps,error\n"
     assert path.read_text() == f"{first}1.0,,,,,,,,,no way\n2.0,3,,,,,,,,\n3.0,,,true,,,,,,\n"
     checked = Plan(plan.scene, plan.axes, check=True)

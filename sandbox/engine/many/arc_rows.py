@@ -68,14 +68,15 @@ class Paths:
         """All arcs as one with arrays; the curves that are asked for most lie together in memory."""
         columns = self.rows.T
         arc = arc_of(columns)
-        arc.curves = tuple(
+        kept: list[Any] = [
             np.ascontiguousarray(columns[part]) if part in (X, Y, VY) else columns[part] for part in CURVES
-        )
+        ]
+        arc.curves = tuple(kept)
         return arc
 
     def summits(self, until: Any = inf) -> tuple[np.ndarray, np.ndarray]:
         """The time in s and the state where each path is highest, up to a time of its own or of all, shapes (paths,)
-        and (paths, 5); NaN without arcs. It is the start, the end of an arc, or where it turns downwards."""
+        and (5, paths); NaN without arcs. It is the start, the end of an arc, or where it turns downwards."""
         limits, numbers = np.broadcast_to(until, len(self.lengths)), np.flatnonzero(self.lengths)  # that have arcs
         first, ends = np.array(self._bounds)[numbers], self.rows[:, T1] <= np.repeat(limits, self.lengths)
         y = np.where(ends, self.rows[:, END.start + 1], -inf)
@@ -91,9 +92,11 @@ class Paths:
         return self.spread(of[best], t[best], states[best])
 
     def spread(self, numbers: np.ndarray, t: np.ndarray, states: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Times in s and states of the paths with these numbers as those of all, with NaN for the others."""
-        times, found = np.full(len(self.lengths), np.nan), np.full((len(self.lengths), states.shape[1]), np.nan)
-        times[numbers], found[numbers] = t, states
+        """Times in s and states, shape (numbers, 5), of the paths with these numbers as those of all, shapes (paths,)
+        and (5, paths), with NaN for the others."""
+        count = len(self.lengths)
+        times, found = np.full(count, np.nan), np.full((states.shape[1], count), np.nan)
+        times[numbers], found[:, numbers] = t, states.T
         return times, found
 
     def steps(self, until: Any) -> tuple[np.ndarray, np.ndarray]:
@@ -120,7 +123,8 @@ class Paths:
 
     @cached_property
     def _summits(self) -> list[Passage]:
-        return _listed(*self.summits())
+        t, states = self.summits()
+        return _listed(t, states.T)
 
     def summit(self, number: int) -> Passage:
         """Time in s and state where a path is highest."""

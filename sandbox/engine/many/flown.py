@@ -20,6 +20,9 @@ from sandbox.engine.model.shapes import Vector
 from sandbox.engine.paths.path import Above, Path
 from sandbox.engine.paths.run import Numerics, Run, State, meeting_time, touched_until
 
+#: What is counted of each run: the first fields of ``Numerics``.
+COUNTS = ("force_evaluations", "steps", "refined_steps", "impacts", "pymunk_steps", "queries")
+
 
 class Flown(Sequence[Any]):
     """The runs of many shots, in order; in place of one that failed the exception with which it ended."""
@@ -31,13 +34,13 @@ class Flown(Sequence[Any]):
         paths: Paths,
         events: Sequence[list[Event]],
         durations: Sequence[float],
-        ended: Sequence[str],
+        ended: list[str],
         counts: np.ndarray,
         alone: Mapping[int, Run | Exception],
         seconds: float,
     ) -> None:
         """For each shot: its path, its events, its duration in s, how it ended and what it cost. ``counts`` has the
-        shape (shots, 6): the first six fields of ``Numerics``; each shot took so many ``seconds``. Those that ran
+        shape (shots, those of COUNTS); each shot took so many ``seconds``. Those that ran
         ``alone`` have only a path."""
         self.setups = setups
         self.accuracy = accuracy
@@ -48,22 +51,19 @@ class Flown(Sequence[Any]):
         self.counts = counts
         self.seconds = seconds
         self._alone = alone
+        self.failures = {shot: run for shot, run in alone.items() if isinstance(run, Exception)}
         self.ball: str = setups.whole.balls[0].name
         for shot, run in alone.items():
             if isinstance(run, Run):
                 run.arcs = {self.ball: paths[shot]}
-                self.durations[shot] = run.duration
+                self.durations[shot], self.ended[shot] = run.duration, run.ended
+                self.counts[shot] = [getattr(run.numerics, name) for name in COUNTS]
 
     def __len__(self) -> int:
         return len(self.setups)
 
     def __getitem__(self, shot: Any) -> Any:
         return self._alone.get(shot) or FlownRun(self, shot)
-
-    def failure(self, shot: int) -> Exception | None:
-        """The exception with which a run ended, if it did."""
-        run = self._alone.get(shot)
-        return run if isinstance(run, Exception) else None
 
 
 class FlownRun(Run):
@@ -180,8 +180,8 @@ class AllRuns:
         ends = np.flatnonzero(paths.rows[:, T1] == np.repeat(t, paths.lengths))
         numbers, first = np.unique(np.repeat(np.arange(len(t)), paths.lengths)[ends], return_index=True)
         _, states = paths.spread(numbers, t[numbers], paths.rows[ends[first], END])
-        for shot in np.flatnonzero(np.isfinite(t) & np.isnan(states[:, 0])).tolist():  # at its start
-            states[shot] = flown[shot].before(flown.ball, float(t[shot]))
+        for shot in np.flatnonzero(np.isfinite(t) & np.isnan(states[0])).tolist():  # at its start
+            states[:, shot] = flown[shot].before(flown.ball, float(t[shot]))
         return self._found(ball, t, states, before)
 
     def until_meeting(self, partner: str) -> np.ndarray:
@@ -201,10 +201,12 @@ class AllRuns:
         if ball != self._flown.ball:
             raise KeyError(ball)
         place = np.arange(len(numbers)) - np.searchsorted(numbers, numbers)
-        order = np.argsort(place, kind="stable")
-        for here in np.split(order, np.cumsum(np.bincount(place))[:-1]) if len(order) else ():
-            times, there = self._paths.spread(numbers[here], t[here], states[here])
-            yield times, State(*there.T)
+        order, first = np.argsort(place, kind="stable"), 0
+        numbers, t, states = numbers[order], t[order], states[order]
+        for last in np.cumsum(np.bincount(place)).tolist():
+            times, there = self._paths.spread(numbers[first:last], t[first:last], states[first:last])
+            yield times, State(*there)
+            first = last
 
     @property
     def _paths(self) -> Paths:
@@ -215,4 +217,4 @@ class AllRuns:
             raise KeyError(ball)
         missing = ~(t < before)
         self.missing.append(missing)
-        return np.where(missing, nan, t), State(*np.where(missing, nan, states.T))
+        return np.where(missing, nan, t), State(*np.where(missing, nan, states))
