@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -37,9 +37,8 @@ _TOLD_APART = 4
 
 #: Cells of what was not measured, and of rows that sum others up.
 _MISSING = {"", "-", "--", "–", "n/a", "na", "null", "none"}
-_SUMMARIES = {"avg", "avg.", "average", "averages", "dev", "dev.", "std dev", "std. dev.", "std dev.", "deviation",
-              "mean", "total", "consistency", "durchschnitt", "mittelwert", "promedio", "moyenne",
-              "gemiddelde"}  # fmt: skip
+_SUMMARIES = {"avg", "average", "averages", "dev", "std dev", "std. dev", "deviation", "mean", "total", "consistency",
+              "durchschnitt", "mittelwert", "promedio", "moyenne", "gemiddelde", "media", "medie"}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -262,8 +261,8 @@ def _rows(table: Table, column_map: ColumnMap, where: Sequence[Condition], stric
     missing = _MISSING | {"0", "0.0"} if zeros else _MISSING
     for row in list(selection.rows):
         cells = {one.name: one.cells[row].strip().lower() for one in needed}
-        if any(one.cells[row].strip().lower() in _SUMMARIES for one in table.columns):
-            selection.leave_out(row, "sums other rows up", fault=False)
+        if _sums_up(one.cells[row] for one in table.columns):
+            selection.leave_out(row, "averages of other rows", fault=False)
         elif lacking := next((name for name, cell in cells.items() if cell in missing), None):
             selection.leave_out(row, f"{lacking} is missing", fault=False)
     selection.need_numbers(needed)
@@ -279,6 +278,14 @@ def _rows(table: Table, column_map: ColumnMap, where: Sequence[Condition], stric
                 selection.leave_out(row, rule.why, fault=False)
     selection.check_some()
     return selection
+
+
+def _sums_up(row: Iterable[str]) -> bool:
+    """True for a row of averages or the like: one of its cells says so, or its first one begins or ends with it, as in
+    ``Driver Average``."""
+    cells = [cell for cell in (cell.strip().lower().rstrip(".:") for cell in row) if cell]
+    ends = {cells[0].split()[place].rstrip(".:") for place in (0, -1)} if cells else set()
+    return not _SUMMARIES.isdisjoint({*cells, *(ends - {"total"})})
 
 
 def are_missing(columns: Sequence[Column], row: int) -> bool:

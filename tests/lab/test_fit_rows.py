@@ -88,7 +88,7 @@ def test_empty_cells_and_sums_are_left_out_also_if_strict(tmp_path: Path, carrie
     file = written(tmp_path, HEAD + "".join(rows))
     for strict in (False, True):
         found = sandbox.fit("golf", file, {"air.density": (1.0, 1.3)}, strict=strict).measured
-        assert found.left_out == (LeftOut(1, "Spin Rate is missing"), LeftOut(7, "sums other rows up"))
+        assert found.left_out == (LeftOut(1, "Spin Rate is missing"), LeftOut(7, "averages of other rows"))
 
 
 @pytest.mark.parametrize(

@@ -21,7 +21,7 @@ def read(folder: Path, text: str, scene: str = "golf", choices: Choices = EVERYT
     return read_shots(sandbox.load(scene), read_table("", folder / "shots.csv"), choices)
 
 
-AVERAGE = LeftOut(2, "sums other rows up")
+AVERAGE = LeftOut(2, "averages of other rows")
 
 #: Two rows of each device: a shot of 120 mph, 17.2 deg and 1.2 deg to the right, and an average or a shot without a
 #: result; then what is read of the first, in SI.

@@ -80,6 +80,20 @@ def test_a_shot_that_is_long_is_none_and_one_far_aside_is(tmp_path: Path):
     assert [(one.row, one.why) for one in found.first.set_aside] == [(8, "side 40 m: +11.6")]
 
 
+def test_a_few_shots_that_lie_close_make_no_mishits():
+    carries, all_of_them = np.array([230.0, 231.0, 232.0, 232.0, 232.0, 233.0, 226.0]), np.ones(7, dtype=bool)
+    assert _scores(carries, all_of_them)[6] < -3.5
+    assert _scores(carries, all_of_them, 0.03 * 232.0)[6] == pytest.approx(-6.0 / 6.96)
+
+
+def test_groups_are_compared_however_they_are_spelled(tmp_path: Path):
+    first = written(tmp_path, HEAD + "7 Iron,150,1\n7 Iron,152,0\nPW,100,0\nPW,99,0\n")
+    second = written(tmp_path, HEAD + "7-iron,160,1\n7-iron,162,0\nLW,60,0\nLW,61,0\n", "later.csv")
+    report = sandbox.session(first, second, scene="golf").report()
+    assert report.document()["difference"]["7 Iron"]["carry"]["value"] == pytest.approx(10.0)
+    assert "PW in shots.csv; LW in later.csv" in " ".join(as_text(report).split())
+
+
 def test_one_of_twenty_normal_groups_has_a_mishit_by_chance():
 
     random = np.random.default_rng(5)
@@ -184,11 +198,11 @@ def test_what_is_no_session_is_refused(call: Call, tmp_path: Path, file: Path):
 
 
 def test_a_shot_without_a_value_counts_for_the_others(tmp_path: Path):
-    file = written(tmp_path, "Club,Carry (yd),Total (yd)\nPW,100,110\nPW,104,\nPW,-21474836480,108\nAverage,102,109\n")
+    file = written(tmp_path, "Club,Carry (yd),Total (yd)\nPW,100,110\nPW,104,\nPW,-21474836480,108\nPW Average,102,109\n")
     found = sandbox.session(file, scene="golf").report().document()
     group = found["groups"]["PW"]
     assert (group["n"], group["carry"]["mean"], group["total"]["mean"]) == (3, 102.0, 109.0)
-    assert [(one.row, one.why) for one in found["left_out"]] == [(4, "sums other rows up")]
+    assert [(one.row, one.why) for one in found["left_out"]] == [(4, "averages of other rows")]
 
 
 def test_all_charts_are_on_the_page(call: Call, tmp_path: Path, file: Path):

@@ -14,7 +14,7 @@ from sandbox.lab.misfit import Compared
 from sandbox.lab.misfit import document as misfit_document
 from sandbox.lab.report import Column, Notes, Report, Table, words
 from sandbox.lab.session.chart import charts
-from sandbox.lab.session.shots import FEWEST, LAUNCH, SHARES, SIDE, Measure, Shots
+from sandbox.lab.session.shots import FEWEST, LAUNCH, NARROW, SHARES, SIDE, Measure, Shots
 from sandbox.lab.statistics import Numbers, Share
 from sandbox.parameters import value_at
 from sandbox.text import argument, with_noun
@@ -224,8 +224,16 @@ def _differences(session: Session) -> list[Table | Notes]:
     title = f"{session.second.shots.path.name} minus {session.first.shots.path.name}"
     how = "difference of the means with its 95 % interval (Welch); * where that does not hold 0, as in one of 20 "
     tables[0] = replace(tables[0], title=title)
-    tables[-1] = replace(tables[-1], notes=[f"{how}that differ by chance alone"])
+    tables[-1] = replace(tables[-1], notes=[f"{how}that differ by chance alone", *_in_one_only(session, set(found))])
     return [*tables]
+
+
+def _in_one_only(session: Session, common: set[str]) -> list[str]:
+    """Name the groups that are in one of two sessions only."""
+    parts = (session.first, session.second)
+    found = {part.shots.path.name: [n for n in part.groups if n not in common] for part in parts if part is not None}
+    named = [f"{', '.join(names)} in {name}" for name, names in found.items() if names]
+    return [f"without one of the same name in the other file: {'; '.join(named)}"] if named else []
 
 
 def _change(one: Difference | None, measure: Measure) -> str:
@@ -322,8 +330,8 @@ def _rule(session: Session) -> str:
         return "all shots count" + ("" if session.mishit is None else ", since the file has no distance of a shot")
     return (
         f"mishits are set aside: shots that are too slow, too short, or too far to either side for their group, by a "
-        f"modified z-score beyond {session.mishit:g} (Iglewicz and Hoaglin 1993), in groups of {FEWEST} shots or more; "
-        "--set-aside none counts all"
+        f"modified z-score beyond {session.mishit:g} (Iglewicz and Hoaglin 1993), in groups of {FEWEST} shots or more, "
+        f"which scatter by {100 * NARROW:g} % of their distance at least; --set-aside none counts all"
     )
 
 

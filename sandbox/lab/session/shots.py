@@ -36,6 +36,10 @@ SIDE = "side"
 #: A group of fewer shots has no mishits: its median deviation says too little.
 FEWEST = 6
 
+#: A group scatters by at least this share of its speed or distance: assumed. A few shots may lie closer together by
+#: chance, and one that is some yards off them is no mishit.
+NARROW = 0.03
+
 #: The shares of the shots that ellipses hold.
 SHARES = (0.5, 0.95)
 

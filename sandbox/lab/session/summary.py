@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import hypot
@@ -20,7 +21,7 @@ from sandbox.lab.misfit import Compared, Misfit, misfit
 from sandbox.lab.report import Report
 from sandbox.lab.runs import Progress, no_progress
 from sandbox.lab.session.report import report_of
-from sandbox.lab.session.shots import FEWEST, SHARES, SIDE, Measure, Shots, read_session
+from sandbox.lab.session.shots import FEWEST, NARROW, SHARES, SIDE, Measure, Shots, read_session
 from sandbox.lab.statistics import Ellipse, Numbers, Share, student
 
 #: A shot is a mishit if its modified z-score is beyond this, ``0.6745 (x - median) / (c MAD)``: the recommendation of
@@ -177,12 +178,20 @@ def summarized(
     """Like ``session``, with choices already parsed."""
     first = read_session(path, scene, by, of, choices)
     other = None if second is None else read_session(second, scene or first.scene.name, by, of, choices)
+    if other is not None:  # "7 Iron" and "7-iron" are one club
+        names = {_spelled(name): name for name in first.groups}
+        other = replace(other, groups={names.get(_spelled(name), name): own for name, own in other.groups.items()})
     return Session(
         _without_mishits(first, mishit),
         None if other is None else _without_mishits(other, mishit),
         mishit,
         _modelled(first, mishit, changes or {}, was or {}, progress),
     )
+
+
+def _spelled(name: str) -> str:
+    """The name of a group without what programs write in different ways."""
+    return re.sub(r"[\s_-]", "", name.casefold())
 
 
 # --------------------------------------------------------------------------------------------------------------- groups
@@ -192,8 +201,11 @@ def _without_mishits(shots: Shots, mishit: float | None) -> Part:
     """The shots with the mishits of each group set aside."""
     found: dict[int, _SetAside] = {}
     for measure in _judged(shots) if mishit is not None else ():
+        size = _in_unit(shots.distance, measure.unit) if measure.key == SIDE and shots.distance else measure
         for name, inside in shots.groups.items():
-            for place, score in _scores(measure.values, inside).items():
+            some = size.of(inside)
+            least = NARROW * float(np.median(some)) if len(some) else 0.0
+            for place, score in _scores(measure.values, inside, least).items():
                 off = abs(score) if measure.key == SIDE else -score
                 if mishit is not None and off > mishit and place not in found:
                     value = f"{measure.label} {measure.values[place]:.4g} {measure.unit}".rstrip()
@@ -209,9 +221,10 @@ def _judged(shots: Shots) -> list[Measure]:
     return [one for one in every if one is not None] if shots.distance is not None else []
 
 
-def _scores(values: np.ndarray, inside: np.ndarray) -> dict[int, float]:
+def _scores(values: np.ndarray, inside: np.ndarray, least: float = 0.0) -> dict[int, float]:
     """The modified z-score by place of each shot of a group, {} for one that is too small or does not scatter. Where
-    more than half of the shots are alike, the mean deviation stands for the median one (Iglewicz and Hoaglin)."""
+    more than half of the shots are alike, the mean deviation stands for the median one (Iglewicz and Hoaglin). The
+    standard deviation is ``least`` or more."""
     places = np.flatnonzero(inside & np.isfinite(values))
     if len(places) < FEWEST:
         return {}
@@ -220,7 +233,8 @@ def _scores(values: np.ndarray, inside: np.ndarray) -> dict[int, float]:
     if mean == 0.0:
         return {}
     small = _SMALL.get(len(places), len(places) / (len(places) - 0.8))
-    scores = off * (_MEDIAN_DEVIATION / (small * median) if median > 0.0 else _MEAN_DEVIATION / mean)
+    sd = small * median / _MEDIAN_DEVIATION if median > 0.0 else mean / _MEAN_DEVIATION
+    scores = off / max(sd, least)
     return dict(zip(places.tolist(), scores.tolist(), strict=True))
 
 
