@@ -178,8 +178,10 @@ def executed(page: str, capsys: pytest.CaptureFixture[str]) -> list[str]:
             said.append(capsys.readouterr().out)
         else:
             for command, expected in steps(text):
-                assert program.call(shlex.split(command)[1:]) == 0, command
-                output = capsys.readouterr().out
+                code = program.call(shlex.split(command)[1:])
+                shown = capsys.readouterr()
+                assert code == (2 if expected.startswith("error: ") else 0), f"$ {command}\n{shown.err}"
+                output = shown.err if code else shown.out
                 assert doctest.OutputChecker().check_output(expected, output, LIKE), f"$ {command}\n{output}"
     return said
 

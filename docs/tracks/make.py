@@ -21,6 +21,10 @@ THROW = {
 }  # fmt: skip
 FRAMES, BEGINS, CLICK = 60.0, 0.2837, 0.004  # 1/s, s before the throw, m
 
+#: The same film, tracked by a program that lost the ball in some frames, jumped once and has decimal commas, with a
+#: stick of 1.25 m that was taken for one of 1 m.
+SCALE, LOST, WITHOUT_HEIGHT, JUMPS = 0.8, (8, 9, 27), (19,), (23,)
+
 #: Drives on a range with a headwind in thin air; what the monitor prints of the flight is off by these, in m, m and s.
 RANGE = {"air.density": 1.145, "air.wind": [-2.6, 0.0]}
 PRINTED = {"carry": 1.5, "apex": 0.5, "flight_time": 0.05}
@@ -51,6 +55,18 @@ def throw() -> str:
     places = run.states("first", clock - BEGINS)[:, :2] + rng.normal(0.0, CLICK, (len(clock), 2))
     rows = [f"{t:.6E}\t{x:.6E}\t{y:.6E}\t" for t, (x, y) in zip(clock, places.tolist(), strict=True)]
     return "\n".join(["mass A\t\t\t", "t\tx\ty\t", *rows]) + "\n"
+
+
+def dirty_throw() -> str:
+    """A track as Tracker exports it where numbers have decimal commas, with what goes wrong in tracking."""
+    lines = throw().splitlines()
+    rows = [lines[1].split("\t")[:3]]
+    for place, line in enumerate(lines[2:46]):
+        t, x, y = (float(cell) for cell in line.split("\t")[:3])
+        x, y = SCALE * x, SCALE * y + (0.5 if place in JUMPS else 0.0)
+        cells = [f"{t:.3f}", f"{x:.3f}", "" if place in WITHOUT_HEIGHT else f"{y:.3f}"]
+        rows.append([cells[0], "", ""] if place in LOST else cells)
+    return "\n".join([lines[0].strip(), *(";".join(row).replace(".", ",") for row in rows)]) + "\n"
 
 
 def drives() -> str:
@@ -104,6 +120,7 @@ def bag(seed: int, clubs: dict[str, tuple[float, float]]) -> str:
 #: Each file and what is in it.
 FILES = {
     "thrown-ball.txt": throw,
+    "dirty-film.txt": dirty_throw,
     "drives.csv": drives,
     "bag.csv": lambda: bag(52, dict.fromkeys(BAG, (1.0, 0.0))),
     "bag-later.csv": lambda: bag(53, LATER),

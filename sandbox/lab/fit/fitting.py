@@ -20,7 +20,8 @@ from sandbox.lab.fit.measured import Measured
 from sandbox.lab.fit.models import chosen_models, compare
 from sandbox.lab.fit.parsing import Film, parse_scale
 from sandbox.lab.fit.problem import Declared
-from sandbox.lab.fit.squares import Fit, solve
+from sandbox.lab.fit.remedy import explained
+from sandbox.lab.fit.squares import FarOff, Fit, solve
 from sandbox.lab.mapped import choices_of
 from sandbox.lab.runs import Progress, no_progress
 from sandbox.parameters import value_at, walk
@@ -102,7 +103,10 @@ def fit_track(
     given = next((key for key in keys if isinstance(measured, Launches) and key in measured.given), None)
     if given is not None:
         raise RequestError(f"--vary {given}: is a column of the table; to fit it, leave that out: --without {given}")
-    return solve(scene, measured, spans, robust, progress=progress)
+    try:
+        return solve(scene, measured, spans, robust, progress=progress)
+    except FarOff as error:
+        raise explained(error, scene, measured, spans) from None
 
 
 def parse_varied(scene: Scene, text: str) -> Span:

@@ -10,7 +10,8 @@ from typing import Any
 from sandbox.errors import RequestError, RunError
 from sandbox.lab.axes import Span, checked
 from sandbox.lab.fit.measured import Measured
-from sandbox.lab.fit.squares import Fit, Model, check_near, solve
+from sandbox.lab.fit.remedy import explained
+from sandbox.lab.fit.squares import FarOff, Fit, Model, check_near, solve
 from sandbox.lab.runs import Progress, no_progress
 from sandbox.parameters import choices_of, value_at
 from sandbox.scene import Scene
@@ -89,5 +90,8 @@ def compare(
     ordered = dict(sorted(models.items(), key=lambda item: item[1].behind))
     best = next(iter(ordered.values())).fit
     assert best is not None
-    check_near(best.scene, measured, best.residuals)
+    try:
+        check_near(best.scene, measured, best.residuals, robust)
+    except FarOff as error:
+        raise explained(error, scene, measured, spans) from None
     return replace(best, models=ordered, models_of=key)

@@ -67,6 +67,13 @@ def search(problem: Problem, robust: bool, progress: Progress = no_progress) -> 
     return [place for _, place in ended]
 
 
+def follow(problem: Problem, share: np.ndarray) -> Place | None:
+    """The place to which one start leads, gross errors counted less; None if a run failed on the way."""
+    first, groups = problem.times <= window(problem, WINDOW), problem.measured.groups
+    scale = robust_sds(problem.residuals(share[None])[0], 0 * groups, first)
+    return _Following(problem, scale, True, _GROWTHS[0]).from_start(share)
+
+
 def _is_good(problem: Problem, place: Place, agreed: int) -> bool:
     """True if the residuals have no pattern; or where they are too few to have one, if two starts came to them. Not at
     the end of a range, where there may be a better minimum elsewhere."""

@@ -14,7 +14,6 @@ from sandbox import display
 from sandbox.errors import RequestError, RunError
 from sandbox.lab.axes import Span
 from sandbox.lab.fit.descent import Place, descend
-from sandbox.lab.fit.falling import gravity_hint
 from sandbox.lab.fit.intervals import HARDLY, Errors, clustered, errors_of, group_sds, pooled
 from sandbox.lab.fit.loss import HUBERS, OUTLIER, SQUARES, TUKEYS, Loss
 from sandbox.lab.fit.measured import Measured
@@ -47,6 +46,10 @@ _BLOCK, _FEWEST_BLOCKS = 3.0, 6
 
 #: A fit whose residuals have a pattern, and on average this share of the extent of the data, explains nothing.
 NOTHING = 0.15
+
+
+class FarOff(RequestError):
+    """No run comes near the data."""
 
 
 @dataclass(frozen=True)
@@ -157,8 +160,8 @@ def solve(
     near: bool = True,
     progress: Progress = no_progress,
 ) -> Fit:
-    """The best fit. Raises RequestError for too few rows and, if it must be ``near``, for data that no run comes near;
-    RunError if no run could be completed."""
+    """The best fit. Raises RequestError for too few rows; FarOff, if it must be ``near``, for data that no run comes
+    near; RunError if no run could be completed."""
     measured.check(scene)
     problem = Problem(scene, measured, spans)
     if measured.count <= len(problem):
@@ -172,7 +175,7 @@ def solve(
         place, sds, loss = _refined(problem, place, robust)
         place = Place(place.share, place.residuals, _slopes(problem, place, sds), place.cost)
         if near:
-            check_near(problem.scene, measured, place.residuals)
+            check_near(problem.scene, measured, place.residuals, robust)
         errors = errors_of(place.residuals, place.slopes, sds, measured.groups, loss)
         found = rivals(Weighted(problem, sds, loss), place, errors, known)
         if not left or not found or found[0][0] > -BETTER:
@@ -319,16 +322,13 @@ def _values(
     return found
 
 
-def check_near(scene: Scene, measured: Measured, residuals: np.ndarray) -> None:
-    """Raise RequestError if no run comes near the data."""
+def check_near(scene: Scene, measured: Measured, residuals: np.ndarray, robust: bool = False) -> None:
+    """Raise FarOff if no run comes near the data; with ``robust``, near most of them."""
     points = measured.points(scene, [one.start for one in measured.free])
     if points is None or len(points.positions) < ENOUGH:
         return
-    off = float(np.sqrt((residuals**2).mean()))
+    off = float(robust_sds(residuals, 0 * measured.groups)[0] if robust else np.sqrt((residuals**2).mean()))
     extent = float(np.sqrt(((points.positions - points.positions.mean(axis=0)) ** 2).mean()))
     if off > NOTHING * extent and neumann(measured.groups, residuals) < ALIKE:
-        hint = gravity_hint(scene, measured, [one.start for one in measured.free]) or (
-            "is it of this scene, in m and s from its origin (or --free time,origin), and are the ranges wide enough?"
-        )
         best = f"comes near this track, the best is off by {off:.3g} m on average"
-        raise RequestError(f"no run of {scene.title} in these ranges {best}: {hint}")
+        raise FarOff(f"no run of {scene.title} in these ranges {best}")
