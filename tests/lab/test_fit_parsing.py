@@ -41,6 +41,7 @@ WRITTEN = {
     "Kinovea's next": "#Kinovea Trajectory data export\n#T X Y\n\n# ball\n0.00 1 2\n0.10 1.5 2.25\n0.20 2 2\n",
     "Logger Pro": "Vernier Format 2\nthrow.cmbl\n.\nVideo Analysis\nTime\tX\tY\nt\tx\ty\ns\tcm\tcm\n"
     "0\t100\t200\n0.1\t150\t225\n0.2\t200\t200\n",
+    "names of its own": "Zeit (s);Ort x (m);Ort y (m);v x (m/s)\n0;1;2;5\n0,1;1,5;2,25;5\n0,2;2;2;5\n",
     "phyphox": '"Time (s)","Position x (m)","Position y (m)"\n0,1,2\n1e-1,1.5,2.25\n2E-1,2,2\n',
     "all cells": "mass_A\t\t\t\t\nt\tx\ty\tv_{x}\ta\t\n0\t1\t2\t\t\t\n0.1\t1.5\t2.25\t5\t\t\n0.2\t2\t2\t\t\t\n",
     "our own": "t,ball,x,y,vx,vy,spin\n0,,1,2,5,1,0\n0.1,,1.5,2.25,5,0,0\n0.2,,2,2,5,-1,0\n",
@@ -98,6 +99,39 @@ def test_several_balls_come_side_by_side_or_in_files(tmp_path):
     assert measurements(tables, PLAIN).balls == ("first", "second")
 
 
+def test_one_of_several_balls_is_chosen():
+    track = {"t": [0, 0.1, 0, 0.1], "x": [0, 1, 5, 6], "y": [2, 2.1, 3, 3.1], "ball": ["A", "A", "B", "B"]}
+    with pytest.raises(RequestError, match='"A=ball", and the others are left out'):
+        sandbox.fit("throws", track, {"launch.speed": (2, 20)})
+    found = data_of(sandbox.load("throws"), [("", table_of(track))], Reading(Film(balls={"B": "ball"})))
+    assert found.positions.tolist() == [[5.0, 3.0], [6.0, 3.1]]
+    assert found.notes == ("balls that are not used: A",)
+
+
+def test_a_fall_straight_down_needs_no_x():
+    """y = 2 - g t^2 / 2, in x nothing: its exact agreement says nothing of the error in y."""
+    t = np.linspace(0.0, 0.6, 30)
+    y = 2.0 - 4.905 * t**2 + np.random.default_rng(1).normal(0.0, 0.003, len(t))
+    with pytest.raises(RequestError, match='for a fall straight down --map "x=0\\*y" --map "y=y" --map "t=t"'):
+        sandbox.fit("throws", {"t": t, "y (m)": y}, {"gravity": (5, 15)})
+    still = sandbox.load("throws", {"launch.speed": 0.0, "release.height": 2.0, "ball.drag.model": "none"})
+    columns = {"x": "0*y", "y": "y", "t": "t"}
+    found = sandbox.fit(still, {"t": t, "y (m)": y}, {"gravity": (5, 15)}, columns=columns)
+    slopes = 0.5 * t**2
+    error = 2.045 * found.residual_sd["y"] / np.sqrt((slopes**2).sum())
+    assert found.values["gravity"].half == pytest.approx(error, rel=0.05)
+    assert found.values["gravity"].holds(9.81)
+
+
+def test_times_of_bounces_may_have_other_names():
+    clock = {"Event": [1, 2, 3, 4], "Time (s)": [0.0, 0.7312, 1.3599, 1.9010]}
+    vary = {"floor.restitution": None, "balls[0].y": (0.3, 3.0)}
+    with pytest.raises(RequestError, match='for times of bounces --map "t=Time" --map "bounce=Event"'):
+        sandbox.fit("collisions/bouncing-ball", clock, vary)
+    found = sandbox.fit("collisions/bouncing-ball", clock, vary, columns={"t": "Time", "bounce": "Event"})
+    assert found.values["floor.restitution"].value == pytest.approx(0.86, abs=0.001)
+
+
 # What is no track ----------------------------------------------------------------------------------------------------
 
 WRONG = {
@@ -106,6 +140,7 @@ WRONG = {
     "t,x (cm),y\n0,1,2\n": "units are mixed: x is in cm, but y has no unit",
     "t,x (kg),y (kg)\n0,1,2\n": "x is in kg: kg is a unit of mass; use m",
     "t,x (px),y (px)\n0,1,2\n": "x and y are in px; give --scale",
+    "frame,x (px),y (px)\n0,1,2\n": "and the frames per second, such as --fps 240",
     "frame,x,y\n0,1,2\n": "has frames, but no times",
     "t,x,y\n0,0,0\n0.2,1,1\n0.1,2,2\n": "row 3, t = 0.1 s is before 0.2 s in the row above",
     "t,x,y\n0,1,nan\n": "row 1, y = nan is not finite",

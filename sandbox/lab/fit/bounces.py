@@ -22,6 +22,9 @@ from sandbox.scene.scene_run import SceneRun
 _NUMBERS, _TIMES = ("bounce", "bounces", "bounce number"), ("t", "time", "zeit", "temps")
 _HEIGHTS = ("height", "h", "max height", "apex")
 
+#: The columns by name, for --map.
+BOUNCES = ("bounce", "t", "height")
+
 #: A run lasts so many times as long as what was measured; a highest place is found in so many steps.
 _LONGER, _STEPS = 2.0, 4
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from sandbox.errors import RequestError
-from sandbox.lab.fit.bounces import bounces_of, has_bounces
+from sandbox.lab.fit.bounces import BOUNCES, bounces_of, has_bounces
 from sandbox.lab.fit.frame import frame_of
 from sandbox.lab.fit.launches import launches
 from sandbox.lab.fit.measured import Measured
@@ -18,6 +18,7 @@ from sandbox.lab.fit.outline import Outline
 from sandbox.lab.fit.parsing import (
     NAMES,
     Film,
+    clock_of,
     flattened,
     has_positions,
     has_some_position,
@@ -26,7 +27,7 @@ from sandbox.lab.fit.parsing import (
     unknown_columns,
 )
 from sandbox.lab.fit.track import Track
-from sandbox.lab.formats import Source, declared_units, in_table, recognized
+from sandbox.lab.formats import Source, advice, declared_units, in_table, recognized
 from sandbox.lab.mapped import EVERYTHING, Choices, read_shots
 from sandbox.lab.table_file import Column, Table, read_table, split_unit
 from sandbox.physics.forces import Gravity
@@ -35,6 +36,9 @@ from sandbox.text import shortened
 
 #: A run of other values may take so many times as long as that of the scene.
 LONGER = 2.0
+
+#: What --map may name in a track, or in a table of bounces.
+_KEYS = {*NAMES, *BOUNCES}
 
 
 @dataclass(frozen=True)
@@ -51,7 +55,7 @@ def data_of(scene: Scene, tables: Sequence[tuple[str, Table]], how: Reading) -> 
     choices = how.choices
     notes: list[str] = []
     swapped = any(entry.text.partition(" ")[0] in declared_units(scene) for entry in choices.entries)
-    if choices.entries and not swapped and all(entry.key in NAMES for entry in choices.entries):
+    if choices.entries and not swapped and all(entry.key in _KEYS for entry in choices.entries):
         tables = [(name, renamed(table, in_table(choices.entries, table))) for name, table in tables]
         choices = replace(choices, entries=())
     elif not choices.entries:
@@ -65,7 +69,7 @@ def data_of(scene: Scene, tables: Sequence[tuple[str, Table]], how: Reading) -> 
     if not choices.entries and len(tables) == 1 and has_bounces(first):
         return bounces_of(scene, first, how.free, choices.strict)
     if not choices.entries and recognized(first, scene) is None:
-        _check_track(first)
+        _check_track(first, scene)
     if len(tables) > 1 or how.free or how.film != Film():
         raise RequestError(
             f"{first.where}: is a table of launches; options for films and several tracks do not apply to it"
@@ -79,6 +83,9 @@ def _track(scene: Scene, tables: Sequence[tuple[str, Table]], how: Reading, note
     gravity = next((float(force.gravity) for force in setup.balls[0].forces if isinstance(force, Gravity)), 9.81)
     flat = [(name, *flattened(table, setup.plane is not None, gravity)) for name, table in tables]
     found = measurements([(name, table) for name, table, _ in flat], how.film, how.choices.strict)
+    if how.film.balls:
+        found, others = found.of_balls({"", *(ball.name for ball in setup.balls)})
+        notes += [f"balls that are not used: {', '.join(others)}"] if others else []
     places = found.positions, found.balls, found.rows, frame_of(scene, found, how.free), found.where
     about: Any = {
         "left_out": found.left_out,
@@ -109,8 +116,9 @@ def _with_names(table: Table, notes: list[str]) -> Table:
     return replace(table, columns=tuple(columns), is_named=True)
 
 
-def _check_track(table: Table) -> None:
-    """Raise RequestError for a table of a track that lacks what one needs, such as one of accelerations."""
+def _check_track(table: Table, scene: Scene) -> None:
+    """Raise RequestError for a table of a track, or of bounces, that lacks what one needs, such as one of
+    accelerations."""
     if has_some_position(table) and not has_positions(table):
         measurements([("", table)], Film())  # says which column is missing
     named = [one.name for one in table.columns if "accel" in one.name.lower() or one.unit == "m/s^2"]
@@ -121,17 +129,26 @@ def _check_track(table: Table) -> None:
             "2, ...) and t, and fit collisions/bouncing-ball to it with --vary floor.restitution --free time"
         )
 
+    clock = clock_of(table)
+    if clock is not None and not advice(table, scene):
+        others = [one.name for one in table.columns if one is not clock]
+        clocked = f'--map "t={clock.name}"'
+        track = f'; for a track name them, {clocked} --map "x={others[0]}" --map "y={others[1]}"' if others[1:] else ""
+        bounces = f'; for times of bounces {clocked} --map "bounce={others[0]}"' if others else ""
+        raise RequestError(f"{table.where}: has times, but no columns x and y{track}{bounces}")
+
 
 def renamed(table: Table, sources: Sequence[Source]) -> Table:
     """The table of a track with the names, and units, of sources such as ``t=Zeit [ms]``."""
     used = {name.lower() for source in sources for name in source.expression.columns}
-    meant = {name for source in sources for name in NAMES[source.key]}  # another "Position Y" is none any more
+    meant = {name for source in sources for name in NAMES.get(source.key, ())}  # another "Position Y" is none any more
     others = (one for one in table.columns if one.name.lower() not in used and plain(one.name) not in meant)
     return replace(table, columns=(*(_computed(table, source) for source in sources), *others), groups=())
 
 
 def _computed(table: Table, source: Source) -> Column:
-    """The column of a source: one of the table as it is, or arithmetic, with the first fault in place of a number."""
+    """The column of a source: one of the table as it is, or arithmetic, with the first fault in place of a number, in
+    the unit that its columns have in common."""
     columns = [table.column(name) for name in source.expression.columns]
     if source.column:
         return replace(columns[0], name=source.key, unit=source.unit or columns[0].unit)
@@ -140,7 +157,8 @@ def _computed(table: Table, source: Source) -> Column:
     good = [row for row in rows if faults[row] is None]
     values = dict(zip(good, source.expression.values([table.numbers(one, good) for one in columns]), strict=True))
     cells = (repr(float(values[row])) if row in values else faults[row] or "" for row in rows)
-    return Column(source.key, source.unit, tuple(cells))
+    common = {one.unit for one in columns}
+    return Column(source.key, source.unit or (common.pop() if len(common) == 1 else ""), tuple(cells))
 
 
 def read_data(scene: Scene, paths: Sequence[Path], how: Reading) -> Measured:

@@ -60,7 +60,9 @@ class Filmed:
         names = [ball.name for ball in scene.build().balls]
         unknown = next((ball for ball in self.balls if ball and ball not in names), None)
         if unknown is not None:
-            hint = f'; say which one it is, as --ball "{unknown}={names[0]}"' if len(names) > 1 else ""
+            hint = f'; say which one it is, as --ball "{unknown}={names[0]}"'
+            several = len({*self.balls}) > len(names)
+            hint += ", and the others are left out" if several else ""
             raise RequestError(f"{self.where}: no ball {unknown!r} in {scene.title}; it has {', '.join(names)}{hint}")
 
     def flights(

@@ -58,7 +58,8 @@ def group_sds(residuals: np.ndarray, slopes: np.ndarray, sds: np.ndarray, groups
 
 
 def pooled(sds: np.ndarray, counts: np.ndarray, units: tuple[str, ...]) -> np.ndarray:
-    """The standard deviations of groups, with one for all groups in a unit that do not differ more than by chance."""
+    """The standard deviations of groups, with one for all groups in a unit that do not differ more than by chance; one
+    that is met exactly, as x of a fall straight down, does."""
     found = sds.copy()
     for unit in dict.fromkeys(units):
         own = np.array([each == unit for each in units])
@@ -66,8 +67,6 @@ def pooled(sds: np.ndarray, counts: np.ndarray, units: tuple[str, ...]) -> np.nd
             logs, errors = 2.0 * np.log(sds[own]), np.sqrt(2.0 / counts[own])
             if np.ptp(logs) < _DIFFERENT * float(np.hypot(*np.sort(errors)[-2:])):
                 found[own] = np.sqrt((counts[own] * sds[own] ** 2).sum() / counts[own].sum())
-        elif own.sum() > 1:
-            found[own] = np.sqrt((counts[own] * sds[own] ** 2).sum() / counts[own].sum())
     return found
 
 

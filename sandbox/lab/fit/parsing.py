@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import hypot
 
@@ -58,6 +58,15 @@ class Measurements:
 
     def __len__(self) -> int:
         return len(self.positions)
+
+    def of_balls(self, names: Collection[str]) -> tuple[Measurements, tuple[str, ...]]:
+        """The points of these balls, and the names of the others; all, if none is of these."""
+        others = tuple(dict.fromkeys(ball for ball in self.balls if ball not in names))
+        kept = [ball in names for ball in self.balls]
+        if not others or not any(kept):
+            return self, ()
+        t, balls = None if self.t is None else self.t[kept], tuple(ball for ball in self.balls if ball in names)
+        return replace(self, t=t, positions=self.positions[kept], balls=balls, rows=self.rows[kept]), others
 
 
 def parse_scale(text: str) -> float:
@@ -137,14 +146,29 @@ def plain(name: str) -> str:
 
 
 def _places(table: Table, what: str) -> list[int]:
-    """The places of the columns for t, x, y, z, ball or frame."""
-    return [place for place, name in enumerate(table.names) if plain(name) in NAMES[what]]
+    """The places of the columns for t, x, y, z, ball or frame; for a coordinate also those of lengths with that letter
+    in their name, such as ``Ort x (m)``."""
+    found = [place for place, name in enumerate(table.names) if plain(name) in NAMES[what]]
+    if found or what not in "xyz":
+        return found
+    lengths = (place for place, one in enumerate(table.columns) if one.unit == PIXEL or _is_length(one.unit))
+    return [place for place in lengths if what in re.split(r"[\W_]+", table.names[place].lower())]
+
+
+def _is_length(unit: str) -> bool:
+    return units.KIND_OF.get(unit) == "length"
+
+
+def clock_of(table: Table) -> Column | None:
+    """The column of times; None if there is none, or several."""
+    places = _places(table, "t")
+    return table.columns[places[0]] if len(places) == 1 else None
 
 
 def unknown_columns(table: Table) -> tuple[str, ...]:
     """The names of columns with any content that a track does not use."""
-    known = {name for what in ("t", "x", "y", "ball", "frame") for name in NAMES[what]}
-    return table.others({name.lower() for name in table.names if plain(name) in known})
+    known = (place for what in ("t", "x", "y", "ball", "frame") for place in _places(table, what))
+    return table.others({table.names[place].lower() for place in known})
 
 
 def flattened(table: Table, above: bool, gravity: float) -> tuple[Table, str]:
@@ -201,7 +225,11 @@ def _of_table(table: Table, film: Film, name: str, strict: bool) -> Iterable[Mea
     for what, places in (("x", xs), ("y", ys)):
         if len(places) != 1:
             found = shortened(", ".join(table.names), 60)
-            raise RequestError(f"{table.where}: needs one column {what} in its first line, which has: {found}")
+            clock, hint = clock_of(table), ""
+            if not xs and len(ys) == 1 and clock is not None:
+                y = table.names[ys[0]]
+                hint = f'; for a fall straight down --map "x=0*{y}" --map "y={y}" --map "t={clock.name}"'
+            raise RequestError(f"{table.where}: needs one column {what} in its first line, which has: {found}{hint}")
     yield _of_ball(table, film, xs[0], ys[0], name, strict)
 
 
@@ -242,7 +270,9 @@ def _metres(table: Table, columns: tuple[Column, Column], film: Film) -> float:
             raise RequestError(f"{table.where}: units are mixed: x is in {x.unit}, but --scale is for pixels")
         return film.scale
     if x.unit == PIXEL:
-        raise RequestError(f'{table.where}: x and y are in px; give --scale, such as --scale "120 px = 1 m"')
+        rate = _places(table, "frame") and not _places(table, "t") and film.rate is None
+        more = ", and the frames per second, such as --fps 240" if rate else ""
+        raise RequestError(f'{table.where}: x and y are in px; give --scale, such as --scale "120 px = 1 m"{more}')
     return _factor(table, x, "m")
 
 
