@@ -86,7 +86,13 @@ def _track(scene: Scene, tables: Sequence[tuple[str, Table]], how: Reading, note
     if how.film.balls:
         found, others = found.of_balls({"", *(ball.name for ball in setup.balls)})
         notes += [f"balls that are not used: {', '.join(others)}"] if others else []
-    places = found.positions, found.balls, found.rows, frame_of(scene, found, how.free), found.where
+    places = (
+        found.positions,
+        found.balls,
+        found.rows,
+        frame_of(scene, found.where, found.t, found.positions, how.free),
+        found.where,
+    )
     about: Any = {
         "left_out": found.left_out,
         "unused": tuple(dict.fromkeys(name for _, table, _ in flat for name in unknown_columns(table))),

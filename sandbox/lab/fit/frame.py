@@ -10,7 +10,6 @@ import numpy as np
 
 from sandbox.errors import RequestError
 from sandbox.lab.fit.measured import Free
-from sandbox.lab.fit.parsing import Measurements
 from sandbox.scene import Scene
 
 #: The keys of what may be free.
@@ -59,19 +58,20 @@ def parse_free(option: str, texts: Sequence[str]) -> tuple[str, ...]:
     return tuple(name for name in _KEYS if name in names)
 
 
-def frame_of(scene: Scene, measured: Measurements, names: Sequence[str]) -> Frame:
-    """The frame of a film; it is searched near where its first point is that of the launch. Raises RequestError."""
+def frame_of(scene: Scene, where: str, t: np.ndarray | None, positions: np.ndarray, names: Sequence[str]) -> Frame:
+    """The frame of a film with these times in s and positions in m; it is searched near where its first point is that
+    of the launch. Raises RequestError."""
     free: list[Free] = []
-    extent = max(float(np.ptp(measured.positions, axis=0).max()), _SHIFT)
+    extent = max(float(np.ptp(positions, axis=0).max()), _SHIFT)
     for name in names:
         if name == "time":
-            if measured.t is None:
-                raise RequestError(f"{measured.where}: has no times, so time cannot be free")
-            first, last = float(measured.t.min()), float(measured.t.max())
+            if t is None:
+                raise RequestError(f"{where}: has no times, so time cannot be free")
+            first, last = float(t.min()), float(t.max())
             free.append(Free("track.time", first - max(last - first, 1.0), last, first, "s"))
         elif name == "origin":
             launch = scene.build().balls[0].position
-            apart = np.asarray(launch) - measured.positions[0]
+            apart = np.asarray(launch) - positions[0]
             for axis, start in zip("xy", apart.tolist(), strict=True):
                 free.append(Free(f"track.origin.{axis}", start - extent, start + extent, start, "m"))
         else:

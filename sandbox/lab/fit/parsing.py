@@ -227,8 +227,8 @@ def _of_table(table: Table, film: Film, name: str, strict: bool) -> Iterable[Mea
             found = shortened(", ".join(table.names), 60)
             clock, hint = clock_of(table), ""
             if not xs and len(ys) == 1 and clock is not None:
-                y = table.names[ys[0]]
-                hint = f'; for a fall straight down --map "x=0*{y}" --map "y={y}" --map "t={clock.name}"'
+                height = table.names[ys[0]]
+                hint = f'; for a fall straight down --map "x=0*{height}" --map "y={height}" --map "t={clock.name}"'
             raise RequestError(f"{table.where}: needs one column {what} in its first line, which has: {found}{hint}")
     yield _of_ball(table, film, xs[0], ys[0], name, strict)
 

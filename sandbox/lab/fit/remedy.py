@@ -68,7 +68,9 @@ def _options(scene: Scene, track: Track, spans: Sequence[Span]) -> str:
     had = {one.key.split(".")[1] for one in track.free}
     names = tuple(name for name in ("time", "origin", "tilt") if name in had or name != "tilt")
     changed = scene.changed(settings | {span.key: launch[span.key] for span in added}, "--set")
-    problem = Problem(changed, replace(track, frame=frame_of(changed, track, names)), [*spans, *added])
+    problem = Problem(
+        changed, replace(track, frame=frame_of(changed, track.where, track.t, track.positions, names)), [*spans, *added]
+    )
     place = _nearest(problem, len(spans))
     if place is None:
         return ""
