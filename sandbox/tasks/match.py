@@ -48,6 +48,10 @@ class Match:
             return 2.0 if after.winner == self.turn else -2.0
         return -1.0 if after.foul else float(after.turn == self.turn)
 
+    def allows(self, wanted: Mapping[str, Any]) -> bool:
+        """False for a shot that is against the rules if it comes to these facts: a computer does not try it."""
+        return True
+
     @property
     def by_computer(self) -> bool:
         """True if the computer has the next shot."""
@@ -62,6 +66,12 @@ class Match:
     def start(self) -> Mapping[str, Any]:
         """The changes of the scene's parameters with which the next shot begins. It is aimed so that who shoots at once
         gains nothing."""
+        return {}
+
+    @property
+    def scatter(self) -> Mapping[str, float]:
+        """The standard deviations of what the computer does in the other's shot, such as a keeper's dive, by the keys
+        of the scene's parameters."""
         return {}
 
     @property

@@ -29,7 +29,7 @@ from sandbox.tasks.match import PLAYERS, Match
 #: What the player may set, by key: bounds, in the parameter's unit.
 _Limits = Mapping[str, tuple[float, float]]
 #: How strong an opponent at the computer may be, and how many times as wide as a practised player's its scatter is.
-STRENGTHS = {"easy": 4.0, "medium": 2.0, "hard": 1.0}
+STRENGTHS = {"easy": 6.0, "medium": 2.5, "hard": 0.7}
 #: Labels and texts of a card.
 Entries = list[tuple[str, str]]
 
@@ -345,7 +345,7 @@ class AtMatch(Contest):
             )
         self.folder, self.game = folder, game
         rules = game_of(folder, game)
-        players = (PLAYERS[0], "Computer") if opponent else PLAYERS
+        players = (PLAYERS[0], "Computer") if opponent else rules.players  # such as Red and Yellow
         self.match = rules(players=players, opponent=opponent) if match is None else match
         self.random = np.random.default_rng(seed)
         here = source_of(load(folder.name if is_installed(folder) else str(folder)))
@@ -367,7 +367,11 @@ class AtMatch(Contest):
         return found
 
     def aimed(self, scene: Scene) -> Scene:
-        return scene.changed(scattered(scene, self.random, self.width), "aim")
+        values = scattered(scene, self.random, self.width)
+        for key, sd in self.match.scatter.items():
+            known = next(it for it in walk(scene.parameters) if it.key == key)
+            values[key] = known.within(float(self.random.normal(known.value, sd)))
+        return scene.changed(values, "aim")
 
     @property
     def width(self) -> float:

@@ -69,6 +69,10 @@ class Pool(Match):
         """The balls of which one must be met first."""
         raise NotImplementedError
 
+    def allows(self, wanted: Mapping[str, Any]) -> bool:
+        """A ball may be potted that may be met first."""
+        return wanted.get("pockets") in self.targets
+
     def fault(self, outcome: Outcome) -> str:
         """The first foul in a shot, in words; "" if there is none."""
         first = outcome["first_contact"]

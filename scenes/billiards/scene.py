@@ -16,7 +16,7 @@ import random
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
-from math import asin, atan2, cos, degrees, dist, hypot, pi, sin, sqrt
+from math import asin, atan2, cos, degrees, dist, hypot, pi, radians, sin, sqrt
 from typing import Any, Literal
 
 from sandbox.engine.contact.touch import Obstacle, touched
@@ -156,8 +156,12 @@ CONTROLS = Controls(
 #: A shot still moving after this time in s is ended.
 LONGEST = 300.0
 
+#: More balls than these and the cue ball lie on the table only before the break of snooker.
+MOST_OF_POOL = 15
 #: So many of the balls nearest to a pocket are tried when a shot into it is looked for.
 TRIED = 3
+#: A ball that is to go straight to a pocket is cut by no more than so many deg, and tried so many to either side.
+THINNEST, NEARLY = 75.0, 1.5
 
 #: Distance of the tip from the ball's centre, in radii, beyond which a chalked tip slips off: a miscue (Alciatore).
 MISCUE = 0.5
@@ -211,19 +215,61 @@ class SpeedDependentFriction:
 
 
 def goals(parameters: Parameters) -> list[Goal]:
-    """Each ball, to be potted; and each pocket, by the balls that are nearest to it."""
+    """Each ball, to be potted; and each pocket, by the balls that are nearest to it. Where a ball has a free way to a
+    pocket, and the cue ball to it, only directions near to that are tried."""
     spots, table, cue = laid_out(parameters), parameters.table, parameters.cue.ball
-    x0, y0 = spots.pop(cue)
-    ranges = {}
-    for name, (x, y) in spots.items():
-        way, seen = degrees(atan2(y - y0, x - x0)), 2.0 * parameters.ball.radius / hypot(x - x0, y - y0)
-        half = degrees(asin(min(1.0, seen)))  # as far to either side as the ball is touched
-        ranges[name] = {"cue.angle": (way - half, way + half)}
-    found = [Goal(f"ball {name}", {"pockets": name}, spots[name], ranges[name]) for name in spots]
-    for hole in traps(table):
-        near = sorted(spots, key=lambda name: dist(spots[name], hole.center))[:TRIED]
-        found += [Goal(hole.name, {"pockets": hole.name}, hole.center, ranges[name]) for name in near]
+    start, holes = spots.pop(cue), traps(table)
+    ranges, straight = {}, {}
+    for name, place in spots.items():
+        half = degrees(asin(min(1.0, 2.0 * parameters.ball.radius / dist(place, start))))
+        ranges[name] = _around(start, place, half)  # as far to either side as the ball is touched
+        others = [other for other in spots.values() if other != place]
+        for hole in holes:
+            ghost = _ghost(start, place, hole.center, others, parameters.ball.radius)
+            if ghost is not None:
+                straight[name, hole.name] = _around(start, ghost, NEARLY)
+    found = []
+    for name, place in spots.items():
+        ways = [way for (ball, _), way in straight.items() if ball == name] or [ranges[name]]
+        found += [Goal(f"ball {name}", {"pockets": name}, place, way) for way in ways]
+    for hole in holes:
+        near = sorted(spots, key=lambda name: dist(spots[name], hole.center))
+        ways = [straight[name, hole.name] for name in near if (name, hole.name) in straight][:TRIED]
+        ways = ways or [ranges[name] for name in near[:TRIED]]
+        found += [Goal(hole.name, {"pockets": hole.name}, hole.center, way) for way in ways]
     return found
+
+
+def _around(start: Vector, aim: Vector, half: float) -> dict[str, tuple[float, float]]:
+    """The directions from a place to another (m), and ``half`` deg to either side."""
+    way = degrees(atan2(aim[1] - start[1], aim[0] - start[0]))
+    return {"cue.angle": (way - half, way + half)}
+
+
+def _ghost(start: Vector, ball: Vector, hole: Vector, others: Sequence[Vector], radius: float) -> Vector | None:
+    """The place of the cue ball (m) as it meets a ball that is to go straight to a hole; None where that is cut too
+    thinly or a ball is in the way."""
+    far = dist(ball, hole)
+    x, y = (b - 2.0 * radius * (h - b) / far for b, h in zip(ball, hole, strict=True))
+    ghost, reach = (x, y), dist(start, (x, y))
+    ahead = sum((g - s) * (h - b) for s, g, b, h in zip(start, ghost, ball, hole, strict=True))
+    if ahead < cos(radians(THINNEST)) * reach * far:
+        return None
+    if any(_way_off(other, *way) < 2.0 * radius for way in ((start, ghost), (ball, hole)) for other in others):
+        return None
+    return ghost
+
+
+def _way_off(place: Vector, start: Vector, end: Vector) -> float:
+    """The distance of a place from a stretch, in m."""
+    (x, y), (px, py) = (end[0] - start[0], end[1] - start[1]), (place[0] - start[0], place[1] - start[1])
+    share = min(max((px * x + py * y) / (x * x + y * y), 0.0), 1.0)
+    return hypot(px - share * x, py - share * y)
+
+
+def rack_of(parameters: Parameters) -> str:
+    """The name of the rack that is broken, "none" for none."""
+    return parameters.rack or ("none" if parameters.balls else "nine-ball")
 
 
 def laid_out(parameters: Parameters) -> dict[str, Vector]:
@@ -232,7 +278,7 @@ def laid_out(parameters: Parameters) -> dict[str, Vector]:
 
     Raises RequestError for a name given twice and for a struck ball that is not there.
     """
-    rack = parameters.rack or ("none" if parameters.balls else "nine-ball")
+    rack = rack_of(parameters)
     spots: dict[str, Vector] = {}
     for spot in parameters.balls:
         if spot.name in spots:
@@ -425,7 +471,7 @@ def verdict(run: SceneRun, parameters: Parameters) -> str:
         return f"Still moving after {run.duration:.0f} s"
     if not run.setup.traps:
         return _carom(run, parameters)
-    if len(others(run, parameters)) > 5:
+    if rack_of(parameters) != "none" or len(others(run, parameters)) > MOST_OF_POOL:  # or of snooker
         return f"Break at {parameters.cue.speed:.1f} m/s, nothing potted"
     ways = {name: travelled(run, name) for name in others(run, parameters)}
     farthest = max(ways, key=lambda name: (ways[name], name))

@@ -11,6 +11,7 @@ from pathlib import Path
 from threading import Thread
 from types import SimpleNamespace
 
+import numpy as np
 import pygame
 import pytest
 
@@ -22,6 +23,7 @@ from sandbox.tasks.games import game_of
 from sandbox.tasks.sports import TILE, TILE_FILE, sports
 from sandbox.window import commands, keeping, opponent
 from sandbox.window.app import play
+from sandbox.window.background import Workers
 from sandbox.window.banner import LASTS
 from sandbox.window.best import MOST, Best, BestList, usual_file
 from sandbox.window.contest import AtMatch, AtTask, AtTaskOfDay
@@ -30,10 +32,12 @@ from sandbox.window.front import START_HERE, Front, entries_of, events, first_ta
 from sandbox.window.panel import SLIDER_OF
 from sandbox.window.prediction import Prediction
 from sandbox.window.referee import AFTER, COMPUTER, decided_at, deciding_ball
+from sandbox.window.session import Session
 from sandbox.window.shots import LONGEST_FRAME, SHOWN
 from tests.own_scene import DROP, HANG, copy_of
 
 from .conftest import Player
+from .test_play import Unanswered
 from .test_see import said
 
 GOAL = "Make three of five free throws"
@@ -505,7 +509,7 @@ class TestAgainstTheComputer:
         referee.begin(AtMatch(installed_folder("soccer-curl"), "penalty-kicks", seed=1, opponent=3))
         player.settle()
         contest = referee.contest
-        assert (contest.match.players, contest.width, referee.computers_turn) == (("Player 1", "Computer"), 1.0, False)
+        assert (contest.match.players, contest.width, referee.computers_turn) == (("Player 1", "Computer"), 0.7, False)
         contest.match = replace(contest.match, turn=1)  # it begins
         for aims in (player.key, lambda key: player.press((300, 200))):
             aims(pygame.K_SPACE)
@@ -523,9 +527,13 @@ class TestAgainstTheComputer:
         assert (
             late[1] == AtMatch(installed_folder("soccer-curl"), "penalty-kicks").scene.parameters.keeper.dive.reaction
         )
+        kicks = [contests[0].aimed(contests[0].scene).parameters.keeper.dive.reaction for _ in range(20)]
+        assert len(set(kicks)) == 20  # s: it is not always as fast
+        assert abs(np.mean(kicks) - late[0]) < 0.05
         for contest in contests:
             contest.match = replace(contest.match, turn=1)
-        assert [contest.width for contest in contests] == [4.0, 2.0, 1.0]
+        assert [contest.width for contest in contests] == [6.0, 2.5, 0.7]
+        assert contests[0].match.scatter == {}  # of a person's keeper, and what the computer does itself
         assert [contest.anew().match.opponent for contest in contests] == [1, 2, 3]
 
     def test_what_a_shot_is_worth_to_it(self):
@@ -536,6 +544,16 @@ class TestAgainstTheComputer:
         assert match.value({**outcome, "potted": []}) == 0.0
         assert match.value({**outcome, "scratch": True}) == -1.0
         assert match.value({**outcome, "potted": ["8"]}) == -2.0  # too early: lost
+
+    def test_it_aims_only_at_balls_of_its_own(self):
+        spots = {"cue": (0.0, 0.0), "1": (0.6, 0.3), "9": (0.6, -0.3), "8": (-0.6, 0.0)}
+        match = game_of(installed_folder("billiards"), "eight-ball")(balls=spots, groups=("stripes", "solids"), turn=1)
+        session = Session("billiards")
+        session.show(session.base.changed(match.start, "eight-ball"), "billiards", None)
+        computer = opponent.Opponent(session, match, 1.0, False, Workers(Unanswered(), Unanswered(), 0.0), seed=1)
+        angles = [angle for (angle,) in [*computer.asked, *computer.left]]
+        assert len(angles) >= 80
+        assert all(0.0 < angle < 45.0 for angle in angles)  # deg: at the 1
 
     def test_nearer_the_pin_is_worth_more_to_it(self):
         match = game_of(installed_folder("golf"), "nearest-the-pin")()

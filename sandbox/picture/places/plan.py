@@ -20,7 +20,7 @@ from sandbox.picture.palette import Colour
 from sandbox.picture.places.things import SHADOW, unit_of
 
 #: The smallest width of a line, a stripe and a person, in px on 720 rows.
-_LEAST_LINE, LEAST_STRIPE, LEAST_PERSON = 1.3, 10.0, 9.0
+_LEAST_LINE, LEAST_STRIPE, LEAST_PERSON = 1.3, 10.0, 26.0
 #: Shoulders are so broad, in m.
 BREADTH = 0.5
 
@@ -189,7 +189,9 @@ class Person:
             painter.line(arm, 0.15 * wide, kit.body)
             if reach:
                 painter.disc(arm[-1], 0.13 * wide, kit.gloves)
-        painter.line([at(0.0, -0.34), at(0.0, 0.34)], 0.32 * wide, kit.shirt)
+        shoulders, rim = [at(0.0, -0.34), at(0.0, 0.34)], 0.32 * wide + 2.4 * unit_of(painter)
+        painter.line(shoulders, rim, SHADOW, 0.6)  # so that it stands out on any ground
+        painter.line(shoulders, 0.32 * wide, kit.shirt)
         painter.disc(at(0.03, 0.0), 0.19 * wide, kit.far)
         painter.disc(at(-0.01, 0.0), 0.18 * wide, kit.hair)
 

@@ -10,13 +10,11 @@ from typing import Any
 
 from sandbox.tasks.match import Shootout
 
-#: The computer's keeper by its strength: how late he dives, in s, and how fast, in m/s. The second is the scene's, as a
-#: person's is; the others are assumed.
-KEEPERS = {
-    1: {"keeper.dive.reaction": 0.34, "keeper.dive.speed": 3.2},
-    2: {},
-    3: {"keeper.dive.reaction": 0.19, "keeper.dive.speed": 4.4},
-}
+#: The computer's keeper by its strength: how late he dives, in s, how fast, in m/s, and how far, in m. The second is
+#: the scene's, as a person's is; the others are assumed, and so is how unsteady each is (standard deviations).
+KEEPERS = {1: (0.34, 3.2, 1.8), 2: (0.245, 3.9, 2.0), 3: (0.17, 4.8, 2.4)}
+UNSTEADY = {1: (0.05, 0.5, 0.3), 2: (0.035, 0.3, 0.2), 3: (0.02, 0.2, 0.1)}
+DIVE = ("keeper.dive.reaction", "keeper.dive.speed", "keeper.dive.reach")
 
 
 class PenaltyKicks(Shootout):
@@ -28,13 +26,21 @@ class PenaltyKicks(Shootout):
     fact = "goal"
     shots = 5
 
+    def _of_keeper(self, each: Mapping[int, tuple[float, ...]]) -> dict[str, float]:
+        """The values of the computer's keeper, as he faces the other's kick."""
+        return dict(zip(DIVE, each.get(self.opponent if self.turn == 0 else 0, ()), strict=False))
+
+    @property
+    def scatter(self) -> Mapping[str, float]:
+        return self._of_keeper(UNSTEADY)
+
     @property
     def start(self) -> Mapping[str, Any]:
-        keeper = KEEPERS.get(self.opponent if self.turn == 0 else 0, {})
         return {
-            **keeper,
+            **self._of_keeper(KEEPERS),
             "wall.present": False,
             "launch.angle": 0.0,  # deg: at the keeper
+            "launch.spin": 0.0,  # rpm: a kick that bends is the player's choice
             "goal.distance": 11.0,  # m (Laws of the Game, law 14)
             "keeper.distance": 0.1,  # m, on his line
             "keeper.offset": 0.0,
