@@ -8,7 +8,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from functools import cached_property
-from itertools import chain, product
+from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,7 +19,7 @@ from sandbox.errors import RequestError
 from sandbox.lab.axes import MOST_POINTS, Axis, Normal, Span, Values
 from sandbox.lab.provenance import Provenance, provenance
 from sandbox.lab.runs import columns_at, fly_together, runs
-from sandbox.scene import Scene, compare
+from sandbox.scene import Scene, errors_of
 from sandbox.tracebacks import one_line_error
 
 if TYPE_CHECKING:
@@ -126,7 +126,9 @@ class Plan:
         names = [*self.keys, *self.facts_read, "ended", *FLAGS]
         if self.check:
             run = self._first_run()
-            known, numbers = ({}, {}) if isinstance(run, Exception) else (run.result, compare(run, run).errors)
+            known, (numbers, _) = (
+                ({}, ({}, ())) if isinstance(run, Exception) else (run.result, errors_of(run.result, run.result))
+            )
             names += [f"{key}_error" for key in self.facts_read if key in numbers or known.get(key) is None]
             names.append(CHANGED)
         return [*dict.fromkeys(names), "error"]
@@ -250,38 +252,27 @@ def records(plan: Plan, start: int, stop: int, alone: bool = False) -> Rows:
 
 def _rows(plan: Plan, start: int, stop: int) -> Rows:
     points = list(plan.points(start, stop))
-    if plan.check:
-        return Rows.of(_checked(plan, points))
     found = columns_at(plan.scene, plan.keys, points, asked=plan.facts_read)
-    errors = [""] * len(points)
-    for place, error in found.errors.items():
-        errors[place] = one_line_error(error)
     swept = dict(zip(plan.keys, zip(*points, strict=True), strict=True))
-    flags = {flag: found.counts[:, COUNTS.index(flag)].tolist() for flag in FLAGS}
-    for place, values in product(found.errors, flags.values()):
-        values[place] = None
-    ended = [ended or None for ended in found.ended]
-    return Rows({**swept, **found.facts, "ended": ended, **flags, "error": errors})
+    columns: dict[str, Sequence[Any]] = {**swept, **found.facts, "ended": [ended or None for ended in found.ended]}
+    for flag in FLAGS:
+        counts = columns[flag] = found.counts[:, COUNTS.index(flag)].tolist()
+        for place in found.errors:
+            counts[place] = None
+    if plan.check:
+        finer = columns_at(plan.scene, plan.keys, points, finer=True, asked=plan.facts_read)
+        both = enumerate(zip(found.results(), finer.results(), strict=True))
+        checks = [{} if one is None else _accuracy(one, other, finer.errors.get(place)) for place, (one, other) in both]
+        columns |= Rows.of(checks).columns
+    failed = {place: one_line_error(error) for place, error in found.errors.items()}
+    return Rows({**columns, "error": [failed.get(place, "") for place in range(len(points))]})
 
 
-def _checked(plan: Plan, points: Sequence[Sequence[Any]]) -> list[Record]:
-    """The rows of these points with the estimated errors of their results."""
-    coarser, finer = (runs(plan.scene, plan.keys, points, how, plan.facts_read) for how in (False, True))
-    rows = []
-    for values, run, other in zip(points, coarser, finer, strict=True):
-        row: Record = dict(zip(plan.keys, values, strict=True))
-        if isinstance(run, Exception):
-            rows.append(row | {"error": one_line_error(run)})
-            continue
-        row |= {**run.result, "ended": run.ended, **{flag: getattr(run.numerics, flag) for flag in FLAGS}}
-        rows.append(row | _accuracy_columns(run, other) | {"error": ""})
-    return rows
-
-
-def _accuracy_columns(run: SceneRun, finer: SceneRun | Exception) -> Record:
-    """The estimated error of each number, and which other results depend on the accuracy."""
-    if isinstance(finer, Exception):
-        return {CHANGED: f"a finer run fails: {one_line_error(finer)}"}
-    outcome = compare(run, finer)
-    numbers = [name for name, value in run.result.items() if name in outcome.errors or value is None]
-    return {f"{name}_error": outcome.errors.get(name) for name in numbers} | {CHANGED: " ".join(outcome.changed)}
+def _accuracy(result: Mapping[str, Any], finer: Mapping[str, Any] | None, failed: Exception | None) -> Record:
+    """The estimated error of each number of a result, and which others depend on the accuracy; or why the finer run
+    failed."""
+    if finer is None:
+        return {CHANGED: "" if failed is None else f"a finer run fails: {one_line_error(failed)}"}
+    errors, changed = errors_of(result, finer)
+    numbers = [name for name, value in result.items() if name in errors or value is None]
+    return {f"{name}_error": errors.get(name) for name in numbers} | {CHANGED: " ".join(changed)}

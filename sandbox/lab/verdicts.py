@@ -13,7 +13,7 @@ from sandbox import parameters as declared
 from sandbox.engine.model.accuracy import LEVELS
 from sandbox.engine.model.setup_errors import MethodFailed
 from sandbox.lab.report import Column, Table, words
-from sandbox.lab.runs import outcomes
+from sandbox.lab.runs import columns_at
 from sandbox.scene import Scene
 
 #: Range of the map: fraction of the speed, and degrees to either side.
@@ -98,8 +98,11 @@ def shot_map(scene: Scene) -> VerdictChanges | None:
         ]
 
     def verdicts(points: list[tuple[float, float]], how: Mapping[str, Any], finer: bool = False) -> list[Any]:
-        found = outcomes(scene.changed({**controls.set_on_pull, **how}), keys, points, finer)
-        return [run if isinstance(run, Exception) else verdict(scene, run.result) for run in found]
+        found = columns_at(scene.changed({**controls.set_on_pull, **how}), keys, points, finer)
+        return [
+            found.errors[place] if result is None else verdict(scene, result)
+            for place, result in enumerate(found.results())
+        ]
 
     started = perf_counter()
     own = [(speed.value, angle.value)]

@@ -9,13 +9,13 @@ if _TYPE_CHECKING:
     from typing import Any
 
     from sandbox.scene.discovery import Listing, listings, listings_in, listings_of, reference
-    from sandbox.scene.running import Check, check, compare, simulate
+    from sandbox.scene.running import Check, check, compare, errors_of, simulate
     from sandbox.scene.scene import Scene, as_scene, load, parameters_of
 
 #: The names of each module, which is imported on first use: to list scenes takes none of what it takes to run one.
 _MODULES = {
     "discovery": ("Listing", "listings", "listings_in", "listings_of", "reference"),
-    "running": ("Check", "check", "compare", "simulate"),
+    "running": ("Check", "check", "compare", "errors_of", "simulate"),
     "scene": ("Scene", "as_scene", "load", "parameters_of"),
 }
 

@@ -200,15 +200,25 @@ def _finer(scene: Scene, run: SceneRun, progress: Progress | None) -> Iterator[S
 
 
 def compare(run: SceneRun, finer: SceneRun) -> Check:
-    """The estimated errors of a run's result, compared with a finer run of the same scene: twice each difference, and
-    what rounding makes of such a number. A count is off by what it differs."""
-    apart, changed = _differences(run.result, finer.result)
+    """The estimated errors of a run's result, compared with a finer run of the same scene."""
+    return Check(finer, *errors_of(run.result, finer.result))
+
+
+def errors_of(
+    result: Mapping[str, Any], finer: Mapping[str, Any]
+) -> tuple[dict[str, float], dict[str, tuple[Any, Any]]]:
+    """The estimated error of each number of a result, from that of a finer run, and what else the two have of each name
+    where they differ.
+
+    An error is twice the difference, and what rounding makes of such a number. A count is off by what it differs.
+    """
+    apart, changed = _differences(result, finer)
     errors = {}
     for name, difference in apart.items():
-        value = run.result[name]
+        value = result[name]
         size = max(map(abs, _taken_apart(value)[1]), default=0.0)
         errors[name] = difference if isinstance(value, int) else SAFETY * difference + _LAST_DIGITS * size
-    return Check(finer, errors, changed)
+    return errors, changed
 
 
 def nudged(setup: Setup, distance: float, turn: int) -> Setup:

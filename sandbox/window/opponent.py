@@ -10,10 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from sandbox.lab.runs import runs
+from sandbox.lab.runs import columns_at
 from sandbox.lab.scatter import scattered
 from sandbox.scene import Scene
-from sandbox.scene.scene_run import SceneRun
 from sandbox.tasks.match import Match
 from sandbox.window.background import Workers
 from sandbox.window.find import questions
@@ -30,8 +29,7 @@ def outcomes(
     scene: Scene, keys: Sequence[str], rows: Sequence[Sequence[float]], facts: Sequence[str]
 ) -> list[dict[str, Any] | None]:
     """The facts of a scene with the values of each row at these keys; None for a run that failed."""
-    found = runs(scene, keys, rows, asked=facts)
-    return [{fact: run.result[fact] for fact in facts} if isinstance(run, SceneRun) else None for run in found]
+    return columns_at(scene, keys, rows, asked=facts).results()
 
 
 class Opponent:

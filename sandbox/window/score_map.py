@@ -12,7 +12,7 @@ import pygame
 
 from sandbox import parameters as declared
 from sandbox.errors import RequestError
-from sandbox.lab.runs import outcomes
+from sandbox.lab.runs import columns_at
 from sandbox.lab.scatter import ANGLE, SPEED, players_spread
 from sandbox.picture.palette import Colour, mix, palette
 from sandbox.scene import Scene
@@ -93,8 +93,9 @@ def score_map(scene: Scene, finer: int = 1) -> ScoreMap:
     points = np.stack(np.meshgrid(*middles, indexing="ij"), axis=-1).reshape(-1, 2)
     unseen = _unseen(scene)
     several = [[*point, *others] for point in points.tolist() for others in unseen.tolist()]
-    found = outcomes(scene, [*keys, *_hidden(scene)], several, asked=[controls.scores])
-    scored = [np.nan if isinstance(run, Exception) else float(bool(run.result[controls.scores])) for run in found]
+    found = columns_at(scene, [*keys, *_hidden(scene)], several, asked=[controls.scores])
+    scored = np.array(found.facts[controls.scores], dtype=bool).astype(float)  # None counts as no
+    scored[[*found.errors]] = np.nan
     units = known[controls.speed].unit or "", known[controls.angle].unit or ""
     shape = finer * COARSE[0], finer * COARSE[1]
     return ScoreMap(ends[0], ends[1], units, _means(scored, len(unseen)).reshape(shape), perf_counter() - started)
@@ -116,9 +117,9 @@ def _unseen(scene: Scene) -> np.ndarray:
     return np.array([[parameter.value + sd * size for parameter, sd in scatter] for size in sizes])
 
 
-def _means(scored: list[float], shots: int) -> np.ndarray:
+def _means(scored: np.ndarray, shots: int) -> np.ndarray:
     """The share that scores of so many shots at each cell, of those that could be computed."""
-    cells = np.array(scored).reshape(-1, shots)
+    cells = scored.reshape(-1, shots)
     known = np.isfinite(cells)
     return np.where(known.any(axis=1), np.nan_to_num(cells).sum(axis=1) / np.maximum(known.sum(axis=1), 1), np.nan)
 

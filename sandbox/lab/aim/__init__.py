@@ -24,7 +24,7 @@ from sandbox.lab.aim.scalar import roots_of
 from sandbox.lab.aim.share import most_often
 from sandbox.lab.aim.shots import Shots
 from sandbox.lab.axes import Span, as_axis
-from sandbox.lab.runs import Progress, no_progress, outcomes
+from sandbox.lab.runs import Progress, columns_at, no_progress
 from sandbox.scene import Scene, as_scene
 from sandbox.text import check_mapping
 
@@ -110,10 +110,9 @@ def search(scene: Scene, spans: Sequence[Span], targets: Sequence[Target], progr
 def _is_true_or_false(shots: Shots) -> bool:
     """True if what is to be maximized is no number: then it is how often it is true."""
     points = [tuple(0.5 * (span.low + span.high) for span in shots.spans)]
-    found = outcomes(shots.scene, [span.key for span in shots.spans], points, asked=[shots.targets[0].name])
-    return any(
-        isinstance(run.result.get(shots.targets[0].name), bool) for run in found if not isinstance(run, Exception)
-    )
+    name = shots.targets[0].name
+    found = columns_at(shots.scene, [span.key for span in shots.spans], points, asked=[name])
+    return isinstance(found.facts[name][0], bool)
 
 
 def _as_whole(scene: Scene, spans: Sequence[Span], target: Target) -> Target:
@@ -122,12 +121,8 @@ def _as_whole(scene: Scene, spans: Sequence[Span], target: Target) -> Target:
     if not target.is_number or target.value != int(target.value) or target.name not in scene.facts:
         return target
     points = list(zip(*(np.linspace(span.low, span.high, _TRIED).tolist() for span in spans), strict=True))
-    found = [
-        run.result.get(target.name)
-        for run in outcomes(scene, [span.key for span in spans], points, asked=[target.name])
-        if not isinstance(run, Exception)
-    ]
-    known = [value for value in found if value is not None]
+    found = columns_at(scene, [span.key for span in spans], points, asked=[target.name])
+    known = [value for value in found.facts[target.name] if value is not None]
     counts = bool(known) and all(isinstance(value, int | np.integer) and not isinstance(value, bool) for value in known)
     return Target(target.name, int(target.value)) if counts else target
 

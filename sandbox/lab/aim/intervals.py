@@ -31,7 +31,7 @@ def intervals(shots: Shots) -> list[Solution]:
     opens, stays_open = ([0.0] if met else [] for met in (seen[0][1], seen[-1][1]))  # errors of the range's own ends
     ends = [span.low] * len(opens) + inner + [span.high] * len(stays_open)
     middles = [0.5 * (low + high) for low, high in zip(ends[::2], ends[1::2], strict=True)]
-    errors = [*opens, *_errors(shots, changes, inner, middles), *stays_open]
+    errors = [*opens, *_errors(shots, changes, inner), *stays_open]
     checked = shots.checked([(middle,) for middle in middles])
     found = []
     for place, (result, result_errors, _) in enumerate(checked):
@@ -44,11 +44,9 @@ def intervals(shots: Shots) -> list[Solution]:
     return [solution for _, solution in sorted(found, key=lambda each: -each[0])]
 
 
-def _errors(
-    shots: Shots, changes: Sequence[_Change], ends: Sequence[float], middles: Sequence[float]
-) -> list[float | None]:
+def _errors(shots: Shots, changes: Sequence[_Change], ends: Sequence[float]) -> list[float | None]:
     """By how much these ends differ from those that finer runs find; None if they find no such end, even between the
-    points of the scan. The ``middles``, which are needed next, are run together with the first of them."""
+    points of the scan."""
     least, near = (share * (shots.spans[0].high - shots.spans[0].low) for share in (_END, _NEAR))
     found: list[float | None] = [None] * len(ends)
     for width in (least, near, inf):
@@ -57,9 +55,7 @@ def _errors(
             (max(low, ends[number] - width), min(high, ends[number] + width), met)
             for number, (low, high, met) in ((number, changes[number]) for number in missing)
         ]
-        points = [(place,) for low, high, _ in tight for place in (low, high)]
-        shots.finer([*points, *((middle,) for middle in middles)])
-        met = shots.meets(points, "solve", finer=True)
+        met = shots.meets([(place,) for low, high, _ in tight for place in (low, high)], "solve", finer=True)
         seen = [
             number
             for number, change in enumerate(tight)

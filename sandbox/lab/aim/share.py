@@ -11,7 +11,7 @@ import numpy as np
 
 from sandbox.lab.aim.question import Solution, Trial
 from sandbox.lab.aim.shots import Shots
-from sandbox.lab.runs import outcomes
+from sandbox.lab.runs import columns_at
 from sandbox.lab.scatter import players_spread
 from sandbox.lab.statistics import wilson
 
@@ -65,11 +65,9 @@ def _shares(shots: Shots, points: Sequence[tuple[float, ...]], count: int) -> li
         for (key, (known, sd)), deviates in zip(spread.items(), _deviates(len(spread), count), strict=True):
             columns[key] = [known.within(known.value + sd * z) for z in deviates.tolist()]
         rows += zip(*(columns[key] for key in order), strict=True)
-    found = [
-        not isinstance(run, Exception) and bool(run.result[name])
-        for run in outcomes(shots.scene, order, rows, asked=[name])
-    ]
-    return [sum(found[start : start + count]) / count for start in range(0, len(found), count)]
+    found = np.array(columns_at(shots.scene, order, rows, asked=[name]).facts[name], dtype=bool)  # None counts as no
+    shares: list[float] = found.reshape(-1, count).mean(axis=1).tolist()
+    return shares
 
 
 @cache

@@ -12,8 +12,8 @@ import numpy as np
 from sandbox.errors import RequestError, RunError
 from sandbox.lab.aim.question import Target, Trial
 from sandbox.lab.axes import Span
-from sandbox.lab.runs import Outcome, Progress, fly_together, outcomes
-from sandbox.scene import Scene, compare
+from sandbox.lab.runs import Progress, columns_at, fly_together
+from sandbox.scene import Scene, errors_of
 from sandbox.text import no_such_result
 from sandbox.tracebacks import one_line_error
 
@@ -56,7 +56,7 @@ class Shots:
         self._progress = progress
         self._first_error: Exception | None = None
         self._known: dict[tuple[float, ...], dict[str, Any] | None] = {}
-        self._finer: dict[tuple[float, ...], Outcome | Exception] = {}
+        self._finer: dict[tuple[float, ...], dict[str, Any] | None] = {}
 
     def results(
         self, points: Sequence[tuple[float, ...]], phase: str = "scan", others: bool = False
@@ -64,21 +64,27 @@ class Shots:
         """The targeted results at some points, and ``others`` that become final with them; None if the run failed."""
         asked = _final_with(self.scene, self._names) if others else self._names
         new = [point for point in dict.fromkeys(points) if point not in self._known]
-        for point, run in zip(new, outcomes(self.scene, self._keys, new, asked=asked), strict=True):
-            if isinstance(run, Exception):
-                self.failures += 1
-                self._first_error = self._first_error or run
-            result = self._known[point] = _result(run)
+        tried = len(self.tries)
+        computed = columns_at(
+            self.scene, self._keys, new, asked=asked, progress=lambda done, _: self._show_progress(tried + done)
+        )
+        self.failures += len(computed.errors)
+        self._first_error = self._first_error or next(iter(computed.errors.values()), None)
+        for point, result in zip(new, computed.results(), strict=True):
+            self._known[point] = result
             self._check_kinds(result)
             found = tuple(None if result is None else result.get(name) for name in self._names)
             self.tries.append(Trial(point, found, phase))
-            self._progress(len(self.tries), max(self.planned, len(self.tries)))
+        self._show_progress(len(self.tries))
         return [self._known[point] for point in points]
 
     def tried(self, one: Trial) -> None:
         """Count a try that was computed elsewhere."""
         self.tries.append(one)
-        self._progress(len(self.tries), max(self.planned, len(self.tries)))
+        self._show_progress(len(self.tries))
+
+    def _show_progress(self, done: int) -> None:
+        self._progress(done, max(self.planned, done))
 
     #: Expected number of runs, for the progress bar.
     planned = SCAN
@@ -87,11 +93,11 @@ class Shots:
         """Keep the widths, as a share of each range, below which an interval or region, or a gap, may be missed."""
         self.resolution = {span.key: share * (span.high - span.low) for span in self.spans}
 
-    def finer(self, points: Sequence[tuple[float, ...]]) -> list[Outcome | Exception]:
-        """Finer runs at some points, with all facts but how a run ends."""
+    def _finer_results(self, points: Sequence[tuple[float, ...]]) -> list[dict[str, Any] | None]:
+        """The targeted results of finer runs at some points."""
         new = [point for point in dict.fromkeys(points) if point not in self._finer]
-        found = outcomes(self.scene, self._keys, new, finer=True, asked=self.scene.facts_except_ended)
-        self._finer |= zip(new, found, strict=True)
+        found = columns_at(self.scene, self._keys, new, finer=True, asked=self._names)
+        self._finer |= zip(new, found.results(), strict=True)
         return [self._finer[point] for point in points]
 
     def numbers(self, point: tuple[float, ...], phase: str) -> np.ndarray:
@@ -101,7 +107,7 @@ class Shots:
     def meets(self, points: Sequence[tuple[float, ...]], phase: str, finer: bool = False) -> list[bool]:
         """True if the target, which is not a number, is met at each of these points."""
         target = self.targets[0]
-        found = [_result(run) for run in self.finer(points)] if finer else self.results(points, phase)
+        found = self._finer_results(points) if finer else self.results(points, phase)
         return [result is not None and target.met(result.get(target.name)) for result in found]
 
     def missed(self, result: Mapping[str, Any] | None) -> np.ndarray:
@@ -116,17 +122,20 @@ class Shots:
     def checked(self, points: Sequence[tuple[float, ...]]) -> list[tuple[dict[str, Any], dict[str, float], np.ndarray]]:
         """The whole result at each of some points, its estimated errors, and the shift of the aimed-at results in a
         finer run."""
-        coarser = outcomes(self.scene, self._keys, points, asked=self.scene.facts_except_ended)
-        return [self._compared(*each) for each in zip(points, coarser, self.finer(points), strict=True)]
+        coarser, finer = (
+            columns_at(self.scene, self._keys, points, how, self.scene.facts_except_ended).results()
+            for how in (False, True)
+        )
+        return [self._compared(*each) for each in zip(points, coarser, finer, strict=True)]
 
     def _compared(
-        self, point: tuple[float, ...], run: Outcome | Exception, finer: Outcome | Exception
+        self, point: tuple[float, ...], result: dict[str, Any] | None, finer: dict[str, Any] | None
     ) -> tuple[dict[str, Any], dict[str, float], np.ndarray]:
-        if isinstance(run, Exception) or isinstance(finer, Exception):
+        if result is None or finer is None:
             return dict(self._known.get(point) or {}), {}, np.full(len(self.targets), np.nan)
-        shift = self.missed(finer.result) - self.missed(run.result) if all(t.is_number for t in self.targets) else None
-        errors = compare(run.of(self.scene), finer.of(self.scene)).errors
-        return run.result, errors, np.zeros(0) if shift is None else shift
+        numbers = all(target.is_number for target in self.targets)
+        shift = self.missed(finer) - self.missed(result) if numbers else np.zeros(0)
+        return result, errors_of(result, finer)[0], shift
 
     def nearest(self) -> Trial | None:
         """The try with the smallest miss. Raises RunError if none was completed."""
@@ -181,10 +190,6 @@ def _kind(value: Any) -> str:
     return (
         "a number" if isinstance(value, int | float | np.number) else "a word" if isinstance(value, str) else "a list"
     )
-
-
-def _result(run: Outcome | Exception) -> dict[str, Any] | None:
-    return None if isinstance(run, Exception) else run.result
 
 
 def _option(target: Target) -> str:

@@ -12,7 +12,7 @@ import numpy as np
 from sandbox.errors import RequestError
 from sandbox.lab.fit.measured import Free
 from sandbox.lab.mapped import Mapped
-from sandbox.lab.runs import outcomes
+from sandbox.lab.runs import columns_at
 from sandbox.lab.selection import LeftOut, reasons
 from sandbox.scene import Scene
 from sandbox.scene.points import Points
@@ -115,11 +115,9 @@ class Launches:
         """The results, shape (candidates, launches, results); NaN for one that a run does not have."""
         launches = list(zip(*(column.tolist() for column in self.given.values()), strict=True))
         points = [(*candidate, *launch) for candidate, launch in product(values[:, : len(keys)].tolist(), launches)]
-        found = np.full((len(points), len(self.measured)), np.nan)
-        for place, run in enumerate(outcomes(scene, [*keys, *self.given], points, asked=tuple(self.measured))):
-            if not isinstance(run, Exception):
-                found[place] = [np.nan if run.result[name] is None else run.result[name] for name in self.measured]
-        return found.reshape(len(values), self.count, -1)
+        found = columns_at(scene, [*keys, *self.given], points, asked=tuple(self.measured))
+        results = np.array([found.facts[name] for name in self.measured], dtype=float)  # None is not a number
+        return results.T.reshape(len(values), self.count, -1)
 
     def points(self, scene: Scene, free: Sequence[float]) -> Points | None:
         """Return None, since there are no places."""
