@@ -142,13 +142,13 @@ class Scene:
         """The unit of each fact, "" for a fact without one."""
         return {key: fact.unit for key, fact in self.facts.items()}
 
-    def result(self, run: Run, asked: Collection[str] = ()) -> dict[str, Any]:
+    def result(self, run: Run, asked: Collection[str] | None = None) -> dict[str, Any]:
         """The facts of a run, or those in ``asked``, in their units; None for what did not happen."""
         return self.reader(asked)(run, self.parameters)
 
-    def reader(self, asked: Collection[str] = ()) -> Callable[[Run, Any], dict[str, Any]]:
+    def reader(self, asked: Collection[str] | None = None) -> Callable[[Run, Any], dict[str, Any]]:
         """The function that reads these facts from a run of this scene with any parameters; all facts by default."""
-        facts = {key: fact for key, fact in self.facts.items() if not asked or key in asked}
+        facts = {key: fact for key, fact in self.facts.items() if asked is None or key in asked}
 
         def read(run: Run, parameters: Any) -> dict[str, Any]:
             with sys_exit_as_error():

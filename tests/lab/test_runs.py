@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -19,6 +20,7 @@ from sandbox.scene import listings, load
 from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.facts import Fact
 from sandbox.sport.readings import apex, fact_from, first_contact_with, passing_at
+from tests.own_scene import DROP, change, copy_of
 
 SCENES = [listing.name for listing in listings() if "/" not in listing.name]
 
@@ -119,3 +121,10 @@ def test_numbers_and_words_may_be_mixed():
         assert run.result["verdict"] == alone.result["verdict"]
         assert run.result["apex"] == pytest.approx(alone.result["apex"], abs=1e-9)
         assert run.accuracy == alone.accuracy
+
+
+def test_no_fact_is_computed_where_only_paths_are_asked_for(tmp_path: Path):
+    drop = copy_of(DROP, tmp_path / "drop")
+    change(drop / "scene.py", "FACTS = (", 'FACTS = (Fact("wrong", "", "", lambda run, it: 1 / 0),')
+    found = list(runs(load(drop), ["launch.height"], [(1.0,), (2.0,)], until=0.5))
+    assert [(run.duration, run.result) for run in found if isinstance(run, SceneRun)] == [(0.5, {})] * 2
