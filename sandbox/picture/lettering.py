@@ -32,6 +32,12 @@ def _font(pixels: int, bold: bool) -> pygame.font.Font:
     return pygame.font.Font(str(ASSETS / "fonts" / f"NotoSans-{'Bold' if bold else 'Regular'}.ttf"), pixels * _FINER)
 
 
+@lru_cache(maxsize=4096)
+def _width(text: str, pixels: int, bold: bool) -> int:
+    """In px."""
+    return ceil(_font(pixels, bold).size(printable(text))[0] / _FINER)
+
+
 @lru_cache(maxsize=1024)
 def _rendered(text: str, pixels: int, bold: bool, colour: Colour) -> pygame.Surface:
     drawn = _font(pixels, bold).render(printable(text), True, colour)
@@ -65,7 +71,7 @@ class Lettering:
 
     def width(self, text: str, size: str, bold: bool = False) -> int:
         """In px."""
-        return ceil(_font(self.pixels[size], bold).size(printable(text))[0] / _FINER)
+        return _width(text, self.pixels[size], bold)
 
     def rect(
         self, text: str, size: str, at: tuple[float, float], anchor: str = "topleft", bold: bool = False

@@ -140,11 +140,16 @@ class BallDrawing(SceneOptions[P]):
         run, known = self.run, _known_orientations(self.run, self.parameters)
 
         def orientation(name: str) -> Orientation:
-            start = self.initial_turn(name)
+            start, path = self.initial_turn(name), run.arcs[name]
             key = name, start.tobytes()
+
+            def spin(t: float) -> tuple[float, float, float]:
+                about_z, *rolling = path.at(t).spins(t)
+                x, y = rolling or (0.0, 0.0)
+                return x, y, about_z
+
             if key not in known:
-                times = [*(arc.t0 for arc in run.arcs[name]), run.arcs[name][-1].t1]
-                known[key] = Orientation(lambda t: (*run.rolling_spin(name, t), run.state(name, t)[4]), times, start)
+                known[key] = Orientation(spin, [*(arc.t0 for arc in path), path[-1].t1], start)
             return known[key]
 
         return {name: orientation(name) for name in self.balls}

@@ -86,8 +86,9 @@ class Camerawork:
         self.decided = min(max(story.at, 0.0), run.duration)
         self.times = np.linspace(0.0, run.duration, int(np.clip(run.duration * _LOOKS, 2, _MOST)))
         followed = story.balls or [(ball, self.decided)]
-        self._played = run.states(ball, self.times)[:, :2] * self._up
-        self._ways = np.array([run.states(name, self.times)[:, :2] * self._up for name, _ in followed])
+        ways = {name: run.states(name, self.times)[:, :2] * self._up for name in {ball, *(name for name, _ in followed)}}
+        self._played = ways[ball]
+        self._ways = np.array([ways[name] for name, _ in followed])
         ends = np.array([min(until, self.decided) for _, until in followed])
         self._ways[self.times > ends[:, None] + self.times[1]] = np.nan
 

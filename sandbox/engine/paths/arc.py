@@ -76,6 +76,16 @@ class Arc:
         u = (t - self.t0) / h if t < self.t1 else 1.0
         return tuple([evaluate(curve, u) for curve in self.curves])
 
+    def spins(self, t: float) -> State:
+        """The part of the state from the spin on, at time t in [t0, t1]."""
+        h = self.t1 - self.t0
+        if h <= 0.0 or t <= self.t0:
+            return self.start[4:]
+        if t >= self.t1 and self.end is not None:
+            return self.end[4:]
+        u = (t - self.t0) / h if t < self.t1 else 1.0
+        return tuple([evaluate(curve, u) for curve in self.curves[4:]])
+
     def position(self, t: float) -> tuple[float, float]:
         """x and y at time t, in m."""
         h = self.t1 - self.t0

@@ -206,7 +206,7 @@ class Run(Drawable):
         """Spin about x and about y of a ball that rolls on a plane, in rad/s; none of one that slides as a disc."""
         path = self._path(ball)
         self._within(path, ball, t, "error")
-        wx, wy = path.at(t).state(t)[5:] or (0.0, 0.0)
+        wx, wy = path.at(t).spins(t)[1:] or (0.0, 0.0)
         return wx, wy
 
     def caught_at(self, ball: str) -> float | None:
