@@ -60,15 +60,23 @@ class Player:
         for _ in range(count):
             self.app.tick(dt)
 
+    def wait(self) -> None:
+        """One frame that nobody looks at: it is not drawn, but where a list draws what it waits for."""
+        with pytest.MonkeyPatch.context() as patch:
+            if self.view.shown.overlay is None:
+                patch.setattr(self.view, "draw", lambda: None)
+            self.frames(1)
+
     def settle(self) -> None:
-        """Frames until there is nothing left to compute or compose."""
+        """Frames until there is nothing left to compute or compose; the last one is drawn."""
         end, busy = time.monotonic() + HANG, True
         while busy:
             assert time.monotonic() < end
             self.game.settle()
-            self.frames(1)
+            self.wait()
             busy = self.view.busy or self.game.watching.awaited or bool(self.game.jobs.waiting)
             time.sleep(0.001 * busy)
+        self.view.changed = True
         self.frames(1)
 
     def send(self, kind: int, **values: object) -> None:
@@ -76,16 +84,15 @@ class Player:
         self.frames()
 
     def key(self, key: int, modifiers: int = 0) -> None:
-        self.send(pygame.KEYDOWN, key=key, mod=modifiers, unicode="", scancode=0)
-        self.send(pygame.KEYUP, key=key, mod=modifiers, unicode="", scancode=0)
-
-    def press_named(self, name: str) -> None:
-        """Press and release a key that is named as in the table of commands, within one frame."""
-        held, _, plain = name.partition(" ") if name.startswith(("ctrl ", "alt ")) else ("", "", name)
-        modifiers = {"": 0, "ctrl": pygame.KMOD_CTRL, "alt": pygame.KMOD_ALT}[held]
-        pressed = {"key": pygame.key.key_code(plain), "mod": modifiers, "unicode": "", "scancode": 0}
+        """Press and release a key within one frame."""
+        pressed = {"key": key, "mod": modifiers, "unicode": "", "scancode": 0}
         pygame.event.post(pygame.event.Event(pygame.KEYDOWN, **pressed))
         self.send(pygame.KEYUP, **pressed)
+
+    def press_named(self, name: str) -> None:
+        """Press and release a key that is named as in the table of commands."""
+        held, _, plain = name.partition(" ") if name.startswith(("ctrl ", "alt ")) else ("", "", name)
+        self.key(pygame.key.key_code(plain), {"": 0, "ctrl": pygame.KMOD_CTRL, "alt": pygame.KMOD_ALT}[held])
 
     def move(self, at: tuple[int, int]) -> None:
         self.send(pygame.MOUSEMOTION, pos=at, rel=(0, 0), buttons=(0, 0, 0), touch=False)

@@ -81,7 +81,8 @@ def test_shots_found_for_the_ring_score_most_forgiving_first(monkeypatch):
 class TestInBilliards:
     @pytest.fixture
     def asking(self, player, monkeypatch):
-        monkeypatch.setattr(sys.modules["sandbox.lab.aim.shots"], "DENSE_ALONE", 81)
+        monkeypatch.setattr(sys.modules["sandbox.lab.aim.shots"], "DENSE_ALONE", 33)
+        monkeypatch.setattr(sys.modules["sandbox.lab.aim.shots"], "_HALVINGS", 3)  # 0.01 deg
         monkeypatch.setattr("sandbox.window.score_map.COARSE", (3, 3))
         player = player("billiards/cut", (900, 560))
         player.game.workers.helper = Here()

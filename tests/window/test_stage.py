@@ -23,7 +23,7 @@ from sandbox.window.game import Game
 from sandbox.window.pointer import NOTCH
 from sandbox.window.screen import SMALLEST
 from sandbox.window.session import Session
-from sandbox.window.shots import PATHS, Shot
+from sandbox.window.shots import LONGEST_FRAME, PATHS, Shot
 from sandbox.window.stage import Stage
 from sandbox.window.view import CARD, View
 
@@ -228,7 +228,7 @@ class TestTheCamera:
         playback, scales = player.game.watching.playback, [aimed.scale]
         decided = playback.story.decided
         while playback.t < decided:
-            player.frames(1)
+            player.frames(1, LONGEST_FRAME)
             scales.append(player.view.viewpoint.camera.scale)
         assert all(after >= before * (1 - 1e-6) for before, after in pairwise(scales))
         assert scales[-1] > 4 * aimed.scale
