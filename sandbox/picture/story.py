@@ -86,7 +86,8 @@ class Camerawork:
         self.decided = min(max(story.at, 0.0), run.duration)
         self.times = np.linspace(0.0, run.duration, int(np.clip(run.duration * _LOOKS, 2, _MOST)))
         followed = story.balls or [(ball, self.decided)]
-        ways = {name: run.states(name, self.times)[:, :2] * self._up for name in {ball, *(name for name, _ in followed)}}
+        names = {ball, *(name for name, _ in followed)}
+        ways = {name: run.states(name, self.times)[:, :2] * self._up for name in names}
         self._played = ways[ball]
         self._ways = np.array([ways[name] for name, _ in followed])
         ends = np.array([min(until, self.decided) for _, until in followed])

@@ -76,7 +76,7 @@ def test_what_a_surface_does_to_a_ball_it_does_to_a_disc(surface: Surface):
     assert state_at(runs[1], 4.0) == pytest.approx(state_at(runs[0], 4.0), abs=2e-8)
     assert [event.kind for event in runs[1].events] == [event.kind for event in runs[0].events]
     assert runs[1].ended == runs[0].ended
-    plain = replace(LEVELS["balanced"], method="plain", step=5e-4)
+    plain = replace(LEVELS["balanced"], method="plain", step=1e-3)
     stepped = [simulate(Setup([body], [surface], 1.5), plain) for body in (ball, thrown(disc(0.2), **start))]
     assert state_at(stepped[1], 1.5) == pytest.approx(state_at(stepped[0], 1.5), abs=1e-6)
     assert state_at(stepped[1], 1.5) == pytest.approx(state_at(runs[1], 1.5), abs=0.3)

@@ -188,7 +188,7 @@ class Independent:
 @pytest.mark.parametrize("block", range(4))
 def test_random_motions_agree_with_an_independent_solver(block: int):
     met = 0
-    for seed in range(75 * block, 75 * (block + 1)):
+    for seed in range(40 * block, 40 * (block + 1)):
         motion, shape = random_case(seed)
         draw = Random(seed).uniform
         case = Independent(motion, shape, (draw(-1.0, 1.0), draw(-3.0, 1.0)))
@@ -210,7 +210,7 @@ def test_random_motions_agree_with_an_independent_solver(block: int):
         state = run.state("ball", hit.t)
         assert complex(state.vx, state.vy) == pytest.approx(velocity, abs=1e-6), seed
         assert state.spin == pytest.approx(spin, abs=1e-5), seed
-    assert met > 20
+    assert met > 10
 
 
 def test_nothing_tunnels_through_a_blade_at_any_speed():

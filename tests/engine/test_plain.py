@@ -59,7 +59,7 @@ def elastic(normal_speed: float, slip_speed: float) -> Bounce:
     return Bounce(1.0, 0.0)
 
 
-@pytest.mark.parametrize(("english", "follow"), [(0.0, 1.0), (0.0, -1.0), (1.5, 0.5), (-1.5, -0.5)])
+@pytest.mark.parametrize(("english", "follow"), [(0.0, 1.0), (-1.5, -0.5)])
 def test_it_converges_to_exact_on_cloth(english: float, follow: float):
     setup = struck(english, follow)
     exact = simulate(setup, resolve("precise"))

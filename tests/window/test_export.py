@@ -188,14 +188,14 @@ def test_the_command_line_gives_the_same_shot():
 
 
 def test_pictures_and_animations(player, elsewhere):
-    player = player("golf/putt")
+    player = player("volleyball/spike")
     player.key(pygame.K_F12)
-    with Image.open(elsewhere / "out" / "golf-putt-1.png") as image:
+    with Image.open(elsewhere / "out" / "volleyball-spike-1.png") as image:
         assert image.size == (1280, 720)
     player.key(pygame.K_SPACE)
     player.key(pygame.K_F9)
     player.settle()
-    with Image.open(elsewhere / "out" / "golf-putt-1.gif") as image:
+    with Image.open(elsewhere / "out" / "volleyball-spike-1.gif") as image:
         assert image.n_frames > 10
 
 

@@ -7,7 +7,8 @@ from types import SimpleNamespace
 import pygame
 import pytest
 
-from sandbox.scene import listings, load, simulate
+from sandbox.scene import listings
+from sandbox.shots import run_of
 from sandbox.window.canvas import Canvas
 from sandbox.window.shots import Shot
 from sandbox.window.shown import Shown
@@ -33,8 +34,8 @@ def viewpoint_of(shot: Shot) -> Viewpoint:
 @pytest.mark.parametrize("source", SCENES)
 @pytest.mark.parametrize("factor", [1e-3, 1e3])
 def test_any_camera_has_a_picture(source, factor):
-    scene = load(source)
-    shot = Shot(scene, simulate(scene))
+    run = run_of(source)
+    shot = Shot(run.scene, run)
     view = viewpoint_of(shot)
     view.zoom(factor, (SIZE[0] / 2, SIZE[1] / 2))
     nearest = view.stages.chosen

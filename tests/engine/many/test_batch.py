@@ -279,7 +279,9 @@ def test_a_ball_that_is_to_stay_is_asked_for_its_last_event():
     """Dropped flat on dead ground after a bounce off a lively ledge: the second impact ends the run, and is lasting."""
     ledge = Surface("ledge", Segment((-1.0, 1.0), (0.3, 1.0)), 0.9, 0.0)
     dead = Surface("dead", Segment((-9.0, 0.0), (9.0, 0.0)), 0.0, 0.5)
-    drops = [Ball("ball", 0.6, 0.12, (0.0, 1.5 + 0.01 * i), (1.0, 0.0), forces=[Gravity(9.81, 0.6)]) for i in range(0, 30, 3)]
+    drops = [
+        Ball("ball", 0.6, 0.12, (0.0, 1.5 + 0.01 * i), (1.0, 0.0), forces=[Gravity(9.81, 0.6)]) for i in range(0, 30, 3)
+    ]
     for ends in ("dead", "ledge"):
         setups = [
             Setup([ball], [ledge, dead], duration=3.0, until=lambda event, ends=ends: event.partner == ends)

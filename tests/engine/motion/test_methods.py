@@ -10,6 +10,7 @@ import pytest
 
 from sandbox.engine import simulate, simulate_many
 from sandbox.engine.kernel.step_control import StepControl
+from sandbox.engine.many import batch
 from sandbox.engine.model.accuracy import LEVELS, Accuracy, resolve
 from sandbox.engine.model.ball import Ball
 from sandbox.engine.model.setup import ForceRegion, Setup
@@ -52,8 +53,9 @@ def tossed(number: int) -> Setup:
 
 
 @pytest.mark.parametrize("name", CHOICES)
-def test_both_engines_take_it_from_the_table(name: str):
-    setups = [tossed(number) for number in range(30)]
+def test_both_engines_take_it_from_the_table(name: str, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(batch, "FEWEST", 4)
+    setups = [tossed(number) for number in range(0, 30, 4)]
     per_step = {**INTEGRATORS, **MORE}[name].evaluations
     to_the_end = 0
     for setup, together in zip(setups, simulate_many(setups, chosen(name)), strict=True):
