@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
+from functools import cache
 from importlib.metadata import version
 from math import inf
 from pathlib import Path
@@ -76,6 +77,7 @@ def _label(fact: Fact) -> str:
     return f"{fact.label} ({fact.unit})".strip() if fact.unit else fact.label
 
 
+@cache
 def _versions() -> str:
     """The versions on which numbers and pictures depend: ``"Python 3.11.2, numpy 2.1.0, ..."``."""
     packages = ", ".join(f"{name} {version(name)}" for name in ("numpy", "pymunk", "pygame-ce"))

@@ -36,10 +36,11 @@ def register(source: str | Path) -> str:
 
     Raises RequestError for a file that is no task.
     """
-    path = find_task(source)
-    if source not in tasks():
+    if source in tasks():
+        name = environment_id(str(source))
+    else:
         load(source)
-    name = environment_id(path.stem)
+        name = environment_id(find_task(source).stem)
     gymnasium.register(
         name,
         entry_point="sandbox.gym.environment:TaskEnv",

@@ -70,9 +70,9 @@ PLAIN = st.fixed_dictionaries({"accuracy.method": st.just("plain"), "accuracy.st
 @pytest.mark.parametrize(
     ("space", "examples", "share"),
     [
-        (lambda usual: overrides(type(usual)), 7, 0.6),
+        (lambda usual: overrides(type(usual)), 10, 0.6),
         # Every number somewhat changed. A quarter at least: a rink that is a fifth shorter has its goalie outside.
-        (nearby, 6, 0.25),
+        (nearby, 8, 0.25),
         # Everything changed. Most of such scenes are refused, as what is in them overlaps; the others are odd.
         (lambda usual: everything(type(usual)), 4, 0.0),
         # The plain method may tunnel; it must not hang, crash or give NaN. Steps shorter than 10 ms only take long.
