@@ -186,7 +186,7 @@ def _book_on_plane(plane: Plane, ball: Ball, arc: Arc, work: dict[str, float], c
             work[name] += weight * h * torque * spin
         px, py, turning = acting(t, state)
         phase = law.phase_under(acting, t, state, ball.radius) if pushed else law.phase(state, ball.radius)
-        slope = (law.pull_x, law.pull_y) if isinstance(law, Slope) else (0.0, 0.0)
+        slope = law.pull(*state[:2]) if isinstance(law, Slope) else (0.0, 0.0)
         if slope != (0.0, 0.0):
             work["slope"] += weight * h * ball.mass * (slope[0] * vx + slope[1] * vy)
         spun = zip((phase.alpha_z - turning, phase.alpha_x, phase.alpha_y), state[4:], strict=False)

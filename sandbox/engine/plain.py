@@ -42,6 +42,7 @@ class _Tracked:
         self.start = mover.state()
         self.parts = 0  # steps of Chipmunk by then
         self.caught = False
+        self.over: set[str] = set()  # traps that it was too fast for, since it last hit something
         self.moved = 0.0  # s, when it last moved, or touched nothing
 
     def record(self, t: float, parts: int, after: State) -> None:
@@ -113,6 +114,7 @@ class PlainSimulation:
         space = self._space
         for name, before in hit.before.items():
             tracked = self._tracked[name]
+            tracked.over.clear()
             tracked.record(space.time, space.parts, before)
             tracked.begin(space.time, space.parts, tracked.mover.state())
         self._note(Event(space.time, "impact", hit.ball, hit.partner, hit.speed, *hit.before[hit.ball][:2]))
@@ -135,16 +137,18 @@ class PlainSimulation:
         """Remove a ball that has come into a pocket; noticed at the next recording, so up to one interval late."""
         (x0, y0), (x1, y1) = before[:2], after[:2]
         for trap in self._setup.traps:
-            if not trap.takes(tracked.name):
+            if not trap.takes(tracked.name) or trap.name in tracked.over:
                 continue
             outline, looks = Outline.of(trap.shape, 0.0), ceil(2.0 * dist(before[:2], after[:2]) / trap.radius) or 1
             places = [(x1 + (x0 - x1) * k / looks, y1 + (y0 - y1) * k / looks) for k in range(looks)]
-            if any(outline.near(*place).gap <= 0.0 for place in places) and trap.holds(after):
-                tracked.caught = True
-                self._space.remove_ball(tracked.mover)
-                speed = (after[2] ** 2 + after[3] ** 2) ** 0.5
-                self._note(Event(self._space.time, "caught", tracked.name, trap.name, speed, x1, y1))
-                return
+            if any(outline.near(*place).gap <= 0.0 for place in places):
+                tracked.caught, speed = trap.holds(after), (after[2] ** 2 + after[3] ** 2) ** 0.5
+                kind = "caught" if tracked.caught else "over"
+                self._note(Event(self._space.time, kind, tracked.name, trap.name, speed, x1, y1))
+                if tracked.caught:
+                    self._space.remove_ball(tracked.mover)
+                    return
+                tracked.over.add(trap.name)
 
     def _rests(self, tracked: _Tracked, state: State) -> bool:
         _, _, vx, vy, spin = state[:5]

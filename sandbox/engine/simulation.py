@@ -222,10 +222,11 @@ class Simulation:
     def _catch(self, t: float, index: int) -> None:
         """Remove a ball that is caught; one that is too fast goes on."""
         mover = self._movers[index]
-        x, y = mover.arc.state(t)[:2]
+        x, y, vx, vy = mover.arc.state(t)[:4]
         nearest = min(mover.open_traps, key=lambda trap: trap.near(x, y).gap)
         if not self._holds(nearest, mover.arc.state(t)):
             mover.passed = (*mover.passed, nearest)
+            self._note(t, "over", mover, nearest.surface.name, (x, y), (vx * vx + vy * vy) ** 0.5)
             self._next_arc(t, index)
             return
         mover.finish(t)

@@ -1,6 +1,7 @@
-"""A ball on a slope of cloth, seen from above: a ramp as a field of force.
+"""A ball on a slope of cloth, seen from above: a ramp or a green as a field of force.
 
-Gravity pulls with an acceleration p along the plane, downhill. While the ball **slides**, with the velocity u of its
+Gravity pulls with an acceleration p along the plane, downhill; on a twisted slope, whose height has a term in x y, p is
+linear in the place. While the ball **slides**, with the velocity u of its
 lowest point over the cloth,
 
     dv/dt = p - mu_s g u/|u|,  du/dt = p - (1 + 1/k) mu_s g u/|u|,
@@ -9,7 +10,8 @@ where k m r^2 is its moment of inertia; while it **rolls**,
 
     dv/dt = p / (1 + k) - mu_r g v/|v|.
 
-It is integrated with error control.
+It is integrated with error control. On an even slope the path of a ball that rolls is known (*ours*): with the angle psi
+of its motion from straight downhill, ``v sin(psi) / tan(psi / 2)^n`` stays as it is, n = mu_r g (1 + k) / p.
 
 Valid where the ball can roll: p below (1 + 1/k) mu_s g. Left out: that a slope is seen shorter from above (2 % at 1 in
 5) and presses less on the ball (the same), and the edge where it begins: no ball jumps.
@@ -30,6 +32,8 @@ from sandbox.physics.plane import Applied, PlanePhase, PlaneState, no_force
 class Slope(Cloth):
     """Cloth on a slope, on which gravity pulls by ``pull_x`` and ``pull_y`` (m/s^2): g times the height lost per metre.
 
+    That is at the origin; at (x, y) it pulls by ``twist`` (1/s^2) times (y, x) more.
+
     >>> import sandbox
     >>> from sandbox import Ball, Setup, Slope
     >>> ball = Ball("ball", mass=0.046, radius=0.021, position=(0, 0), velocity=(1, 0), rolling_spin=(0, 1 / 0.021))
@@ -40,12 +44,13 @@ class Slope(Cloth):
 
     pull_x: float = 0.0  # m/s^2
     pull_y: float = 0.0
+    twist: float = 0.0  # 1/s^2
 
     in_closed_form: ClassVar[bool] = False
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        check(self.name, self, finite=["pull_x", "pull_y"])
+        check(self.name, self, finite=["pull_x", "pull_y", "twist"])
         steepest = (1.0 + 1.0 / self.inertia) * self.strongest
         if not hypot(self.pull_x, self.pull_y) < steepest:
             pull = hypot(self.pull_x, self.pull_y)
@@ -53,6 +58,10 @@ class Slope(Cloth):
                 f"{self.name}: a slope that pulls by {pull:.3g} m/s^2 must pull by less than {steepest:.3g} m/s^2: "
                 "no ball would roll"
             )
+
+    def pull(self, x: float, y: float) -> tuple[float, float]:
+        """The pull of gravity at a place in m, in m/s^2."""
+        return self.pull_x + self.twist * y, self.pull_y + self.twist * x
 
     def phase(self, state: PlaneState, radius: float) -> PlanePhase:
         """The phase that starts at ``state`` for a ball of ``radius`` m: it slides, rolls, or rests."""
@@ -63,6 +72,7 @@ class Slope(Cloth):
 
         def pulled(t: float, state: PlaneState) -> tuple[Any, Any, Any]:
             ax, ay, torque = applied(t, state)
-            return ax + self.pull_x, ay + self.pull_y, torque
+            px, py = self.pull(state[0], state[1])
+            return ax + px, ay + py, torque
 
         return super().phase_under(pulled, t, state, radius)

@@ -83,3 +83,34 @@ def test_the_ledger_has_the_height():
 def test_too_steep_to_roll_is_refused():
     with pytest.raises(ValueError, match=r"cloth: a slope that pulls by 7 m/s\^2 must pull by less than 6\.87 m/s\^2"):
         Slope(sliding=0.2, pull_x=-7.0)
+
+
+def test_a_putt_across_an_even_slope_is_exact():
+    """With u = tan(psi / 2), psi the angle of its motion from straight downhill, and n = a / s > 1 (friction over pull of
+    a ball that rolls), v = K u^n (1 + u^2) / 2 u: it stops straight downhill, where u = 0."""
+    pull, friction, speed, psi = 0.28, 0.03 * G, 2.0, 1.9  # m/s^2, m/s, rad from downhill
+    s = pull / 1.4
+    n, u = friction / s, np.tan(psi / 2.0)
+    k = 2.0 * speed * u ** (1.0 - n) / (1.0 + u * u)
+    time = k / (2.0 * s) * (u ** (n - 1.0) / (n - 1.0) + u ** (n + 1.0) / (n + 1.0))
+    down = k * k / (4.0 * s) * (u ** (2.0 * n - 2.0) / (2.0 * n - 2.0) - u ** (2.0 * n + 2.0) / (2.0 * n + 2.0))
+    across = k * k / (2.0 * s) * (u ** (2.0 * n - 1.0) / (2.0 * n - 1.0) + u ** (2.0 * n + 1.0) / (2.0 * n + 1.0))
+    run = run_on(Slope(rolling=0.03, pull_y=-pull), (speed * np.sin(psi), -speed * np.cos(psi)), duration=60.0)
+    assert (run.ended, run.duration) == ("rest", pytest.approx(time, abs=1e-5))
+    assert run.state("ball", run.duration)[:2] == pytest.approx((across, -down), abs=1e-5)
+
+
+def test_a_twisted_slope_bends_both_ways_and_has_a_height():
+    """z = -(p_x x + p_y y + q x y) / g: the cross slope turns over half-way, and m g z is all that the slope does."""
+    slope = Slope(rolling=0.03, pull_x=-0.2, pull_y=-0.35, twist=0.25)
+
+    def rolls(t, y):
+        pull = np.array([-0.2 + 0.25 * y[1], -0.35 + 0.25 * y[0]])
+        return [*y[2:4], *(pull / 1.4 - 0.03 * G * y[2:4] / np.hypot(*y[2:4]))]
+
+    run = run_on(slope, (2.0, 0.1), duration=2.0)
+    expected = solve_ivp(rolls, (0.0, 2.0), [0.0, 0.0, 2.0, 0.1], rtol=1e-11, atol=1e-12).y[:, -1]
+    assert run.state("ball", 2.0)[:4] == pytest.approx(expected.tolist(), abs=2e-6)
+    assert np.ptp(np.sign(np.gradient(run.states("ball", np.linspace(0.2, 2.0, 50))[:, 3]))) == 2.0
+    x, y = run.state("ball", 2.0)[:2]
+    assert ledger(run).work["slope"] == pytest.approx(MASS * (-0.2 * x - 0.35 * y + 0.25 * x * y), rel=1e-6)
