@@ -22,8 +22,8 @@ from sandbox.engine.paths.arc import Arc
 from sandbox.engine.paths.phase import InCluster, InHeap, SetByHand
 from sandbox.engine.paths.run import Run
 from sandbox.physics.integrators import INTEGRATORS, Acceleration, State
-from sandbox.physics.plane import Plane, strip
-from sandbox.physics.slope import Slope
+from sandbox.physics.plane import Applied, Plane, strip
+from sandbox.physics.slope import pull_of
 
 #: Gauss-Legendre nodes and weights on [0, 1]: exact for polynomials of degree 9.
 _NODES = (0.04691007703066802, 0.23076534494715845, 0.5, 0.7692346550528415, 0.953089922969332)
@@ -174,7 +174,9 @@ def _book_on_plane(plane: Plane, ball: Ball, arc: Arc, work: dict[str, float], c
     def forces(t: float, state: State) -> Acceleration:
         return acceleration_at(t, state[:5])
 
-    acting = arc.contact.applied(forces) if isinstance(arc.contact, Leaning) else forces
+    acting: Applied = forces
+    if isinstance(arc.contact, Leaning):
+        acting, pushed = arc.contact.applied(forces, law), True
 
     for node, weight in zip(_NODES, _WEIGHTS, strict=True):
         t = arc.t0 + node * h
@@ -186,7 +188,7 @@ def _book_on_plane(plane: Plane, ball: Ball, arc: Arc, work: dict[str, float], c
             work[name] += weight * h * torque * spin
         px, py, turning = acting(t, state)
         phase = law.phase_under(acting, t, state, ball.radius) if pushed else law.phase(state, ball.radius)
-        slope = law.pull(*state[:2]) if isinstance(law, Slope) else (0.0, 0.0)
+        slope = pull_of(law, *state[:2])
         if slope != (0.0, 0.0):
             work["slope"] += weight * h * ball.mass * (slope[0] * vx + slope[1] * vy)
         spun = zip((phase.alpha_z - turning, phase.alpha_x, phase.alpha_y), state[4:], strict=False)

@@ -10,8 +10,8 @@ where k m r^2 is its moment of inertia; while it **rolls**,
 
     dv/dt = p / (1 + k) - mu_r g v/|v|.
 
-It is integrated with error control. On an even slope the path of a ball that rolls is known (*ours*): with the angle psi
-of its motion from straight downhill, ``v sin(psi) / tan(psi / 2)^n`` stays as it is, n = mu_r g (1 + k) / p.
+It is integrated with error control. On an even slope the path of a ball that rolls has a closed form: with psi its
+angle from straight downhill, ``v sin(psi) / tan(psi / 2)^n`` is constant, n = mu_r g (1 + k) / p.
 
 Valid where the ball can roll: p below (1 + 1/k) mu_s g. Left out: that a slope is seen shorter from above (2 % at 1 in
 5) and presses less on the ball (the same), and the edge where it begins: no ball jumps.
@@ -25,7 +25,7 @@ from typing import Any, ClassVar
 
 from sandbox.physics.checks import check
 from sandbox.physics.cloth import Cloth
-from sandbox.physics.plane import Applied, PlanePhase, PlaneState, no_force
+from sandbox.physics.plane import Applied, Plane, PlanePhase, PlaneState, no_force
 
 
 @dataclass(frozen=True)
@@ -76,3 +76,8 @@ class Slope(Cloth):
             return ax + px, ay + py, torque
 
         return super().phase_under(pulled, t, state, radius)
+
+
+def pull_of(plane: Plane, x: float, y: float) -> tuple[float, float]:
+    """The pull of gravity (m/s^2) along a plane at a place in m: none on one that is level."""
+    return plane.pull(x, y) if isinstance(plane, Slope) else (0.0, 0.0)

@@ -36,6 +36,7 @@ from sandbox.picture.places import (
     tennis_court,
     turf,
 )
+from sandbox.picture.places.relief import Relief
 from sandbox.picture.sheet import Entry, Sheet, SideRows
 from sandbox.picture.side import NetView, SideView
 from sandbox.picture.side_options import Length, Place
@@ -69,6 +70,7 @@ __all__ = [
     "Place",
     "Planks",
     "Post",
+    "Relief",
     "Scenery",
     "Shape",
     "Sheet",

@@ -11,6 +11,7 @@ from sandbox.kit import (
     Area,
     Box,
     Look,
+    Relief,
     Story,
     mix,
     plan,
@@ -18,6 +19,7 @@ from sandbox.kit import (
     seams,
     table,
 )
+from sandbox.sport.putting import PERCENT
 
 from .scene import BOARD, Parameters
 
@@ -79,7 +81,7 @@ class Picture(AboveView[Parameters]):
         return (
             plan.Stripes(table.around((60.0, 60.0)), COLOURS["path"], 0.6, along=True),
             table.Rails(half, (x + FRAME, y + FRAME), COLOURS["wood"], COLOURS["wood"][0]),
-            plan.Stripes(table.around(half), COLOURS["felt"], 0.3),
+            _bed(it, table.around(half)),
             *([plan.Ground(Box(start, -y, end, y), COLOURS["rough"])] if felt.rough_end > felt.rough_start else []),
             *_ramp(felt.ramp_start, felt.ramp_end, felt.ramp_rise, (x, y)),
             plan.Spot(tee, 2.2 * it.ball.radius, COLOURS["chalk"], 0.006),
@@ -88,6 +90,14 @@ class Picture(AboveView[Parameters]):
             *(plan.Line(((wall.x1, wall.y1), (wall.x2, wall.y2)), 2 * BOARD, COLOURS["board"]) for wall in it.walls),
             *(plan.Spot((mill.x, mill.y), POST, COLOURS["post"]) for mill in it.mills),
         )
+
+
+def _bed(it: Parameters, box: Box) -> plan.Stripes | Relief:
+    """The felt: in stripes, or with contour lines if the lane is tilted."""
+    along, across = PERCENT * it.felt.grade, PERCENT * it.felt.cross
+    if along == across == 0.0:
+        return plan.Stripes(box, COLOURS["felt"], 0.3)
+    return Relief(box, box, along, across, 0.0, (COLOURS["low"], COLOURS["high"]), COLOURS["arrow"], COLOURS["chalk"])
 
 
 def _ramp(start: float, end: float, rise: float, half: tuple[float, float]) -> plan.Plan:

@@ -1,8 +1,8 @@
 """Minigolf from above: a putt off boards, past blades that turn and gates that move, up ramps, into the hole.
 
-Models: sliding on felt until the ball rolls, rolling, a strip of slower felt; a ramp, as the pull of gravity along it;
-boards; blades and gates driven as given, whatever meets them; a hole that holds a ball only if it is slow enough, the
-slower the farther from its middle (Holmes 1991, Penner 2002).
+Models: sliding on felt until the ball rolls, rolling, a strip of slower felt; a ramp, and a tilt of the whole lane, as
+the pull of gravity along them; boards; blades and gates driven as given, whatever meets them; a hole that holds a ball
+only if it is slow enough, the slower the farther from its middle (Holmes 1991, Penner 2002).
 Leaves out: jumps, and the lip of the hole, which turns a ball that just misses or is just too fast. Not validated:
 boards and blades, whose numbers are assumed, and ramps.
 """
@@ -11,15 +11,12 @@ from __future__ import annotations
 
 from itertools import pairwise
 from math import cos, dist, pi, sin
-from typing import Any
 
 from sandbox.kit import (
     DEGREE,
     ENDED,
-    Ball,
     Cloth,
     Controls,
-    Directed,
     Fact,
     Group,
     Handle,
@@ -45,26 +42,10 @@ from sandbox.kit import (
     roughly,
 )
 from sandbox.physics.turf import stimp_resistance
+from sandbox.sport.putting import PERCENT, GolfBall, Putt, holed, next_putt
 
 #: Half the thickness in m of boards within the lane, of blades and of gates; s after which a putt is ended.
 BOARD, BLADE, LONGEST = 0.02, 0.015, 60.0
-
-
-class Putt(Directed):
-    """The ball as it leaves the putter."""
-
-    speed: float = quantity(..., "m/s", 0, 20, "ball speed")
-    angle: float = quantity(..., "deg", -180, 180, "direction, to the left of straight along the lane")
-    roll: float = quantity(..., "", -1, 1, "share of its roll that the ball has at once; 1 does not slide at all")
-
-
-class GolfBall(Group):
-    """The ball, a solid sphere, and where it lies; the middle of the lane is the origin."""
-
-    mass: float = quantity(..., "kg", 0.005, 1, "mass")
-    radius: float = quantity(..., "m", 0.005, 0.1, "radius")
-    x: float = quantity(..., "m", -25, 25, "where it lies, along the lane")
-    y: float = quantity(..., "m", -10, 10, "where it lies, to the left")
 
 
 class Lane(Group):
@@ -88,6 +69,8 @@ class Felt(Group):
     ramp_start: float = quantity(..., "m", -25, 25, "where a ramp across the lane begins")
     ramp_end: float = quantity(..., "m", -25, 25, "where it ends; not beyond its start: there is none")
     ramp_rise: float = quantity(..., "m", -2, 2, "how much higher its end is than its start")
+    grade: float = quantity(..., "%", -20, 20, "rise of the whole lane along it")
+    cross: float = quantity(..., "%", -20, 20, "rise of the whole lane to its left")
 
 
 class Hole(Group):
@@ -135,7 +118,7 @@ class Parameters(SceneParameters):
 
     gravity: float = quantity(..., "m/s^2", 0.1, 100, "gravity")
     launch: Putt = group(..., "the ball as it leaves the putter")
-    ball: GolfBall = group(..., "the ball")
+    ball: GolfBall = group(..., "the ball; the middle of the lane is the origin")
     hole: Hole = group(..., "the hole")
     lane: Lane = group(..., "the lane")
     felt: Felt = group(..., "the felt")
@@ -158,7 +141,7 @@ CONTROLS = Controls(
     ),
     scores="holed",
     spread=(Spread("launch.speed", 0.02), Spread("launch.angle", minimum=0.4)),  # assumed
-    next_start=lambda run, parameters: next_putt(run, parameters),
+    next_start=next_putt,
 )
 
 
@@ -166,18 +149,17 @@ def build(parameters: Parameters) -> Setup:
     """The ball, the boards, what moves, the felt and the hole. Raises RequestError if the hole is not on the lane, or
     a wall has no length."""
     it, ball, hole, lane = parameters, parameters.ball, parameters.hole, parameters.lane
-    x, y, (vx, vy) = 0.5 * lane.length, 0.5 * lane.width, it.launch.velocity
+    x, y = 0.5 * lane.length, 0.5 * lane.width
     for name, place, half in (("x", hole.x, x), ("y", hole.y, y)):
         if abs(place) > half:
             raise RequestError(f"hole.{name} = {place:g} m: the lane is from {-half:g} to {half:g} m")
     for i, wall in enumerate(it.walls):
         if (wall.x1, wall.y1) == (wall.x2, wall.y2):
             raise RequestError(f"walls[{i}]: both ends are at ({wall.x1:g}, {wall.y1:g}) m: a wall needs a length")
-    roll = (-it.launch.roll * vy / ball.radius, it.launch.roll * vx / ball.radius)  # rad/s, about x and about y
     boards = [Segment(*ends) for ends in pairwise(rectangle(-x, -y, x, y))]
     boards += [Segment((wall.x1, wall.y1), (wall.x2, wall.y2), BOARD) for wall in it.walls]
     return Setup(
-        [Ball("ball", ball.mass, ball.radius, (ball.x, ball.y), (vx, vy), rolling_spin=roll)],
+        [ball.putted(it.launch)],
         [*(Surface("board", shape, lane.restitution, lane.friction) for shape in boards), *_driven(it)],
         duration=LONGEST,
         plane=_felt(it),
@@ -204,33 +186,30 @@ def _driven(parameters: Parameters) -> list[Surface]:
 
 
 def _felt(parameters: Parameters) -> Cloth | Strips:
-    """The felt, the strip and the ramp. Raises RequestError for a ramp on which no ball would roll."""
-    felt = parameters.felt
-
+    """The felt, the strip, the ramp and the tilt. Raises RequestError for a ramp on which no ball would roll."""
+    felt, gravity = parameters.felt, parameters.gravity
     rough, ramp = (felt.rough_start, felt.rough_end), (felt.ramp_start, felt.ramp_end)
     uphill = felt.ramp_rise / (ramp[1] - ramp[0]) if ramp[1] > ramp[0] else 0.0
 
     def law(x: float) -> Cloth:
         """Return the felt at x m along the lane."""
         resistance = stimp_resistance(felt.rough_stimp if rough[0] < x < rough[1] else felt.stimp)
-        usual = felt.sliding, resistance, felt.spinning, parameters.gravity
-        if not ramp[0] < x < ramp[1] or uphill == 0.0:
+        usual = felt.sliding, resistance, felt.spinning, gravity
+        on_ramp = ramp[0] < x < ramp[1] and uphill != 0.0
+        rise = PERCENT * felt.grade + on_ramp * uphill
+        if rise == felt.cross == 0.0:
             return Cloth(*usual, name="felt")
         try:
-            return Slope(*usual, name="felt", pull_x=-parameters.gravity * uphill)
+            return Slope(*usual, name="felt", pull_x=-gravity * rise, pull_y=-PERCENT * gravity * felt.cross)
         except ValueError as error:
-            raise RequestError(f"felt.ramp_rise = {felt.ramp_rise:g} m: {error}") from None
+            tilt = f"felt.grade = {felt.grade:g} %, felt.cross = {felt.cross:g} %"
+            raise RequestError(f"{f'felt.ramp_rise = {felt.ramp_rise:g} m' if on_ramp else tilt}: {error}") from None
 
     edges = sorted({edge for ends in (rough, ramp) if ends[1] > ends[0] for edge in ends})
     if not edges:
         return law(0.0)
     middles = [edges[0] - 1.0, *(0.5 * (a + b) for a, b in pairwise(edges)), edges[-1] + 1.0]
     return Strips(edges, [law(x) for x in middles])
-
-
-def holed(run: Run, parameters: Parameters) -> bool:
-    """True if the ball is in the hole."""
-    return run.caught_at("ball") is not None
 
 
 def _to_hole(run: Run, parameters: Parameters) -> float | None:
@@ -272,11 +251,3 @@ def verdict(run: SceneRun, parameters: Parameters) -> str:
     if result["ended"] == "duration":
         return f"Still moving after {run.duration:.0f} s{way}"
     return f"Stops {roughly(result['to_hole'])} from the hole{way}"
-
-
-def next_putt(run: Run, parameters: Parameters) -> dict[str, Any]:
-    """The next putt, from where the ball stopped; from the same place as the first if it is in the hole."""
-    if holed(run, parameters):
-        return {"putt": 1}
-    x, y = run.state("ball", run.duration)[:2]
-    return {"ball.x": x, "ball.y": y, "putt": parameters.putt + 1}

@@ -9,7 +9,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import sandbox
-from sandbox import Ball, Setup
+from sandbox import Ball, Segment, Setup, Surface
 from sandbox.engine.ledger import ledger
 from sandbox.physics.plane import Strips
 from sandbox.physics.slope import Slope
@@ -78,6 +78,21 @@ def test_the_ledger_has_the_height():
     assert book.start + sum(book.work.values()) + sum(book.contacts.values()) == pytest.approx(book.end, abs=1e-12)
     slower = sqrt(4.0 - 2.0 * (0.01 * G * 2.0 + 0.1 * G / 1.4))
     assert hypot(*next(run.crossings("ball", (2.0, 0.0), (-1.0, 0.0)))[1][2:4]) == pytest.approx(slower, abs=1e-9)
+
+
+def test_a_ball_that_lies_at_the_lower_board_rolls_along_it_or_rests():
+    """Pressed on a board it goes on as straight down the slope along it, and the energy is all accounted for."""
+    board = Surface("board", Segment((-9.0, -0.2), (9.0, -0.2)), 0.5, 0.0)
+    for along, ended in ((-0.6, "duration"), (-0.1, "rest")):
+        slope = Slope(rolling=0.03, pull_x=along, pull_y=-0.8)
+        ball = Ball("ball", MASS, RADIUS, (0.0, 0.0), (0.0, 0.0))
+        run = sandbox.simulate(Setup([ball], [board], plane=slope, duration=5.0))
+        assert run.ended == ended
+        assert run.state("ball", run.duration).y == pytest.approx(RADIUS - 0.2, abs=1e-9)
+        assert abs(ledger(run).residue) < 1e-6
+        if ended == "duration":
+            speeds = -run.states("ball", [4.0, 5.0])[:, 2]
+            assert speeds[1] - speeds[0] == pytest.approx(0.6 / 1.4 - 0.03 * G, abs=1e-9)
 
 
 def test_too_steep_to_roll_is_refused():

@@ -9,8 +9,8 @@ class Event(NamedTuple):
     """Something that happened to a ball at one instant.
 
     ``kind`` is ``"impact"`` (``speed`` is the normal approach speed in m/s), ``"contact"`` (it starts to slide or
-    roll on the surface), ``"leave"`` (it leaves the surface), ``"rest"``, ``"caught"`` (by a trap), ``"over"`` (it is too
-    fast for the trap that its centre enters; with both, ``speed`` is that of the ball).
+    roll on the surface), ``"leave"`` (it leaves the surface), ``"rest"``, ``"caught"`` (by a trap) or ``"over"`` (it
+    is too fast for the trap that its centre enters; with both, ``speed`` is its speed).
 
     >>> import sandbox
     >>> event = sandbox.simulate("basketball").events[0]

@@ -1,5 +1,5 @@
-"""A ball on a plane that forces press against straight sides of fixed surfaces, such as a puck that wind blows along
-boards: it stays there until they no longer do, or the side ends.
+"""A ball on a plane that forces, or the plane's slope, press against straight sides of fixed surfaces, such as a puck
+that wind blows along boards: it stays there until they no longer do, or the side ends.
 
 The sides hold back what pushes the ball into them, and are smooth meanwhile: their friction is left out.
 """
@@ -16,7 +16,8 @@ from sandbox.engine.model.surface import Surface
 from sandbox.engine.paths.arc import Arc
 from sandbox.engine.paths.phase import ArcContact, Phase
 from sandbox.physics.integrators import Acceleration, State
-from sandbox.physics.plane import Applied
+from sandbox.physics.plane import Applied, Plane
+from sandbox.physics.slope import pull_of
 
 #: Acceleration in m/s^2, or speed in m/s, into a side that is rounding; leaving speed over the slowest hop that is.
 _INTO, _AT_MOST = 1e-9, 1.0 + 1e-9
@@ -64,12 +65,14 @@ class Leaning(ArcContact):
         in_corner = any(ax * nx + ay * ny < -_INTO for nx, ny in self.normals)
         return (0.0, 0.0) if in_corner else (ax, ay)
 
-    def applied(self, forces: Applied) -> Applied:
-        """The acceleration that the forces leave it."""
+    def applied(self, forces: Applied, plane: Plane) -> Applied:
+        """The acceleration that the forces leave it, less what of the pull of a slope the sides hold back."""
 
         def applied(t: float, state: State) -> Acceleration:
             px, py, torque = forces(t, state)
-            return *self.held_back(px, py), torque
+            gx, gy = pull_of(plane, state[0], state[1])
+            ax, ay = self.held_back(px + gx, py + gy)
+            return ax - gx, ay - gy, torque
 
         return applied
 

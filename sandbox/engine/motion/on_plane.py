@@ -15,7 +15,8 @@ from sandbox.engine.motion.moving_ball import MovingBall
 from sandbox.engine.paths.arc import Arc, crossing
 from sandbox.engine.paths.bernstein import downward_crossings
 from sandbox.physics.integrators import Acceleration, AccelerationFunction, State
-from sandbox.physics.plane import Applied, Plane, PlaneMode, PlanePhase, strip
+from sandbox.physics.plane import Applied, Plane, PlaneMode, PlanePhase, no_force, strip
+from sandbox.physics.slope import pull_of
 
 #: Longest step as a fraction of the time in which a body would stop: none steps over its rest.
 _LONGEST = 0.5
@@ -32,7 +33,7 @@ def slowest_hop(setup: Setup, hop: float) -> float:
 
 
 class OnPlane(MovingBall):
-    """A body on a plane; it stays at a cushion only where a force presses it there."""
+    """A body on a plane; it stays at a cushion only where a force or a slope presses it there."""
 
     contact: Leaning | None  # type: ignore[assignment]  # of another kind than in the plane of the picture
 
@@ -99,12 +100,11 @@ class OnPlane(MovingBall):
 
     def _phase_from(self, law: Plane, t: float) -> PlanePhase:
         """The phase that starts at t under the plane's law, and under the forces on the ball if there are any."""
-        if self._forces is None:
-            return law.phase(self.state, self.ball.radius)
         contact = self.contact
         if contact is None:
             return self._free_phase(law, t, self.state)
-        phase = law.phase_under(contact.applied(self._forces), t, self.state, self.ball.radius)
+        left = contact.applied(self._forces or no_force, law)
+        phase = law.phase_under(left, t, self.state, self.ball.radius)
         acceleration_at = phase.acceleration_at
 
         def along_sides(t: float, state: State) -> Acceleration:
@@ -117,7 +117,8 @@ class OnPlane(MovingBall):
 
     def _free_phase(self, law: Plane, t: float, state: State) -> PlanePhase:
         """The phase that starts at t in a state under the plane and the forces, if no side held the ball back."""
-        assert self._forces is not None
+        if self._forces is None:
+            return law.phase(state, self.ball.radius)
         return law.phase_under(self._forces, t, state, self.ball.radius)
 
     def _cut_where_it_leaves(self, law: Plane, arc: Arc, contact: Leaning) -> tuple[Arc, EventKind]:
@@ -192,10 +193,12 @@ class OnPlane(MovingBall):
             self.state = self.contact.projected(self.state)
 
     def find_sustained_contact(self, t: float, height: float) -> None:
-        """Find the sides that forces press it on, after a touch: without forces, what it slides on is the plane."""
+        """Find the sides that forces or a slope press it on, after a touch: else, what it slides on is the plane."""
         self.contact = None
-        if self._forces is not None and (near := self.near(t, *self.state[:2])):
-            phase = self._free_phase(strip(self._setup.plane_of(self.ball.name), self.state)[0], t, self.state)
+        law = strip(self._setup.plane_of(self.ball.name), self.state)[0]
+        pressed = self._forces is not None or pull_of(law, *self.state[:2]) != (0.0, 0.0)
+        if pressed and (near := self.near(t, *self.state[:2])):
+            phase = self._free_phase(law, t, self.state)
             slowest = slowest_hop(self._setup, self._accuracy.hop)
             self.contact = Leaning.on(near, self.state, (phase.ax, phase.ay), slowest)
             self.snap_to_contact(t, EventKind.TOUCH)
