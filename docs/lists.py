@@ -57,6 +57,17 @@ def models() -> Iterator[str]:
         yield item(f"[{name}](../scenes/{name}/scene.py): {' '.join(found[1].split())}.")
 
 
+def left_out() -> Iterator[str]:
+    """What each scene leaves out, with sizes where they are known, by the docstring of its ``scene.py``."""
+    for name, folder in scenes():
+        about = ast.get_docstring(ast.parse((folder / "scene.py").read_text("utf-8"))) or ""
+        found = re.search(r"^Leaves out:?\s*(.*)", about, re.DOTALL | re.MULTILINE)
+        if found is None:
+            raise SystemExit(f"scenes/{name}/scene.py: its docstring has no line that begins with Leaves out")
+        text = " ".join(found[1].split())
+        yield item(f"**{name}**: {text.removeprefix(', ')}")
+
+
 def scenes() -> list[tuple[str, Path]]:
     """Names and folders of the scenes that come with the sandbox: ``FIRST``, then in the order of the tiles."""
     folders = [path.parent for path in (ROOT / "scenes").glob("*/scene.py")]
@@ -137,7 +148,7 @@ def number(reynolds: float) -> str:
 #: The blocks of each page.
 LISTS: Mapping[Path, Mapping[str, Callable[[], Iterable[str]]]] = {
     ROOT / "README.md": {"sports": sports},
-    ROOT / "docs" / "physics.md": {"scenes": models, "coefficients": coefficients},
+    ROOT / "docs" / "physics.md": {"scenes": models, "left out": left_out, "coefficients": coefficients},
 }
 
 

@@ -14,6 +14,7 @@ import re
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
+from statistics import median
 from time import perf_counter
 
 import pymunk
@@ -111,7 +112,7 @@ def validated() -> dict[str, list[str]]:
     assert count == 1
     README.write_text(readme, "utf-8")
     said = summary_of_teeth(teeth(rows))
-    return {"kinds": kinds(rows), "teeth": [f"{said}."]}
+    return {"kinds": kinds(rows), "by sport": by_sport(rows), "teeth": [f"{said}."]}
 
 
 def checked() -> dict[str, list[str]]:
@@ -281,6 +282,20 @@ def kinds(rows: list[Compared]) -> list[str]:
         counts = "yes" if kind in COUNTED else "no"
         body.append([kind, meaning, counts, str(len(own)), str(sum(row.holds for row in own))])
     return markdown(["kind", "", "counted", "numbers", "hold"], body, left=3)
+
+
+def by_sport(rows: list[Compared]) -> list[str]:
+    """Of each sport the measured numbers, how many hold and how far they are off; and the others."""
+    body = []
+    for sport in sorted({row.sport.partition("/")[0] for row in rows}):
+        own = [row for row in rows if row.sport.partition("/")[0] == sport]
+        measured = [row for row in own if row.kind in COUNTED]
+        others = [row for row in own if row.kind not in COUNTED]
+        off = [abs(row.difference) / row.tolerance for row in measured if row.difference is not None and row.tolerance]
+        held = (sum(row.holds for row in group) for group in (measured, others))
+        counts = [f"{hold} of {len(group)}" for hold, group in zip(held, (measured, others), strict=True)]
+        body.append([sport, counts[0] if measured else "none", f"{median(off):.2f}" if off else "", counts[1]])
+    return markdown(["sport", "measured, hold", "off by, median", "others, hold"], body)
 
 
 if __name__ == "__main__":

@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 
 import sandbox.physics
-from docs.lists import LISTS, page_with_lists
+from docs.lists import LISTS, page_with_lists, scenes
 from sandbox.physics.integrators import INTEGRATORS
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -91,3 +91,9 @@ def test_every_section_says_what_it_stands_on():
         title = section.partition("\n")[0]
         if not re.search(r"`(Gravity|UniformWind|Constant)`", title):
             assert re.search(r"Source|\*[Oo]urs\*|\(\d{4}|\b(19|20)\d\d\b", section), title
+
+
+def test_the_accuracy_page_has_a_line_for_every_sport():
+    page = (ROOT / "docs" / "accuracy.md").read_text("utf-8")
+    rows = re.findall(r"^\| ([a-z-]+)[^|]*\| [^|]+\| [^|]+\|$", page.partition("| sport | as good as")[2], re.MULTILINE)
+    assert {name for name, _ in scenes()} <= set(rows)

@@ -4,8 +4,10 @@ A table is ``published/NAME.csv`` in the folder of its scene, with the columns p
 tolerance, unit, source, reason, kind, tests, tolerance_from: ``preset`` is empty for the scene itself, ``set`` holds
 ``key=value`` separated by ``;``, ``result`` is a key of the scene's result, with dots into lists and tables, ``kind``
 is one of KINDS, ``tests`` names the effects that the number is to show (see teeth.py), and ``tolerance_from`` says what
-the tolerance is: the uncertainty of the measurement, or why it is not. A table in another format has a ``NAME.toml``
-next to it that maps its columns to such rows.
+the tolerance is: the uncertainty of the measurement, or why it is not. With a column ``vary``, ranges of one or two
+parameters (``launch.angle=46:60``), a row is of the launch among these of which a practised player scores most often:
+its result is one of the parameters, or the share. A table in another format has a ``NAME.toml`` next to it that maps
+its columns to such rows.
 """
 
 from __future__ import annotations
@@ -50,6 +52,7 @@ class Case:
     tests: str  # effects that it is to show: causes of forces, keys of parameters, or key=value; separated by ``;``
     tolerance_from: str  # what the tolerance is
     preset: str = field(default="", kw_only=True)
+    vary: str = field(default="", kw_only=True)  # ranges, ``key=low:high``, separated by ``;``
 
     @property
     def sport(self) -> str:

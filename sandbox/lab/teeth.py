@@ -24,7 +24,7 @@ from sandbox.errors import RequestError, SandboxError
 from sandbox.lab.published import assignments
 from sandbox.lab.report import Report, Table, words
 from sandbox.lab.runs import Progress, no_progress
-from sandbox.lab.validate import Compared, cells, compare, scene_of
+from sandbox.lab.validate import Compared, MostOften, cells, compare, most_often_in, scene_of
 from sandbox.parameters import walk
 from sandbox.scene import Scene
 from sandbox.scene.running import simulate_at
@@ -74,9 +74,9 @@ def teeth(
         progress(done, len(holding))
         trials = []
         for effect in filter(None, (part.strip() for part in row.tests.split(";"))):
-            key = row.scene, row.set, effect
+            key = row.scene, row.set, row.vary, effect
             if key not in runs:
-                runs[key] = list(_changed(scene_of(row, changes), effect))
+                runs[key] = list(_changed(scene_of(row, changes), effect, row.vary))
             for change, run in runs[key]:
                 again = None if run is None else compare(row, run)
                 falls = again is None or not again.holds
@@ -85,11 +85,14 @@ def teeth(
     return tried
 
 
-def _changed(scene: Scene, effect: str) -> Iterator[tuple[str, SceneRun | None]]:
+def _changed(scene: Scene, effect: str, vary: str) -> Iterator[tuple[str, SceneRun | MostOften | None]]:
     """Each change of an effect, and the run with it; None where it fails. RequestError if there is no such effect."""
     if "=" in effect:
-        yield effect, _run(scene.changed(assignments(effect)))
+        other = scene.changed(assignments(effect))
+        yield effect, most_often_in(other, vary) if vary else _run(other)
         return
+    if vary:
+        raise RequestError(f"{scene.name}: {effect!r}: a row with vary names its effects as key=value")
     parameter = next((each for each in walk(scene.parameters, entries=True) if each.key == effect), None)
     if parameter is not None:
         values = {change: parameter.within(factor * parameter.value) for factor, change in _FACTORS.items()}

@@ -2,8 +2,10 @@
 
 Models: gravity; drag as fitted to tracked pitches, and Magnus lift, by the active share of the spin and the tilt of its
 axis; loss of spin; the air by weather.
-Leaves out: everything sideways, for which a slider is thrown; the wake of the seams, except as far as it is in the
-active share; that gyro spin becomes active as the ball falls, which pushes it aside; bounces before the plate.
+Leaves out: everything sideways: what the tilt of the spin axis takes from the lift pushes a pitch aside until the
+plate, a four-seam by 8 in, a sinker by 16 in, a change-up by 14 in, a slider by 6 in, a curve by 8 in; the wake of the
+seams, except as far as it is in the active share; that gyro spin becomes active as the ball falls, which pushes it
+aside; bounces before the plate.
 """
 
 from __future__ import annotations

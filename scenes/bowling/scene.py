@@ -3,6 +3,7 @@
 Models: sliding and rolling of the ball in closed form, with friction by strips of the lane; its own moment of inertia;
 impacts of ball and pins, and of pins and the kickbacks, as discs that slide; gutters and pit.
 Leaves out: how pins fall (they slide, and are down if pushed so far as to tip: not validated); flare; the axis's tilt.
+An average ball loses 0.6 mph more here than is common, a released one 1.1 mph.
 """
 
 from __future__ import annotations

@@ -3,7 +3,8 @@
 Models: sliding on felt until the ball rolls, rolling, a strip of slower felt; a ramp, and a tilt of the whole lane, as
 the pull of gravity along them; boards; blades and gates driven as given, whatever meets them; a hole that holds a ball
 only if it is slow enough, the slower the farther from its middle (Holmes 1991, Penner 2002).
-Leaves out: jumps, and the lip of the hole, which turns a ball that just misses or is just too fast. Not validated:
+Leaves out: jumps, that a ramp is seen shorter from above (0.5 % at 1 in 10), and the lip of the hole, which turns a
+ball that just misses or is just too fast. Not validated:
 boards and blades, whose numbers are assumed, and ramps.
 """
 

@@ -23,20 +23,20 @@ _SCAN, _CLOSER = {1: 41, 2: 11}, {1: 9, 2: 5}
 _SHOTS, _MORE = 128, 512
 
 
-def most_often(shots: Shots) -> list[Solution]:
+def most_often(shots: Shots, scanned: int = _SHOTS, tried: int = _MORE) -> list[Solution]:
     """The place at which most shots of a practised player have the result, with that share and half of its 95 %
-    interval; [] where no shot has it."""
+    interval; [] where no shot has it. Of so many shots around each point of the scan, and of the closer look."""
     spans = shots.spans
     count = len(spans)
     shots.planned = _SCAN[count] ** count + _CLOSER[count] ** count
     low, high = np.array([span.low for span in spans]), np.array([span.high for span in spans])
     step = (high - low) / (_SCAN[count] - 1)
-    best, _ = _best(shots, np.linspace(low, high, _SCAN[count]).T, _SHOTS, "scan")
+    best, _ = _best(shots, np.linspace(low, high, _SCAN[count]).T, scanned, "scan")
     near = np.linspace(np.maximum(best - step, low), np.minimum(best + step, high), _CLOSER[count]).T
-    best, share = _best(shots, near, _MORE, "solve")
+    best, share = _best(shots, near, tried, "solve")
     if share == 0.0:
         return []
-    name, ends = shots.targets[0].name, wilson(share, _MORE)
+    name, ends = shots.targets[0].name, wilson(share, tried)
     values = {span.key: value for span, value in zip(spans, best.tolist(), strict=True)}
     fine: dict[str, float | None] = {
         span.key: float(places[1] - places[0]) for span, places in zip(spans, near, strict=True)
