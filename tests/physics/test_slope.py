@@ -80,7 +80,7 @@ def test_the_ledger_has_the_height():
     assert hypot(*next(run.crossings("ball", (2.0, 0.0), (-1.0, 0.0)))[1][2:4]) == pytest.approx(slower, abs=1e-9)
 
 
-def test_a_ball_that_lies_at_the_lower_board_rolls_along_it_or_rests():
+def test_a_ball_at_the_lower_board_rolls_along_it_or_rests():
     """Pressed on a board it goes on as straight down the slope along it, and the energy is all accounted for."""
     board = Surface("board", Segment((-9.0, -0.2), (9.0, -0.2)), 0.5, 0.0)
     for along, ended in ((-0.6, "duration"), (-0.1, "rest")):
