@@ -101,8 +101,8 @@ def test_too_steep_to_roll_is_refused():
 
 
 def test_a_putt_across_an_even_slope_is_exact():
-    """With u = tan(psi / 2), psi the angle of its motion from straight downhill, and n = a / s > 1 (friction over pull of
-    a ball that rolls), v = K u^n (1 + u^2) / 2 u: it stops straight downhill, where u = 0."""
+    """With u = tan(psi / 2), psi its angle from straight downhill, and n = a / s > 1 (friction over the pull on a ball
+    that rolls), v = K u^n (1 + u^2) / 2 u: it stops straight downhill, where u = 0."""
     pull, friction, speed, psi = 0.28, 0.03 * G, 2.0, 1.9  # m/s^2, m/s, rad from downhill
     s = pull / 1.4
     n, u = friction / s, np.tan(psi / 2.0)
