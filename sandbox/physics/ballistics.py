@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 from bisect import bisect_right
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from itertools import pairwise
@@ -11,11 +12,14 @@ from math import pi
 from pathlib import Path
 from typing import Any, ClassVar
 
-from sandbox.physics.elementwise import clip
-from sandbox.physics.forces import IN_WIND, Parts, Wind, in_wind
+from sandbox.physics.elementwise import clip, sqrt
+from sandbox.physics.forces import IN_WIND, Parts, Wind, drag_rate, in_wind
 
 #: kg/m^2 of a ballistic coefficient of 1 lb/in^2.
 POUND_PER_INCH = 703.0696
+
+#: The standard shapes.
+SHAPES = "G1", "G7", "GS"
 
 
 @cache
@@ -48,17 +52,30 @@ def drag_by_mach(shape: str, mach: Any) -> Any:
     exterior ballistics have them (py-ballisticcalc).
     """
     machs, cubics = drag_table(shape)
-    mach = clip(mach, 0.0, machs[-1])
     if isinstance(mach, float):
-        i = min(bisect_right(machs, mach), len(cubics)) - 1
-        a, b, c, d = cubics[i]
-        x = mach - machs[i]
-    else:
-        import numpy as np
+        return of_table(machs, cubics, mach)
+    import numpy as np
 
-        i = np.minimum(np.searchsorted(machs, mach, side="right"), len(cubics)) - 1
-        a, b, c, d = np.array(cubics)[i].T
-        x = mach - np.array(machs)[i]
+    mach = clip(mach, 0.0, machs[-1])
+    i = np.minimum(np.searchsorted(machs, mach, side="right"), len(cubics)) - 1
+    return of_cubic(np.array(cubics)[i].T, mach - np.array(machs)[i])
+
+
+def of_table(machs: Sequence[float], cubics: Sequence[Sequence[float]], mach: float) -> float:
+    """Drag coefficient at one Mach number, by what ``drag_table`` returns."""
+    mach = clip(mach, 0.0, machs[-1])
+    i = min(place_in(machs, mach), len(cubics)) - 1
+    return float(of_cubic(cubics[i], mach - machs[i]))
+
+
+def place_in(machs: Sequence[float], mach: float) -> int:
+    """The number of Mach numbers up to one."""
+    return bisect_right(machs, mach)
+
+
+def of_cubic(cubic: Any, x: Any) -> Any:
+    """Value of a cubic at x, from its lowest coefficient on."""
+    a, b, c, d = cubic
     return a + x * (b + x * (c + x * d))
 
 
@@ -89,8 +106,13 @@ class BulletDrag:
     def __post_init__(self) -> None:
         object.__setattr__(self, "_k", self.mass * pi / 8.0 * self.density / (self.coefficient * POUND_PER_INCH))
 
+    @property
+    def row(self) -> tuple[float, float, int]:
+        """The rate in kg/m, the speed of sound in m/s, and the place of the standard shape."""
+        return self._k, self.sound, SHAPES.index(self.shape)
+
     def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
         ux, uy = velocity if self.wind is None else in_wind(self.wind, t, position, velocity)
-        speed = (ux * ux + uy * uy) ** 0.5
-        k = -self._k * drag_by_mach(self.shape, speed / self.sound) * speed
+        speed = sqrt(ux * ux + uy * uy)
+        k = drag_rate(self._k, drag_by_mach(self.shape, speed / self.sound), speed)
         return k * ux, k * uy

@@ -80,6 +80,7 @@ GOLF_DRAG, GOLF_LIFT = Laws("a golf ball", "drag"), Laws("a golf ball", "lift")
 SOCCER_DRAG, SOCCER_LIFT = Laws("a soccer ball", "drag"), Laws("a soccer ball", "lift")
 TENNIS_DRAG, TENNIS_LIFT = Laws("a tennis ball", "drag"), Laws("a tennis ball", "lift")
 BASEBALL_DRAG, BASEBALL_LIFT = Laws("a baseball", "drag"), Laws("a baseball", "lift")
+VOLLEYBALL_DRAG = Laws("a volleyball", "drag")
 
 
 @dataclass(frozen=True)
@@ -655,3 +656,22 @@ def pitch_fit_drag(reynolds: Any, spin_ratio: Any) -> Any:
     """
     lift = nathan_lift(reynolds, spin_ratio)
     return 0.299 + 0.76 * lift * lift
+
+
+# ------------------------------------------------------------------------------------------------------- volleyball
+
+
+@VOLLEYBALL_DRAG.law(
+    "hong",
+    "Hong, Ozaki, Watanabe & Asai 2020, *Appl. Sci.* 10:3256; where and how steeply it falls is *assumed*",
+    {(2.6e5, 0.0): 0.15, (2.9e5, 0.0): 0.17},
+    within=0.015,
+)
+def hong_drag(reynolds: Any, spin_ratio: Any) -> Any:
+    """``Cd = 0.16 + 0.31 / (1 + exp((Re - 2.1e5) / 0.12e5))``: 0.47 for a slow ball, 0.16 for a fast one, past the drag
+    crisis at Re = 2.1e5 (15 m/s).
+
+    A Mikasa V200W has least drag with 0.15 at Re = 2.6e5 or 0.17 at 2.9e5, by the side that it turns to the wind.
+    Thomas 2012 (thesis, University of Washington) calls other balls supercritical from Re = 2e5 on.
+    """
+    return 0.16 + 0.31 / (1.0 + exp(clip((reynolds - 2.1e5) / 0.12e5, -50.0, 50.0)))

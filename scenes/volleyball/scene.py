@@ -8,8 +8,6 @@ Biomech. 10:95), who measured it, and of Tamaru et al. 2021 (drag from 4 to 30 m
 
 from __future__ import annotations
 
-from typing import Any
-
 from sandbox.kit import (
     ENDED,
     LAUNCH,
@@ -17,40 +15,20 @@ from sandbox.kit import (
     Fact,
     Handle,
     Launch,
-    Laws,
     RequestError,
     Setup,
     Sphere,
     Spin,
     Spread,
     Surface,
-    clip,
-    exp,
     group,
     level,
     maximum,
     quantity,
 )
+from sandbox.physics.coefficients import VOLLEYBALL_DRAG
 from sandbox.sport import net_game
 from sandbox.sport.readings import coefficient_at_start
-
-VOLLEYBALL_DRAG = Laws("a volleyball", "drag")
-
-
-@VOLLEYBALL_DRAG.law(
-    "hong",
-    "Hong, Ozaki, Watanabe & Asai 2020, *Appl. Sci.* 10:3256; where and how steeply it falls is *assumed*",
-    {(2.6e5, 0.0): 0.15, (2.9e5, 0.0): 0.17},
-    within=0.015,
-)
-def hong_drag(reynolds: Any, spin_ratio: Any) -> Any:
-    """``Cd = 0.16 + 0.31 / (1 + exp((Re - 2.1e5) / 0.12e5))``: 0.47 for a slow ball, 0.16 for a fast one, past the drag
-    crisis at Re = 2.1e5 (15 m/s).
-
-    A Mikasa V200W has least drag with 0.15 at Re = 2.6e5 or 0.17 at 2.9e5, by the side that it turns to the wind.
-    Thomas 2012 (thesis, University of Washington) calls other balls supercritical from Re = 2e5 on.
-    """
-    return 0.16 + 0.31 / (1.0 + exp(clip((reynolds - 2.1e5) / 0.12e5, -50.0, 50.0)))
 
 
 class Volleyball(Sphere, drag=VOLLEYBALL_DRAG):

@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 
 from sandbox.physics import coefficients as law
 from sandbox.physics.coefficients import GOLF_DRAG, GOLF_LIFT, Constant, Laws
-from scenes.volleyball.scene import VOLLEYBALL_DRAG
 
 #: From a ball at rest to ten times the speed of sound in water; from no spin to a ball that spins on the spot.
 REYNOLDS = st.floats(0.0, 1e10)
@@ -20,7 +19,7 @@ SPIN_RATIOS = st.floats(0.0, 1e33)
 #: Every coefficient that is registered.
 REGISTERED = [
     pytest.param(laws, name, id=f"{laws.ball} {laws.kind} {name}")
-    for laws in (*vars(law).values(), VOLLEYBALL_DRAG)
+    for laws in vars(law).values()
     if isinstance(laws, Laws)
     for name in laws
 ]

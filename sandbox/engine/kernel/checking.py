@@ -20,6 +20,7 @@ from sandbox.engine.model.setup import EndsBy, ForceRegion, Rule, Setup
 from sandbox.engine.model.surface import Circle, Segment, Surface
 from sandbox.errors import RunError
 from sandbox.physics.air import LogWind, UniformWind
+from sandbox.physics.ballistics import SHAPES, BulletDrag
 from sandbox.physics.coefficients import NathanDrag, OfWholeSpin, Scaled
 from sandbox.physics.forces import Drag, Gravity, Magnus, SpinDecay
 from sandbox.physics.net import NetDrag
@@ -79,7 +80,10 @@ def _setup(number: int, random: Random) -> Setup:
     wind = (None, UniformWind(-4.0, 0.5), LogWind((-5.0, 0.0), 10.0, 0.03))[number % 3]
     ring = (random.uniform(3.0, 12.0), 2.0)
     net = NetDrag(0.4, 6.0, ring, 0.3, 0.5)
-    forces: list[Any] = [Gravity(9.81), Drag(coefficient=drag, wind=wind), Magnus(coefficient=lift, wind=wind), net]
+    through_air: Any = Drag(coefficient=drag, wind=wind)
+    if number % 5 == 4:
+        through_air = BulletDrag(0.4, SHAPES[number % len(SHAPES)], 0.1, 1.2, random.uniform(5.0, 300.0), wind)
+    forces: list[Any] = [Gravity(9.81), through_air, Magnus(coefficient=lift, wind=wind), net]
     ball = Ball("ball", mass=0.4, radius=0.1, position=(0.0, 2.0), forces=forces, torques=[SpinDecay(wind=wind)])
     response = (None, PennerTurf(1.0, 0.4, 1.0), CourtBounce(0.8, 0.6, 0.005, 0.1))[number // 3 % 3]
     (x, y), wall = ring, random.uniform(12.0, 30.0)

@@ -12,10 +12,10 @@ from math import sqrt
 from types import FunctionType
 
 from sandbox.engine.model.bounce_laws import bounce_of_court, bounce_of_turf
-from sandbox.physics import coefficients
+from sandbox.physics import ballistics, coefficients
 from sandbox.physics.air import log_profile
 from sandbox.physics.coefficients import Laws
-from sandbox.physics.elementwise import of_floats
+from sandbox.physics.elementwise import of_floats, remade
 from sandbox.physics.forces import ALMOST_ZERO, drag_rate, lift_rate
 from sandbox.physics.integrators import Acceleration, State
 from sandbox.physics.net import net_force, net_hold
@@ -23,8 +23,9 @@ from sandbox.physics.net import net_force, net_hold
 Row = Sequence[float]
 
 #: Kinds of forces and torques. STEADY: a force of (A, B) N. DRAG and LIFT: half the density times the area, A in kg/m.
-#: DECAY: of the spin, A in kg m. NET: the rate A in kg/s, and its place and size, B to E in m.
-STEADY, DRAG, LIFT, DECAY, NET = range(5)
+#: DECAY: of the spin, A in kg m. NET: the rate A in kg/s, and its place and size, B to E in m. BULLET: the rate A in
+#: kg/m, the speed of sound B in m/s, and the place C of its shape.
+STEADY, DRAG, LIFT, DECAY, NET, BULLET = range(6)
 
 #: Places in such a row: its kind, numbers of the kind; the coefficient of a drag or lift by its code, its own number,
 #: its share, and the share of the whole spin that the ball has; the wind by its kind, and its numbers.
@@ -80,6 +81,39 @@ _of_code = _by_code(0, len(COEFFICIENTS))
 _profile, _hold, _force_of_net = of_floats(log_profile), of_floats(net_hold), of_floats(net_force)
 
 
+def _place_in(machs: Sequence[float], mach: float) -> int:
+    """As ``bisect_right``."""
+    low, high = 0, len(machs)
+    while low < high:
+        middle = (low + high) // 2
+        if mach < machs[middle]:
+            high = middle
+        else:
+            low = middle + 1
+    return low
+
+
+def _by_mach(shape: str) -> Callable[[float], float]:
+    """Return the drag coefficient of a standard shape, by its Mach number."""
+    machs, cubics = map(tuple, ballistics.drag_table(shape))
+    value = of_floats(remade(ballistics.of_table, {ballistics.place_in: _place_in}))
+
+    def coefficient(mach: float) -> float:
+        return float(value(machs, cubics, mach))
+
+    return coefficient
+
+
+_g1, _g7, _sphere = map(_by_mach, ballistics.SHAPES)
+
+
+def _drag_by_mach(shape: float, mach: float) -> float:
+    """The drag coefficient of the standard shape in this place."""
+    if shape == 0.0:
+        return _g1(mach)
+    return _g7(mach) if shape == 1.0 else _sphere(mach)
+
+
 def coefficient(row: Row, reynolds: float, spin_ratio: float) -> float:
     """The drag or lift coefficient of a row."""
     law = row[LAW]
@@ -118,6 +152,9 @@ def acceleration(t: float, state: State, ball: Row, forces: Sequence[Row]) -> Ac
             speed = sqrt(ux * ux + uy * uy)
             if kind == DECAY:
                 torque = torque - row[A] * speed * spin
+            elif kind == BULLET:
+                k = drag_rate(row[A], _drag_by_mach(row[C], speed / row[B]), speed)
+                fx, fy = fx + k * ux, fy + k * uy
             else:
                 ratio = row[RADIUS] * abs(spin) / (speed + ALMOST_ZERO)
                 value = coefficient(row, row[REYNOLDS] * speed, ratio)

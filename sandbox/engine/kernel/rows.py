@@ -13,6 +13,7 @@ import numpy as np
 
 from sandbox.engine.contact.touch import Outline
 from sandbox.engine.kernel.laws import (
+    BULLET,
     CALM,
     COEFFICIENTS,
     CONSTANT,
@@ -37,6 +38,7 @@ from sandbox.engine.model.bounce_laws import CourtBounce, PennerTurf
 from sandbox.engine.model.setup import Rule, Setup, Until
 from sandbox.engine.model.surface import BounceLaw, Surface
 from sandbox.physics.air import LogWind, UniformWind
+from sandbox.physics.ballistics import BulletDrag
 from sandbox.physics.coefficients import Constant, NathanDrag, OfWholeSpin, Scaled
 from sandbox.physics.forces import Drag, Gravity, Magnus, SpinDecay, Wind
 from sandbox.physics.net import NetDrag
@@ -130,6 +132,8 @@ def _force(term: Any) -> Numbers:
         )
     if kind is SpinDecay:
         return DECAY, term.row, *[0.0] * 10, *_wind(term.wind)
+    if kind is BulletDrag:
+        return BULLET, *term.row, *[0.0] * 8, *_wind(term.wind)
     if kind is NetDrag:
         return NET, term.mass * term.damping, *term.middle, term.half_width, term.length
     raise _NoCode

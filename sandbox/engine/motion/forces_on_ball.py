@@ -54,8 +54,9 @@ def acceleration_function(ball: Ball, floats: bool = True) -> AccelerationFuncti
             constant_x, constant_y = constant_x + gx, constant_y + gy
         elif force is not together.drag and force is not together.lift:
             forces.append(_called(force, floats))
-    in_air = drag is not None or lift is not None or decay is not None
+    in_air, in_this_air = drag is not None or lift is not None or decay is not None, through_air
     if floats:
+        in_this_air = of_floats(through_air)
         drag, lift = (None if row is None else row._replace(law=of_floats(row.law)) for row in (drag, lift))
         wind = None if wind is None else _called(wind, floats)
 
@@ -65,10 +66,10 @@ def acceleration_function(ball: Ball, floats: bool = True) -> AccelerationFuncti
             if not in_air:
                 fx, fy, torque = constant_x, constant_y, 0.0
             elif wind is None:
-                fx, fy, torque = through_air(drag, lift, decay, vx, vy, spin, constant_x, constant_y)
+                fx, fy, torque = in_this_air(drag, lift, decay, vx, vy, spin, constant_x, constant_y)
             else:
                 ux, uy = in_wind(wind, t, (x, y), (vx, vy))
-                fx, fy, torque = through_air(drag, lift, decay, ux, uy, spin, constant_x, constant_y)
+                fx, fy, torque = in_this_air(drag, lift, decay, ux, uy, spin, constant_x, constant_y)
             if forces or torques:
                 position, velocity = _position(state) if rotates else (x, y), (vx, vy)
                 for force in forces:

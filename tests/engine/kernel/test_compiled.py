@@ -14,11 +14,12 @@ from sandbox.engine.kernel import building, library
 from sandbox.engine.kernel.checking import check, interpreted
 from sandbox.engine.kernel.rows import tables
 from sandbox.engine.many import batch
+from sandbox.engine.many.stacking import FEWEST
 from sandbox.engine.model.accuracy import resolve
 from sandbox.engine.paths import bernstein, quintic
 from sandbox.errors import RequestError
 
-#: Shots of a scene that are compared, by the ranges of speed and angle: with rims, grass, courts, wind and rolling.
+#: Shots of a scene that are compared, by the ranges of speed and angle: with rims, grass, courts, wind, rolling.
 SCENES = {
     "basketball": ((6.5, 8.3), (40.0, 70.0)),
     "golf": ((20.0, 60.0), (8.0, 50.0)),
@@ -26,6 +27,7 @@ SCENES = {
     "tennis": ((20.0, 40.0), (0.0, 12.0)),
     "soccer": ((15.0, 30.0), (5.0, 35.0)),
     "baseball": ((20.0, 45.0), (10.0, 60.0)),
+    "volleyball": ((8.0, 25.0), (0.0, 40.0)),
 }
 
 
@@ -61,6 +63,15 @@ def test_legs_give_the_facts_of_arrays(name: str, monkeypatch: pytest.MonkeyPatc
             np.testing.assert_allclose(other, one, rtol=1e-9, atol=1e-9, err_msg=key)
         else:
             assert one.tolist() == other.tolist(), key
+
+
+def test_bullets_of_the_kernel_are_those_of_runs(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Not those of arrays: at a kink of the Mach table rounding decides whether a step is accepted."""
+    monkeypatch.setattr(batch, "compiled", lambda: interpreted)
+    speeds = np.linspace(300.0, 900.0, 2 * FEWEST).tolist()
+    found = sandbox.simulate_many("bullet", {"launch.speed": speeds}).facts["height"]
+    alone = [sandbox.simulate(sandbox.load("bullet", {"launch.speed": speed})).result["height"] for speed in speeds[:3]]
+    assert found[:3].tolist() == pytest.approx(alone, abs=1e-12)
 
 
 @pytest.mark.skipif(library.compiled() is None, reason="sandbox compile has not been run")
