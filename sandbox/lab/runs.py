@@ -17,6 +17,7 @@ from sandbox.engine.many.flown import COUNTS, AllRuns, Flown
 from sandbox.engine.many.stacking import FEWEST, Stack, agree
 from sandbox.engine.model.accuracy import Accuracy, resolve
 from sandbox.engine.model.setup import Rule, Setup, Touches, Until, is_over
+from sandbox.engine.model.shapes import Vector
 from sandbox.engine.paths.run import Run
 from sandbox.errors import sys_exit_as_error
 from sandbox.lab.axes import Varied
@@ -384,6 +385,9 @@ class _AllFinal(Until):
         if len(self.conditions) != 1 or None in known:
             return None
         return [rule for rules in known if rules is not None for rule in rules]
+
+    def line(self) -> tuple[Vector, Vector] | None:
+        return self.conditions[0].line() if len(self.conditions) == 1 else None
 
     def passed(self, start: State, end: State) -> Any:
         own = self.until.passed(start, end) if isinstance(self.until, Until) else False

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from math import inf, pi
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from sandbox.engine.model.setup import Touches
+from sandbox.engine.model.setup import Touches, passes
 from sandbox.engine.model.shapes import Vector
 from sandbox.engine.motion.forces_on_ball import cause
-from sandbox.physics.elementwise import atan2, degrees, hypot, maximum, minimum, rounded, where
+from sandbox.physics.elementwise import atan2, degrees, hypot, minimum, rounded, where
 from sandbox.sport.amounts import amount
 from sandbox.sport.facts import Fact, cached_per_run
 from sandbox.sport.flight import RPM
@@ -155,12 +155,11 @@ class Passes(Touches):
     b: Vector = (0.0, 0.0)
 
     def passed(self, start: State, end: State) -> Any:
-        (ax, ay), (bx, by), (x0, y0, *_), (x1, y1, *_) = self.a, self.b, start, end
-        ex, ey = bx - ax, by - ay
-        along = (x0 - ax) * ex + (y0 - ay) * ey, (x1 - ax) * ex + (y1 - ay) * ey
-        inside = (minimum(*along) > 0.0) & (maximum(*along) < ex * ex + ey * ey)
-        before, after = ((x - ax) * ey - (y - ay) * ex for x, y in ((x0, y0), (x1, y1)))
-        return inside & (before <= 0.0) & (after > 0.0)
+        (x0, y0, *_), (x1, y1, *_) = start, end
+        return passes(x0, y0, x1, y1, *self.a, *self.b)
+
+    def line(self) -> tuple[Vector, Vector]:
+        return self.a, self.b
 
 
 def first_touch(run: Run) -> Event | None:

@@ -20,6 +20,7 @@ from sandbox.engine.kernel import leg
 from sandbox.engine.kernel.checking import check
 from sandbox.engine.kernel.library import OPTIONS, compiled, load, place
 from sandbox.errors import RequestError, RunError
+from sandbox.files import reason
 
 #: How many axes each of the arrays has that ``fly_all`` takes after its first parameter.
 _AXES = 2, 2, 3, 3, 3, 3, 2, 2, 2, 2, 2
@@ -35,21 +36,24 @@ class _Installed(NamedTuple):
 
 def install() -> _Installed:
     """Build the library, compare it with the interpreted kernel, and put it where it is looked for. Libraries of other
-    sources are removed. Raises RequestError without numba or a C compiler, RunError if its paths are others."""
+    sources are removed. Raises RequestError without numba, a C compiler or a place for it, RunError if its paths are
+    others."""
     started, file = perf_counter(), place()
-    with tempfile.TemporaryDirectory(prefix="sandbox-") as folder:
+    try:
+        file.parent.mkdir(parents=True, exist_ok=True)
+        building = tempfile.TemporaryDirectory(prefix="building-", dir=file.parent)
+    except OSError as error:
+        raise RequestError(f"{file.parent}: the library cannot be put there: {reason(error)}") from None
+    with building as folder:
         made = build(Path(folder))
         built = perf_counter()
         fly_all = load(made)
         if fly_all is None:
             raise RunError(f"{made.name}: the compiled kernel cannot be loaded")
         check(fly_all)
-        file.parent.mkdir(parents=True, exist_ok=True)
         for old in file.parent.glob(f"kernel-*{file.suffix}"):
             old.unlink()
-        fresh = file.with_suffix(".new")
-        shutil.copyfile(made, fresh)
-        fresh.replace(file)
+        made.replace(file)
     compiled.cache_clear()
     return _Installed(file, built - started, perf_counter() - built)
 

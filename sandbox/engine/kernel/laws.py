@@ -95,7 +95,8 @@ def _place_in(machs: Sequence[float], mach: float) -> int:
 
 def _by_mach(shape: str) -> Callable[[float], float]:
     """Return the drag coefficient of a standard shape, by its Mach number."""
-    machs, cubics = map(tuple, ballistics.drag_table(shape))
+    table = ballistics.drag_table(shape)
+    machs, cubics = tuple(table[0]), tuple(table[1])
     value = of_floats(remade(ballistics.of_table, {ballistics.place_in: _place_in}))
 
     def coefficient(mach: float) -> float:

@@ -16,6 +16,7 @@ from sandbox.engine.contact.surfaces import press, takeoff_speed, tilted
 from sandbox.engine.kernel import laws
 from sandbox.engine.kernel.laws import BALL_RADIUS, FACTOR, MASS, Row
 from sandbox.engine.kernel.step_control import allowed_near, judged, not_too_long, shortest, size_of_ball
+from sandbox.engine.model.setup import passes
 from sandbox.engine.model.tolerances import CLOSING, CREATED, FLUSH, TOUCHING_GAP
 from sandbox.engine.paths.arc import curves_between
 from sandbox.engine.paths.quintic import first_of_cubic, first_of_quartic, first_part
@@ -25,8 +26,8 @@ from sandbox.physics.impulse import after_plane_impulse, exchange, plane_speeds
 
 #: Why a leg ends: the run is over, by its duration or its condition; the ball touches what is to be resolved elsewhere,
 #: before the impact; it has had an impact, after which it may stay on what it hit, or its run may be over; its next
-#: step is an error; there is no room for more rows.
-DURATION, UNTIL, BEFORE_IMPACT, AFTER_IMPACT, ERROR, _FULL = range(6)
+#: step is an error; it has passed the line that may end its run; there is no room for more rows.
+DURATION, UNTIL, BEFORE_IMPACT, AFTER_IMPACT, ERROR, PASSED, _FULL = range(7)
 
 #: Places in the row of a surface: the shape's as in ``fixed_touch.py``, its box, and how it responds: the height of
 #: its lowest bounce in m, its kick in N s, its contact law with four numbers.
@@ -43,9 +44,9 @@ _MOST_ARCS = 5_000
 _TIMES, _FASTEST, _RULE_LEFT, _RULE_RIGHT, AFTER, FIRST_SURFACE = range(6)
 
 #: Places in the row of limits: of the local error in m, its exponent, lowest bounce and skin in m, duration in s, the
-#: world's edges in m, and 1 if every impact ends a leg.
-_LOCAL_ERROR, _EXPONENT, _SETTLE, _SKIN, _LAST, _WEST, _SOUTH, _EAST, _NORTH, _STOPS = range(10)
-LIMIT_COLUMNS = _STOPS + 1
+#: world's edges in m, 1 if every impact ends a leg, and the ends of a line in m that may end the run: equal for none.
+_LOCAL_ERROR, _EXPONENT, _SETTLE, _SKIN, _LAST, _WEST, _SOUTH, _EAST, _NORTH, _STOPS, _A, _B, _C, _D = range(14)
+LIMIT_COLUMNS = _D + 1
 
 #: Places in the row of a shot, before and after a leg: time in s, state, step to try next in s.
 T, X, Y, VX, VY, SPIN, STEP = range(7)
@@ -63,7 +64,7 @@ EVENT_COLUMNS = 5
 _acceleration: Any = laws.acceleration
 _step: Any = step_of(_acceleration, False)
 _curves_between, _exchange, _tilted = of_floats(curves_between), of_floats(exchange), of_floats(tilted)
-_press, _takeoff_speed = of_floats(press), of_floats(takeoff_speed)
+_press, _takeoff_speed, _passes = of_floats(press), of_floats(takeoff_speed), of_floats(passes)
 
 
 def fly(
@@ -140,6 +141,9 @@ def fly(
             known = last
             if t >= duration:
                 why = DURATION
+                break
+            if _passes(start[0], start[1], end[0], end[1], limits[_A], limits[_B], limits[_C], limits[_D]):
+                why = PASSED
                 break
             continue
         # the impact

@@ -7,6 +7,7 @@ surfaces at rest, by Dormand-Prince. A contact law or a condition for the end wi
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import chain
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -77,7 +78,8 @@ def tables(setup: Setup, accuracy: Accuracy, count: int) -> Tables | None:
         forces = _forces(ball)
     except _NoCode:
         return None
-    rules = rules_of(setup)
+    rules, until = rules_of(setup), setup.until
+    line = until.line() if isinstance(until, Until) else None
     limits = control.local_error, control.exponent, accuracy.settle, accuracy.skin, setup.duration, *setup.bounds
     return Tables(
         _spread([(ball.mass, ball.radius, ball.inertia_factor, ball.inertia)], count, 4)[:, 0],
@@ -85,7 +87,7 @@ def tables(setup: Setup, accuracy: Accuracy, count: int) -> Tables | None:
         _spread([_surface(surface, ball.radius) for surface in setup.surfaces], count, SURFACE_COLUMNS),
         _spread(setup.force_regions, count, 5),
         _spread([_rule(rule, setup) for rule in rules or ()], count, FIRST_SURFACE + len(setup.surfaces)),
-        _spread([(*limits, 1.0 if rules is None else 0.0)], count, LIMIT_COLUMNS)[:, 0],
+        _spread([(*limits, 1.0 if rules is None else 0.0, *chain(*line or ()))], count, LIMIT_COLUMNS)[:, 0],
     )
 
 

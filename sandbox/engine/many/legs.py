@@ -14,6 +14,7 @@ from sandbox.engine.kernel.leg import (
     EVENTS,
     MET,
     NX,
+    PASSED,
     SPIN,
     STEP,
     UNTIL,
@@ -35,7 +36,7 @@ from sandbox.engine.model.setup import Until
 _STATE = slice(X, SPIN + 1)
 
 #: Where a leg's end leaves a shot, by why it ended. One whose next step is an error runs alone, which raises it.
-_EXITS = np.array([ExitReason.NONE] * 6)
+_EXITS = np.array([ExitReason.NONE] * (PASSED + 1))
 _EXITS[[DURATION, UNTIL, ERROR]] = ExitReason.DURATION, ExitReason.UNTIL, ExitReason.IN_FLIGHT
 
 

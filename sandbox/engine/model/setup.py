@@ -12,10 +12,12 @@ from sandbox.engine.model.ball import Ball
 from sandbox.engine.model.setup_errors import call_user_function
 from sandbox.engine.model.surface import ELASTIC, BounceLaw, Circle, Segment, Surface, Trap
 from sandbox.physics.checks import check, short, with_fields_named
+from sandbox.physics.elementwise import maximum, minimum
 from sandbox.physics.hertz import PHENOLIC
 
 if TYPE_CHECKING:
     from sandbox.engine.model.event import Event
+    from sandbox.engine.model.shapes import Vector
     from sandbox.physics.integrators import State
     from sandbox.physics.plane import Plane
 
@@ -151,6 +153,11 @@ class Until:
         shots."""
         return False
 
+    def line(self) -> tuple[Vector, Vector] | None:
+        """A line at which a step that passes it may end the run, as ``passes`` says; None if there is none. Many shots
+        need not be followed far beyond it."""
+        return None
+
     def rules(self) -> Sequence[Rule] | None:
         """The rules by which ``over`` judges impacts of a single ball: the run is over as soon as one of these ends it.
         None if that is not all that it says."""
@@ -165,6 +172,14 @@ class EndsBy(Until):
 
     def rules(self) -> Sequence[Rule]:
         return self.of
+
+
+def passes(x0: Any, y0: Any, x1: Any, y1: Any, a: Any, b: Any, c: Any, d: Any) -> Any:
+    """True if the way from (x0, y0) to (x1, y1) leads over the line from (a, b) to (c, d) to its right; all in m."""
+    ex, ey = c - a, d - b
+    along, end = (x0 - a) * ex + (y0 - b) * ey, (x1 - a) * ex + (y1 - b) * ey
+    inside = (minimum(along, end) > 0.0) & (maximum(along, end) < ex * ex + ey * ey)
+    return inside & ((x0 - a) * ey - (y0 - b) * ex <= 0.0) & ((x1 - a) * ey - (y1 - b) * ex > 0.0)
 
 
 def is_over(until: Callable[[Event], bool] | Until | None, events: Sequence[Event]) -> bool:

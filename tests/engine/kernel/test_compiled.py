@@ -5,6 +5,7 @@ from __future__ import annotations
 import random
 from dataclasses import replace
 from math import inf
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -74,6 +75,16 @@ def test_bullets_of_the_kernel_are_those_of_runs(monkeypatch: pytest.MonkeyPatch
     assert found[:3].tolist() == pytest.approx(alone, abs=1e-12)
 
 
+def test_legs_end_with_the_line_that_ends_their_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    points = {"launch.speed": np.linspace(6.5, 8.3, FEWEST).tolist()}
+    steps = []
+    for fly_all in (None, interpreted):
+        monkeypatch.setattr(batch, "compiled", lambda fly_all=fly_all: fly_all)
+        runs = sandbox.simulate_many("basketball", points, facts=["made"]).runs
+        steps.append([run.numerics.steps for run in runs])
+    assert steps[0] == steps[1]
+
+
 @pytest.mark.skipif(library.compiled() is None, reason="sandbox compile has not been run")
 def test_compiled_bits_are_those_of_python() -> None:
     fly_all = library.compiled()
@@ -99,6 +110,15 @@ def test_compile_without_numba_says_what_is_missing(monkeypatch: pytest.MonkeyPa
         building.install()
     monkeypatch.setenv("CC", "no-such-compiler")
     with pytest.raises(RequestError, match="needs a C compiler"):
+        building.install()
+
+
+def test_a_cache_without_room_is_named_before_anything_is_built(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    (tmp_path / "file").touch()
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
+    with pytest.raises(RequestError, match=r"sports-sandbox: the library cannot be put there: not a directory"):
         building.install()
 
 
