@@ -509,7 +509,7 @@ class TestAgainstTheComputer:
         referee.begin(AtMatch(installed_folder("soccer-curl"), "penalty-kicks", seed=1, opponent=3))
         player.settle()
         contest = referee.contest
-        assert (contest.match.players, contest.width, referee.computers_turn) == (("Player 1", "Computer"), 0.7, False)
+        assert (contest.match.players, contest.width, referee.computers_turn) == (("Player 1", "Computer"), 1.0, False)
         contest.match = replace(contest.match, turn=1)  # it begins
         for aims in (player.key, lambda key: player.press((300, 200))):
             aims(pygame.K_SPACE)
