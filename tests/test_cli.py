@@ -83,6 +83,14 @@ def test_list_reads_whatever_stands_in_the_folder(call, tmp_path: Path, monkeypa
     assert {line for line in out.splitlines() if line.startswith("./")} >= {f"./{name}" for name in sources}
 
 
+def test_list_has_tasks_and_games_under_a_scene(call):
+    lines = call("list", "billiards").out.splitlines()
+    rows = "\n".join(lines[next(i for i, line in enumerate(lines) if line.startswith("  tasks ")) :]).split()
+    names = ["straight-pot,", "cut-shot,", "round-the-blocker,", "three-cushions,", "eight-ball"]
+    assert rows == ["tasks", *names, "games", "eight-ball,", "nine-ball,", "three-cushion"]
+    assert not any(line.startswith("  tasks") for line in call("list", "collisions/overlapping").out.splitlines()[:3])
+
+
 def test_list_of_one_scene(call, tmp_path: Path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     shutil.copytree(DROP, tmp_path / "drop")

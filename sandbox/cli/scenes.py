@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import sys
+from collections.abc import Iterator, Sequence
+from itertools import groupby
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
@@ -10,19 +14,21 @@ from sandbox import entries
 from sandbox.cli.arguments import load, prints_to_stderr, say, scene_argument
 from sandbox.errors import RequestError
 
+if TYPE_CHECKING:
+    from sandbox.scene.discovery import Listing
+
 
 @click.command("list")
 @click.argument("scene", metavar="[SCENE]", required=False, help="Only this scene and its presets.")
 @click.option("--keys", is_flag=True, help="All keys of SCENE's file: default, unit, bounds, meaning.")
 def _list_scenes(scene: str | None, keys: bool) -> None:
-    """List all scenes and presets, and what is in this folder.
+    """List all scenes, each with its presets, tasks and games; and what is in this folder.
 
     \b
     Examples:
       sandbox list golf
       sandbox list golf --keys
     """
-    from sandbox.lab.tables import table
     from sandbox.scene import listings, listings_in, listings_of
 
     if keys:
@@ -32,8 +38,44 @@ def _list_scenes(scene: str | None, keys: bool) -> None:
             raise RequestError("list --keys: of which scene? For example: sandbox list golf --keys")
         say("\n".join(key_table(load(scene, {}).parameters)))
         return
-    found = [*listings(), *listings_in(Path())] if scene is None else listings_of(scene)
-    say("\n".join(table(("", ""), [(listing.name, listing.about) for listing in found], "ll", indent="")))
+    if scene is None:
+        found = [*listings(), *listings_in(Path())]
+        say("\n".join(_listed([list(group) for _, group in groupby(found, lambda listing: _scene_of(listing.name))])))
+    else:
+        say("\n".join(_listed([listings_of(scene)])))
+
+
+def _scene_of(name: str) -> str:
+    """The scene of a name in the list of all, which may be that of a preset."""
+    return "/".join(name.split("/")[: 1 + name.startswith("./")])
+
+
+def _listed(groups: Sequence[Sequence[Listing]]) -> Iterator[str]:
+    """Lines for people: each scene with its presets, and under them its tasks and games. On a terminal, which no
+    program reads, scenes are apart."""
+    from sandbox.lab.tables import table
+
+    rows: list[tuple[str, str]] = []
+    for listings in groups:
+        rows += [(listing.name, listing.about) for listing in listings]
+        rows += [(f"  {kind}", ", ".join(names)) for kind, names in _played(listings[0].name)]
+    heads = {listings[0].name for listings in groups[1:]}
+    for line in table(("", ""), rows, "ll", indent=""):
+        if sys.stdout.isatty() and line.split(" ")[0] in heads:
+            yield ""
+        yield line
+
+
+def _played(scene: str) -> list[tuple[str, list[str]]]:
+    """The names of the tasks and games of a scene, each after what they are."""
+    from sandbox.scene.discovery import find
+
+    tasks = entries.find("tasks")
+    try:
+        folder = find(scene).folder
+    except RequestError:  # what it is reported for when it is run
+        return []
+    return [] if tasks is None or scene.endswith(".toml") else tasks.played_in(folder)
 
 
 @click.command()

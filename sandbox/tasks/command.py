@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from math import inf
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -11,6 +13,7 @@ import click
 from sandbox.cli.arguments import json_option, say
 from sandbox.errors import RequestError
 from sandbox.text import with_noun
+from sandbox.toml import read_toml
 
 if TYPE_CHECKING:
     from sandbox.scene import Scene
@@ -91,6 +94,19 @@ def _value(scene: Scene, key: str) -> Any:
     from sandbox.parameters import value_at
 
     return value_at(scene.parameters, key)
+
+
+def played_in(folder: Path) -> list[tuple[str, list[str]]]:
+    """The tasks of a scene's folder in rising order, and its games for two, by name; only kinds that there are."""
+    levels = {}
+    for file in sorted((folder / "tasks").glob("*.toml")):
+        try:
+            levels[file.stem] = float(read_toml(file)["level"])
+        except (RequestError, KeyError, TypeError, ValueError):  # a damaged one comes last
+            levels[file.stem] = inf
+    games = sorted(file.stem.replace("_", "-") for file in (folder / "games").glob("[a-z]*.py"))
+    found = [("tasks", sorted(levels, key=lambda name: levels[name])), ("games", games)]
+    return [(kind, names) for kind, names in found if names]
 
 
 def tried(source: str, changes: dict[str, Any], attempt: int | None, seed: int | None) -> Tried | None:
