@@ -39,6 +39,8 @@ from .stepping import RULES, Stepped
 CARD, COLOURS = palette("card"), scene_colours(__file__)
 SPOTS = near(np.array(list(product((-1.0, 1.0), repeat=3))) / 3**0.5, 0.25)  # so that one sees them turn
 LOOKS = [Look(colour, Mark(COLOURS["spot"], SPOTS), gloss=0.7) for colour in COLOURS["balls"]]
+#: Width of the bench's planks, px on 720 rows; where the mat lies on the picture: its corner and size, as shares of it.
+PLANK, MAT = 46.0, (0.035, 0.145, 0.93, 0.695)
 #: The share of the width that bars take, the rows of letters that two take with their title; px of the longest arrow.
 BARS, BLOCK, LONGEST = 0.27, 3.75, 90.0
 #: Under them the blow is drawn by itself if there is room for so many px.
@@ -49,18 +51,23 @@ BETWEEN, OUTLINES = 2.4, 8
 
 @dataclass(frozen=True)
 class Board:
-    """A dark board with a grid of round lengths, and a floor or a bowl."""
+    """A mat with a grid of round lengths on a wooden bench, and a floor or a bowl."""
 
     shapes: tuple[Segment, ...]
 
     def draw(self, painter: Painter, camera: Camera) -> None:
-        size = painter.surface.get_size()
-        painter.surface.fill(COLOURS["board"])
-        (left, high), (right, low) = camera.world(0, 0), camera.world(*size)
-        unit = unit_of(painter)
+        size, unit = painter.surface.get_size(), unit_of(painter)
+        plank = PLANK * unit
+        for i, top in enumerate(np.arange(0.0, size[1], plank).tolist()):
+            painter.surface.fill(COLOURS["bench"][i % 2], (0, round(top), size[0], round(top + plank) - round(top)))
+        mat = pygame.Rect(*(round(share * side) for share, side in zip(MAT, (*size, *size), strict=True)))
+        shadow = mat.inflate(16 * unit, 16 * unit).move(0, round(4 * unit))
+        painter.panel(shadow, COLOURS["dusk"], 0.35, 16 * unit)
+        painter.panel(mat, COLOURS["board"], 1.0, 10 * unit)
+        (left, high), (right, low) = camera.world(*mat.topleft), camera.world(*mat.bottomright)
         step = round_number_above(60 * unit / camera.scale)
-        across = [((x, low), (x, high)) for x in np.arange(left // step, right / step) * step]
-        along = [((left, y), (right, y)) for y in np.arange(low // step, high / step) * step]
+        across = [((x, low), (x, high)) for x in np.arange(left // step + 1, right / step) * step]
+        along = [((left, y), (right, y)) for y in np.arange(low // step + 1, high / step) * step]
         floor = [[(min(max(x, left), right), y) for x, y in (shape.a, shape.b)] for shape in self.shapes]
         for lines, width, colour in ((across + along, 1.0, COLOURS["grid"]), (floor, 4 * unit, COLOURS["floor"])):
             for ends in lines:

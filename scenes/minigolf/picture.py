@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
+from math import sin
 
 import numpy as np
 
@@ -28,6 +29,8 @@ COLOURS = scene_colours(__file__)
 FRAME, POST = 0.09, 0.04
 #: So much of the lane is seen behind tee and hole, and behind where the ball turns round, in m.
 AROUND = 0.65
+#: Slabs lie so far around the lane, and the middle of a hedge is so far from it, in m.
+PAVED, HEDGE = 0.32, 1.15
 #: Shades of a ramp.
 BANDS = 24
 
@@ -79,7 +82,7 @@ class Picture(AboveView[Parameters]):
         felt, (start, end) = it.felt, np.clip((it.felt.rough_start, it.felt.rough_end), -x, x).tolist()
         tee = it.ball.x, it.ball.y
         return (
-            plan.Stripes(table.around((60.0, 60.0)), COLOURS["path"], 0.6, along=True),
+            *_garden(half),
             table.Rails(half, (x + FRAME, y + FRAME), COLOURS["wood"], COLOURS["wood"][0]),
             _bed(it, table.around(half)),
             *([plan.Ground(Box(start, -y, end, y), COLOURS["rough"])] if felt.rough_end > felt.rough_start else []),
@@ -98,6 +101,26 @@ def _bed(it: Parameters, box: Box) -> plan.Stripes | Relief:
     if along == across == 0.0:
         return plan.Stripes(box, COLOURS["felt"], 0.3)
     return Relief(box, box, along, across, 0.0, (COLOURS["low"], COLOURS["high"]), COLOURS["arrow"], COLOURS["chalk"])
+
+
+def _garden(half: tuple[float, float]) -> plan.Plan:
+    """A path of slabs around the lane, on a lawn with a hedge of bushes along either side."""
+    x, y = (side + FRAME for side in half)
+    paved = Box(-x - PAVED, -y - PAVED, x + PAVED, y + PAVED)
+    bushes = [
+        plan.Spot((along, side * (y + HEDGE + 0.06 * sin(2.3 * i + side))), 0.25 + 0.07 * sin(1.7 * i + side), colour)
+        for side in (-1, 1)
+        for i, along in enumerate(np.arange(-x - 1.0, x + 1.0, 0.36).tolist())
+        for colour in [COLOURS["bush"][i % 2]]
+    ]
+    lit = [plan.Spot((cx - 0.3 * r, cy + 0.3 * r), 0.55 * r, COLOURS["leaves"])
+           for (cx, cy), r in ((bush.centre, bush.radius) for bush in bushes)]  # fmt: skip
+    return (
+        plan.Stripes(table.around((60.0, 60.0)), COLOURS["lawn"], 0.5),
+        plan.Stripes(paved, COLOURS["path"], 0.6),
+        *bushes,
+        *lit,
+    )
 
 
 def _ramp(start: float, end: float, rise: float, half: tuple[float, float]) -> plan.Plan:
