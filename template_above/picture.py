@@ -14,6 +14,7 @@ FELT, CHALK, CUP = ((56, 132, 92), (60, 138, 97)), (206, 226, 206), (12, 20, 16)
 
 class Picture(AboveView[Parameters]):
     LOOK, TRACE = Look((250, 250, 246), seams((200, 90, 60))), (240, 176, 64)
+    STANDS_UPRIGHT = True  # where a picture is taller than wide
 
     @cached_property
     def plan(self) -> plan.Plan:

@@ -192,7 +192,7 @@ class Sprite {
   }
 
   draw(context, x, y, radius, turn) {
-    const scale = context.getTransform().a, side = 2 * Math.ceil(radius * scale + 1), key = turn.flat().map((v) => v.toFixed(3)).join();
+    const { a, b } = context.getTransform(), scale = Math.hypot(a, b), side = 2 * Math.ceil(radius * scale + 1), key = turn.flat().map((v) => v.toFixed(3)).join();
     if (this.kept.get(side)?.key !== key) this.kept.set(side, { key, canvas: this.painted(side, radius * scale, turn) });
     context.drawImage(this.kept.get(side).canvas, x - side / scale / 2, y - side / scale / 2, side / scale, side / scale);
   }

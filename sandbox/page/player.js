@@ -89,7 +89,7 @@ class Player {
   resized() {
     const wide = this.canvas.clientWidth, views = this.data.views;
     this.view = views[wide < 700 ? views.length - 1 : 0];
-    const [width, height] = this.view.size, density = Math.max(1, window.devicePixelRatio || 1);
+    const [width, height] = this.across, density = Math.max(1, window.devicePixelRatio || 1);
     this.canvas.style.aspectRatio = `${width} / ${height}`;
     this.shown = wide / width; // CSS px for one of the view
     this.canvas.width = Math.round(wide * density);
@@ -100,6 +100,18 @@ class Player {
     }
     this.heading(wide);
     this.draw();
+  }
+
+  /** Size of the picture in px of the layer, as it is shown: a layer may be turned by a quarter to the left. */
+  get across() {
+    const [width, height] = this.view.size;
+    return this.view.turned ? [height, width] : [width, height];
+  }
+
+  /** Draw in px of the layer from now on, of which each is so many px of the canvas. */
+  onLayer(density) {
+    const { turned, size } = this.view;
+    this.context.setTransform(...(turned ? [0, -density, density, 0, 0, density * size[0]] : [density, 0, 0, density, 0, 0]));
   }
 
   /** The headline is as large as fits on one line. */
@@ -185,15 +197,16 @@ class Player {
 
   /** The place in CSS px of the canvas of a place in px of the layer, as it is shown now. */
   onScreen([x, y]) {
-    const { larger, across, down } = this.seen();
-    return [(x * larger + across) * this.shown, (y * larger + down) * this.shown];
+    const { larger, across, down } = this.seen(), [u, v] = [x * larger + across, y * larger + down];
+    return (this.view.turned ? [v, this.view.size[0] - u] : [u, v]).map((value) => value * this.shown);
   }
 
   draw() {
     const { context, data, whole, view: layer } = this, { larger, across, down } = this.seen();
     const t = this.t, faint = whole || t >= data.told ? 1 : 0.3;
-    const density = this.canvas.width / layer.size[0], crossed = Math.min(1, Math.max(0, (larger - CROSSES[0]) / (CROSSES[1] - CROSSES[0])));
-    context.setTransform(density * larger, 0, 0, density * larger, density * across, density * down);
+    const density = this.canvas.width / this.across[0], crossed = Math.min(1, Math.max(0, (larger - CROSSES[0]) / (CROSSES[1] - CROSSES[0])));
+    this.onLayer(density);
+    context.transform(larger, 0, 0, larger, across, down);
     if (larger !== 1) this.view = { ...layer, unit: layer.unit / larger, least: layer.least / larger, lift: layer.lift && layer.lift / larger };
     const { view } = this, { unit } = view;
     context.drawImage(view.place, 0, 0);
@@ -218,14 +231,14 @@ class Player {
     for (const ball of balls) {
       const width = ball.thickness * Math.max(2.5, 4.5 * unit), rim = 2 * Math.max(0.75, unit);
       const here = [...this.spot(ball, ...ball.path.state(t).slice(0, 2)), t];
-      if (faint < 1) this.trace(ball.line, 0, Infinity, width, ball.colour, faint);
+      if (faint < 1 && !data.suspense) this.trace(ball.line, 0, Infinity, width, ball.colour, faint);
       this.trace(faint < 1 ? [...ball.line.filter((point) => point[2] < t), here] : ball.line, 0, Infinity, width, ball.colour, 1, rim);
     }
     context.globalAlpha = 1 - crossed;
     if (faint === 1 && view.along && crossed < 1) context.drawImage(view.along, 0, 0);
     context.globalAlpha = 1;
     for (const ghost of data.ghosts) this.ghost(ghost, whole ? ghost.told : t);
-    if (!whole && $("arrows").checked) this.vectors(t);
+    if (!whole && $("arrows")?.checked) this.vectors(t);
     for (const ball of balls) this.ball(ball, t);
     context.globalAlpha = 1 - crossed;
     if (crossed < 1) context.drawImage(view.over, 0, 0);
@@ -406,7 +419,13 @@ class Player {
   /** A text, after a dot of its own colour if it has one, on a dark label above a place, within the picture and clear of
    *  the labels that are `taken`. */
   label(text, x, y, colour, taken = [], dot = "") {
-    const { context, view } = this, [width, height] = view.size, within = (value, high) => Math.max(4, Math.min(value, high - 4));
+    const { context, view } = this, [width, height] = this.across, within = (value, high) => Math.max(4, Math.min(value, high - 4));
+    if (view.turned) { // letters stand upright
+      [x, y] = [y, view.size[0] - x];
+      context.save();
+      context.translate(view.size[0], 0);
+      context.rotate(Math.PI / 2);
+    }
     context.font = `700 ${Math.max(11, 14.5 * view.unit)}px "Sandbox Sans", "Noto Sans", sans-serif`;
     context.textBaseline = "middle";
     const start = (dot ? 18 : 6) * view.unit, wide = context.measureText(text).width + start + 6 * view.unit, tall = 22 * view.unit;
@@ -422,6 +441,7 @@ class Player {
     context.fillStyle = colour;
     context.fillText(text, left + start, top + tall / 2);
     if (dot) this.disc(left + 10 * view.unit, top + tall / 2, 4 * view.unit, dot);
+    if (view.turned) context.restore();
   }
 
   // -------------------------------------------------------------------------------------------- arrows
@@ -638,7 +658,8 @@ class Player {
 
   /** The place under the pointer, in px of the layer. */
   under(event) {
-    const { larger, across, down } = this.seen(), [x, y] = this.inside(event).map((value) => value / this.shown);
+    const { larger, across, down } = this.seen(), at = this.inside(event).map((value) => value / this.shown);
+    const [x, y] = this.view.turned ? [this.view.size[0] - at[1], at[0]] : at;
     return [(x - across) / larger, (y - down) / larger];
   }
 

@@ -31,8 +31,6 @@ from sandbox.units import convert
 
 #: The picture that shows until the page's script draws, and where none runs, is at most so large, in px.
 POSTER = (640, 640)
-#: A headline has at least so much of the width.
-_LEAST_ROOM = 0.3
 #: The forces are sampled at so many even times, and at each impact.
 SAMPLES = 240
 #: The poses a second of surfaces that move.
@@ -68,18 +66,19 @@ def layout_data(view: View[Any]) -> dict[str, Any]:
     }
 
 
-def stage_data(view: View[Any]) -> dict[str, Any]:
-    """Return the place of a run without the run, for aiming: its layers, with its camera; lengths in px."""
-    camera, tall = view.camera, round(view.card_row - 2 * view.sheet.gap)
+def stage_data(view: View[Any], turned: bool = False) -> dict[str, Any]:
+    """Return the place of a run without the run, for aiming: its layers, with its camera; lengths in px. One that is
+    shown ``turned``, by a quarter to the left, has no letters on it."""
+    camera, tall = view.camera, view.size[1]
     sheet = Sheet(view.size, view.on_dark, view.stage())
     view.behind(sheet.painter, camera, 0.0)
-    place = np.array(to_image(sheet.surface))[:tall]
+    place = np.array(to_image(sheet.surface))
     view.before(sheet.painter, camera, 0.0)
-    view.measure(sheet, camera)
-    right = sheet.wind(*view.wind, sheet.frame.right, sheet.frame.top).left if any(view.wind) else sheet.frame.right
-    tops = [camera.pixel(box.left, box.top) for box in view.aims]
-    beside = [x for x, y in tops if y < sheet.top_row and x > _LEAST_ROOM * view.size[0]]  # such as a pinball table
-    over = np.array(to_image(sheet.surface))[:tall]
+    if not turned:
+        view.measure(sheet, camera)
+        if any(view.wind):
+            sheet.wind(*view.wind, sheet.frame.right, sheet.frame.top)
+    over = np.array(to_image(sheet.surface))
     lens = _lens(view, tall, quick=True)
     if lens is not None:
         (left, top), (wide, high) = lens["corner"], lens["size"]
@@ -87,7 +86,7 @@ def stage_data(view: View[Any]) -> dict[str, Any]:
         over[part] = place[part]  # what moves there is drawn by the page
     return {
         **_camera_of(view, tall),
-        "room": min([right, *beside]) - 2 * sheet.gap - sheet.frame.left,
+        "turned": turned,
         "notes": view.notes(camera),
         "place": picture(Image.fromarray(place), quick=True),
         "along": None,

@@ -32,6 +32,8 @@ class AboveView(View[P]):
 
     SPIN_NAMES = ("right", "left")
     FROM_ABOVE = True
+    #: True for a place that is longer along x: in a browser that is held upright, x points up.
+    STANDS_UPRIGHT: ClassVar[bool] = False
     #: The colour of the darkness at the picture's edges.
     DUSK: ClassVar[Colour | None] = None
     #: True leaves that out, for a part that is put into another picture.

@@ -44,6 +44,7 @@ class LongView(AboveView[P]):
     WIDTH_SCALE: ClassVar[float] = 1.0
     STRETCHED = "widths"
     OTHER_WIDTH = 0.25
+    STANDS_UPRIGHT = True
 
     @property
     def whole(self) -> Box:

@@ -36,16 +36,19 @@ _ROWS_FOR_YARDS, ROWS_FOR_LENGTHS = 480, 240
 
 #: Factor by which letters and lines are enlarged: more for a small screen with many px.
 _DENSITY: ContextVar[float] = ContextVar("density", default=1.0)
+#: True for pictures without headline and card.
+_BARE: ContextVar[bool] = ContextVar("bare", default=False)
 
 
 @contextmanager
-def drawn_at(density: float) -> Iterator[None]:
-    """Draw pictures with this density."""
-    token = _DENSITY.set(density)
+def drawn_at(density: float, bare: bool = False) -> Iterator[None]:
+    """Draw pictures with this density; ``bare`` ones have no room for headline and card, which stand beside them."""
+    tokens = _DENSITY.set(density), _BARE.set(bare)
     try:
         yield
     finally:
-        _DENSITY.reset(token)
+        _DENSITY.reset(tokens[0])
+        _BARE.reset(tokens[1])
 
 
 def rows_of(size: tuple[int, int]) -> int:
@@ -75,7 +78,7 @@ class Sheet:
     def __init__(self, size: tuple[int, int], on_dark: bool = False, surface: pygame.Surface | None = None):
         """``surface`` is drawn on where there is one, of that size, and else a new one."""
         width, height = size
-        self.size, self.rows = size, rows_of(size)
+        self.size, self.rows, self.bare = size, rows_of(size), _BARE.get()
         self.unit = self.rows / 720
         self.ink, self.quiet_ink = (CARD["text"], CARD["quiet"]) if on_dark else (CARD["ink"], CARD["ink_quiet"])
         self.wind_ink = palette("force")["wind"] if on_dark else CARD["wind"]
@@ -140,10 +143,17 @@ class Sheet:
     @property
     def top_row(self) -> int:
         """Under a headline and its notes, in px."""
-        return self.frame.top + self.lettering.height(self.head) + self.lettering.height("small") + 2 * self.gap
+        return (
+            self.frame.top
+            if self.bare
+            else self.frame.top + self.lettering.height(self.head) + self.lettering.height("small") + 2 * self.gap
+        )
 
     def card_row(self, others: int = 0) -> int:
-        """The row at which the card along the bottom begins, in px, with so many rows of other values."""
+        """The row at which the card along the bottom begins, in px, with so many rows of other values; without a card
+        where the frame ends, and a little below."""
+        if self.bare:
+            return self.frame.bottom + 2 * self.gap
         tall = self.lettering.height("small") + (1 + others) * self.lettering.height("medium") + 4 * self.gap
         return self.frame.bottom - tall
 

@@ -1,7 +1,10 @@
 // Aiming on the picture: the path as it will be, similar shots, the pull by which a player aims.
+//
+// A second implementation of the pull (window/aim.py), for a finger; the speeds of a pull come from Python.
 
 const SHORTEST_PULL = 60, CLICK = 8; // px on the screen: a full pull is never shorter, a pull is never as short
 const FULL = 0.42; // of the picture's height: a full pull
+const TOUCH = 26; // px on the screen around a ball by which it is taken
 const BORDER = 4; // px that a full pull leaves free before the window's edge
 const EDGE = 0.02; // of the picture: a path nearer to its edge is out of sight
 const SMALL = 0.5; // of the picture: a smaller path is seen from nearer
@@ -10,6 +13,29 @@ class Aim extends Player {
   constructor(data, hands) {
     super(data);
     this.hands = hands; // what is done when the player aims, lets go, turns
+  }
+
+  /** The headline is beside the picture, which is as large as its room allows. */
+  heading() {}
+
+  resized() {
+    super.resized();
+    const [width, height] = this.across;
+    this.canvas.style.setProperty("--ratio", width / height);
+  }
+
+  /** Tell what came of a shot once it is seen, and large for a moment. */
+  verdict(word) {
+    clearTimeout(this.called);
+    $("called").hidden = !word;
+    $("called").textContent = this.data.verdict;
+    $("called").dataset.verdict = word;
+    if (word) this.called = setTimeout(() => this.verdict(""), VERDICT);
+  }
+
+  now() {
+    super.now();
+    if (this.watched) this.hands?.seen(this.t >= this.data.told, this.t >= this.data.duration && !this.playing);
   }
 
   /** Take a run that is aimed with: it begins, and its whole path is shown. */
@@ -76,6 +102,12 @@ class Aim extends Player {
 
   above() {
     const { context, pull, data, shown } = this;
+    if (this.hands?.inHand() && !this.watched) {
+      const at = this.onScreen(this.spot(this.main, ...this.main.path.state(0).slice(0, 2))).map((value) => value / shown);
+      context.setLineDash([6 / shown, 5 / shown]);
+      this.circle(...at, TOUCH / shown, data.accent, 2 / shown);
+      context.setLineDash([]);
+    }
     if (!pull) return;
     const [from, to] = [pull.start, pull.at].map((at) => at.map((value) => value / shown));
     for (const [width, colour] of [[5, data.rim], [2.5, data.accent]]) {
@@ -100,15 +132,18 @@ class Aim extends Player {
       if (event.button || !this.hands?.may()) return;
       canvas.setPointerCapture(event.pointerId);
       const start = this.inside(event);
+      if (this.takes(start)) return (this.taken = event.pointerId);
       this.pull = { start, at: start, last: start, fine: [0, 0], id: event.pointerId };
       [this.pointed, this.hint.hidden] = [null, true];
     });
     canvas.addEventListener("pointermove", (event) => {
+      if (this.taken === event.pointerId) return this.hands.place(this.world(this.under(event)));
       if (!this.pull) return this.data.hidden || this.follow(event);
       if (event.pointerId === this.pull.id) this.pulled(event);
     });
     canvas.addEventListener("pointerup", (event) => {
       const { pull } = this;
+      this.taken = null;
       if (!pull || event.pointerId !== pull.id) return;
       this.pull = null;
       if (this.length(pull) >= CLICK) this.hands.shoot();
@@ -124,9 +159,22 @@ class Aim extends Player {
     }, { passive: false });
   }
 
+  /** The place in m of a place in px of the layer. */
+  world([px, py]) {
+    const { at, anchor, scale, stretch } = this.view;
+    return [at[0] + (px - anchor[0]) / scale, at[1] - (py - anchor[1]) / (scale * stretch)];
+  }
+
+  /** True if a ball that is in the player's hand is touched. */
+  takes(start) {
+    if (!this.hands.inHand() || this.watched) return false;
+    const [x, y] = this.onScreen(this.spot(this.main, ...this.main.path.state(0).slice(0, 2)));
+    return Math.hypot(x - start[0], y - start[1]) < TOUCH;
+  }
+
   /** Stop pulling, without a shot. */
   cancel() {
-    this.pull = null;
+    this.pull = this.taken = null;
     this.draw();
   }
 
@@ -148,7 +196,8 @@ class Aim extends Player {
       if (by) room = Math.min(room, ((by > 0 ? end - at : at) - BORDER) * length / Math.abs(by));
     });
     const full = Math.max(SHORTEST_PULL, Math.min(FULL * this.canvas.clientHeight, room));
-    const angle = (Math.atan2(down / this.view.stretch, -along) * 180) / Math.PI;
+    const [x, y] = this.view.turned ? [-down, along] : [along, down]; // along the axes of the layer
+    const angle = (Math.atan2(y / this.view.stretch, -x) * 180) / Math.PI;
     this.hands.pull(Math.min(1, Math.max(0, (length - CLICK) / (full - CLICK))), angle);
     this.draw();
   }

@@ -6,6 +6,7 @@ import asyncio
 import csv
 import hmac
 import io
+import re
 from collections.abc import Collection
 from contextlib import suppress
 from pathlib import Path
@@ -21,6 +22,7 @@ from starlette.websockets import WebSocket
 
 from sandbox import resources
 from sandbox.page import templates
+from sandbox.serve.choosing import choosing_page, tile_name, tiles_of
 from sandbox.serve.connection import REFUSED, Bucket, Connection
 from sandbox.serve.limits import ADDRESSES, REQUEST_BURST, REQUESTS
 from sandbox.serve.room import Room
@@ -38,7 +40,7 @@ _AGAIN = '<button id="again" type="button" title="aim again (Escape)">Aim again<
 _FONTS = {"regular.ttf": "NotoSans-Regular.ttf", "bold.ttf": "NotoSans-Bold.ttf"}
 #: Nothing from elsewhere, no script or style in the page itself, in no frame.
 _POLICY = (
-    "default-src 'none'; script-src 'self'; style-src 'self'; font-src 'self'; img-src data:; "
+    "default-src 'none'; script-src 'self'; style-src 'self'; font-src 'self'; img-src 'self' data:; "
     "connect-src 'self' ws://$host; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 )
 _HEADERS = {
@@ -65,7 +67,7 @@ class _Site:
     """The pages, their files and the WebSocket of one room, for those who have a token."""
 
     def __init__(self, room: Room, tokens: Tokens) -> None:
-        self.room, self.tokens, self.files = room, tokens, _files()
+        self.room, self.tokens, self.files = room, tokens, _files(room)
 
     def kind_of(self, request: Request | WebSocket) -> str | None:
         """Return the page whose token the address has; None if it has neither."""
@@ -87,6 +89,10 @@ class _Site:
         if kind == "teach" and name == "shots.csv":
             return Response(_csv(self.room), media_type="text/csv; charset=utf-8",
                             headers={"Content-Disposition": 'attachment; filename="shots.csv"'})  # fmt: skip
+        shot = re.fullmatch(r"shot-(\d{1,9})\.webp", name)
+        if kind == "teach" and shot is not None:
+            picture = await self.room.small_picture(int(shot[1]))
+            return _nothing() if picture is None else Response(picture, media_type="image/webp")
         if kind is None or name not in self.files or name.endswith(".html"):
             return _nothing()
         return self.sent(name)
@@ -164,7 +170,7 @@ def _nothing() -> Response:
     return PlainTextResponse("There is nothing here. The whole address is needed, with its token.\n", 404)
 
 
-def _files() -> dict[str, tuple[bytes, str]]:
+def _files(room: Room) -> dict[str, tuple[bytes, str]]:
     """All files that are ever sent, by name, with their types: no path of a request reaches the disk."""
     scripts = {
         f"{page}.js": "\n".join([*map(templates.source, templates.PLAYER), *map(_source, names)])
@@ -172,17 +178,20 @@ def _files() -> dict[str, tuple[bytes, str]]:
     }
     fonts = {name: (resources.folder("assets") / "fonts" / font).read_bytes() for name, font in _FONTS.items()}
     style = templates.source("page.css") + _source("serve.css")
+    tiles = tiles_of(room.scenes)
     return {
-        **{f"{page}.html": (_page(page).encode(), "text/html") for page in _SCRIPTS},
+        **{f"{page}.html": (_page(page, room).encode(), "text/html") for page in _SCRIPTS},
         **{name: (script.encode(), "text/javascript") for name, script in scripts.items()},
         **{name: (font, "font/ttf") for name, font in fonts.items()},
+        **{tile_name(sport): (picture, "image/jpeg") for sport, picture in tiles.items()},
         "serve.css": (style.encode(), "text/css"),
     }
 
 
-def _page(page: str) -> str:
+def _page(page: str, room: Room) -> str:
     """The page of players or of the teacher."""
-    content = templates.with_player(_source(f"{page}.html"), _AGAIN)
+    choosing = choosing_page(room.scenes) if page == "play" else ""
+    content = templates.with_player(_source(f"{page}.html"), _AGAIN, choosing=choosing)
     return templates.framed(
         _TITLES[page],
         Template(_source("head.html")).substitute(script=f"{page}.js"),

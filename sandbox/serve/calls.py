@@ -10,6 +10,8 @@ from typing import Any, Literal, NamedTuple, TypedDict
 
 _Changes = Mapping[str, Any]
 Kind = Literal["path", "hidden", "stage", "fan", "shot"]
+#: The room for a picture where a page does not say.
+ROOM = (960, 640)
 
 
 class Game(NamedTuple):
@@ -20,21 +22,30 @@ class Game(NamedTuple):
     shots: tuple[Mapping[str, float], ...] = ()
 
 
+class Duel(NamedTuple):
+    """Where two players are in a game of a scene: their names, the seed of their aims, the facts of each shot."""
+
+    game: str
+    players: tuple[str, str]
+    seed: int
+    outcomes: tuple[Mapping[str, Any], ...] = ()
+
+
 class Ask(NamedTuple):
-    """A player's question: a scene with changes or, with a ``game``, a task with its controls set."""
+    """A player's question: a scene with changes or, with a ``game``, a task or a match with its controls set."""
 
     source: str
     changes: _Changes
     n: int  # by which the browser recognises the answer
-    narrow: bool = False  # for a phone
+    room: tuple[int, int] = ROOM  # px of the page for the picture, across and down
     units: str = "si"
-    game: Game | None = None
+    game: Game | Duel | None = None
 
 
 class Reply(TypedDict, total=False):
     """A result: a message for the browser, ready to be sent, and what the server keeps of it; or an error."""
 
-    message: bytes  # JSON, deflated
+    message: bytes  # JSON, deflated; of a small picture the image
     kept: dict[str, Any]
     error: str
 
@@ -54,11 +65,19 @@ def _waited_for_core() -> float:
         return 0.0
 
 
-def described(source: str, is_task: bool) -> Reply:
-    """A scene or task for the browser: its parameters with their bounds, what a pull does, the results to predict."""
+def described(source: str, is_task: bool, duel: Duel | None = None) -> Reply:
+    """A scene, a task or the next shot of a match for the browser: its parameters with their bounds, what a pull does,
+    the results to predict."""
     from sandbox.serve import work
 
-    return work.described(source, is_task)
+    return work.described(source, is_task, duel)
+
+
+def small(ask: Ask) -> Reply:
+    """A small picture of a shot, as an image file."""
+    from sandbox.serve import work
+
+    return work.small(ask)
 
 
 def computed(kind: Kind, ask: Ask) -> Reply:

@@ -6,8 +6,8 @@ from __future__ import annotations
 PLAYERS = 60
 #: Players who left are remembered so long, in s, to come back to their state; at most four times PLAYERS are.
 REMEMBERED = 3600.0
-#: The teacher sees them for so long, in s: a line that was lost is there again by then.
-AWAY = 60.0
+#: The teacher sees who left for so long, in s: a lesson.
+AWAY = 2700.0
 #: Characters of a name.
 NAME = 20
 #: Bytes of a message from a browser; a longer one closes its connection.
@@ -36,8 +36,8 @@ RESULT = 2_000_000
 MEMORY = 4 << 30
 #: A browser that does not read what it is sent for so many s is disconnected.
 UNREAD = 10.0
-#: Rows of the teacher's table; the oldest go first.
-ROWS = 2000
+#: Rows of the teacher's table, of which the page has the last ones; the oldest go first.
+ROWS, SENT = 2000, 600
 #: The addresses stay valid so long after a start, in s, when the server starts again: a day at school.
 KEPT = 12 * 3600.0
 #: A connection that has not said what it wants after so many s is closed.

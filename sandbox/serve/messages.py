@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, StringConstraints, TypeAdapter, ValidationError
 
 from sandbox.errors import RequestError
+from sandbox.serve.calls import ROOM
 from sandbox.serve.limits import CHANGES, KEY, NAME, WORD
 from sandbox.text import one_line
 from sandbox.units import parse
@@ -18,6 +19,7 @@ _Word = Annotated[str, StringConstraints(max_length=WORD)]
 _Value = bool | Annotated[float, Field(allow_inf_nan=False)] | _Word
 _Changes = Annotated[dict[_Key, _Value], Field(max_length=CHANGES)]
 _Number = Annotated[int, Field(ge=0, lt=2**53)]  # by which a browser recognises the answer
+_Room = tuple[Annotated[int, Field(ge=100, le=4000)], Annotated[int, Field(ge=100, le=4000)]]  # px for a picture
 
 
 class _Message(BaseModel):
@@ -44,7 +46,7 @@ class Name(_Message):
 
 
 class Play(_Message):
-    """Another scene."""
+    """Another scene; none where ``source`` is empty, while the player chooses."""
 
     do: Literal["play"]
     source: _Key
@@ -57,7 +59,7 @@ class Aim(_Message):
     do: Literal["path", "stage", "fan"]
     n: _Number
     changes: _Changes
-    narrow: bool = False
+    room: _Room = ROOM
 
 
 class Shoot(_Message):
@@ -66,6 +68,7 @@ class Shoot(_Message):
     do: Literal["shoot"]
     n: _Number
     changes: _Changes
+    room: _Room = ROOM
     predicted: Annotated[float, Field(allow_inf_nan=False)] | None = None
 
 
@@ -98,6 +101,21 @@ class Predict(_Message):
     fact: _Key
 
 
+class Present(_Message):
+    """The teacher shows everybody one of the shots."""
+
+    do: Literal["present"]
+    n: _Number
+    number: _Number
+    room: _Room = ROOM
+
+
+class Look(_Message):
+    """The teacher asks who is there and who plays."""
+
+    do: Literal["look"]
+
+
 class Clear(_Message):
     """The teacher empties the table."""
 
@@ -106,7 +124,7 @@ class Clear(_Message):
 
 _PUPIL: TypeAdapter[Any] = TypeAdapter(Annotated[Hello | Name | Play | Aim | Shoot, Field(discriminator="do")])
 _TEACHER: TypeAdapter[Any] = TypeAdapter(
-    Annotated[Hello | Aim | Lead | See | Freeze | Predict | Clear, Field(discriminator="do")]
+    Annotated[Hello | Aim | Lead | See | Freeze | Predict | Present | Look | Clear, Field(discriminator="do")]
 )
 
 

@@ -1,11 +1,61 @@
 // The page of a player.
 
 const STILL = 150, SETTLED = 350; // ms without a change, after which the place and the fan are asked for again
+const ANEW = 3000; // ms after which a place that could not be computed is asked for again
 const READ = 8000; // ms for which what is told of a link, or was refused, stays to be read
+const SEEN = 2500; // ms for which the end of a shot stays, before a match goes on
 const MOST_COMPARED = 3;
 
-const state = { source: "", changes: {}, scene: null, stage: null, run: null, lead: {}, compared: [], shot: false, name: "" };
+const state = { source: "", changes: {}, scene: null, stage: null, run: null, lead: {}, compared: [], shot: false, name: "", scenes: new Map() };
 let player = null, wire, ask, settings, timers = {};
+
+// ------------------------------------------------------------------------------------------------ choosing
+
+/** Show the tiles or, of a sport, what can be played in it. */
+function choose(sport = "") {
+  $("choosing").hidden = false;
+  $("game").hidden = true;
+  $("to-tiles").hidden = !sport;
+  document.querySelector(".tiles").hidden = Boolean(sport);
+  let title = "Choose a sport";
+  for (const each of document.querySelectorAll(".sport")) {
+    each.hidden = each.dataset.sport !== sport;
+    if (!each.hidden) title = document.querySelector(`.tiles [data-sport="${CSS.escape(sport)}"] b`).textContent;
+  }
+  $("chosen").textContent = title;
+  document.title = `${title}: sports sandbox`;
+}
+
+/** The sport that something belongs to. */
+const sportOf = (source) => document.querySelector(`.sport [data-source="${CSS.escape(source)}"]`)?.closest(".sport").dataset.sport ?? source.split("/")[0];
+
+/** Show the picture in place of the tiles: at once the tile of its sport, and a line. */
+function opened(source, line) {
+  $("choosing").hidden = true;
+  $("game").hidden = false;
+  const tile = document.querySelector(`.tiles [data-sport="${CSS.escape(sportOf(source))}"] img`);
+  $("waiting").style.backgroundImage = tile ? `url("${tile.src}")` : "";
+  waiting(line);
+}
+
+/** Play a scene, a task or a game. */
+function play(source, title = source) {
+  localStorage.setItem("started", "true");
+  Object.assign(state, { stage: null, run: null, next: null });
+  state.wanted = source;
+  opened(source, `Loading ${title} ...`);
+  wire.send({ do: "play", source, changes: {} });
+}
+
+/** Back to the tiles, or to what else can be played in the sport. */
+function leave() {
+  const sport = sportOf(state.source);
+  Object.assign(state, { source: "", wanted: "", scene: null, stage: null, run: null, next: null, shot: false });
+  clearTimeout(timers.next);
+  wire.send({ do: "play", source: "", changes: {} });
+  history.replaceState(null, "", location.pathname);
+  choose(document.querySelector(`.sport[data-sport="${CSS.escape(sport)}"]`) ? sport : "");
+}
 
 // ------------------------------------------------------------------------------------------------ the address
 
@@ -38,7 +88,7 @@ function changed(still = false) {
   settings.show(state.changes);
   history.replaceState(null, "", link());
   $("link").value = location.href;
-  ask.path.ask({ changes: state.changes });
+  ask.path.ask({ changes: state.changes, room: room() });
   if (player?.fan) player.fan.late = true;
   aimed();
   later("fan", still ? 0 : SETTLED, askFan);
@@ -52,11 +102,11 @@ function later(what, wait, action) {
 
 function askStage() {
   state.composedFor = JSON.stringify(state.changes);
-  ask.stage.ask({ changes: state.changes, narrow: narrow() });
+  ask.stage.ask({ changes: state.changes, room: room() });
 }
 
 function askFan() {
-  if ($("fan").checked && !state.shot && !state.lead.predict) ask.fan.ask({ changes: state.changes });
+  if ($("fan").checked && !state.shot && !state.lead.predict && !contest()) ask.fan.ask({ changes: state.changes });
 }
 
 function set(values) {
@@ -73,7 +123,9 @@ function aimed() {
     const { unit } = by.get(key), number = typed(value(key));
     return unit === "deg" ? `${number}°` : unit ? `${number} ${unitOf(unit)}` : `${labelOf(key)} ${number}`;
   };
-  $("aimed").textContent = pull ? `${text(pull.speed)} at ${text(pull.angle)}` : "";
+  const pulled = pull && (pull.speed in state.changes || pull.angle in state.changes);
+  const first = state.scene.place && mine() ? "Drag the ball, then pull back." : "Pull back and let go.";
+  $("aimed").textContent = !mine() ? "" : pulled ? `${text(pull.speed)} at ${text(pull.angle)}` : pull ? first : "";
 }
 
 // ------------------------------------------------------------------------------------------------ aiming
@@ -86,10 +138,27 @@ function turned(parameter, angle) {
   return found ?? within(parameter, angle);
 }
 
+/** What is played for: a task or a match; null in a scene. */
+const contest = () => state.scene?.task ?? state.scene?.match ?? null;
+
+/** True unless the other one has the next shot of a match. */
+const mine = () => !state.scene?.match || (!state.scene.match.over && state.scene.match.turn === state.scene.you);
+
 const rounded = (number, digits) => Number(number.toFixed(digits));
 
 const hands = {
-  may: () => Boolean(state.scene?.pull && player && !state.lead.frozen && wire.open),
+  may: () => Boolean(state.scene?.pull && player && !state.lead.frozen && wire.open && mine() && !(contest() && state.shot) && $("ending").hidden),
+  inHand: () => Boolean(state.scene?.place && mine() && !state.shot),
+  place([x, y]) {
+    const [across, up] = state.scene.place, { by } = state.scene;
+    set({ [across]: within(by.get(across), rounded(x, 4)), [up]: within(by.get(up), rounded(y, 4)) });
+  },
+  /** What a player has seen of a shot: what it came to, and its end. */
+  seen(told, over) {
+    if (!state.shot) return;
+    $("verdict").textContent = told || !contest() ? state.run.verdict : "...";
+    if (over) finished();
+  },
   pull(share, angle) {
     const { pull, by } = state.scene, place = share * (pull.speeds.length - 1), i = Math.min(Math.floor(place), pull.speeds.length - 2);
     const speed = pull.speeds[i] + (place - i) * (pull.speeds[i + 1] - pull.speeds[i]);
@@ -109,7 +178,8 @@ const hands = {
   },
   shoot() {
     if (!player || $("shoot").disabled) return;
-    const message = { changes: state.changes };
+    if (state.shot) return goOn();
+    const message = { changes: state.changes, room: room() };
     if (state.lead.predict) {
       if (!$("prediction").reportValidity()) return;
       state.predicted = message.predicted = Number($("predicted").value);
@@ -122,8 +192,9 @@ const hands = {
 
 /** Aim again; with `asking` with the same parameters. */
 function again(asking) {
+  if (state.next) return goOn();
   state.shot = false;
-  $("playback").hidden = true;
+  $("playback").hidden = $("shot-more").hidden = true;
   if (asking) changed(true);
 }
 
@@ -133,7 +204,8 @@ const heard = {
   welcome({ session, name, scenes }) {
     sessionStorage.setItem("session", session);
     $("name").value = state.name = name;
-    fillScenes($("scene"), scenes);
+    state.scenes = new Map(scenes.map(([source, about, kind, sport, title]) => [source, { about, kind, sport, title }]));
+    $("sports").hidden = scenes.length === 1;
   },
   name({ name }) {
     state.name = name;
@@ -142,7 +214,7 @@ const heard = {
   lead(lead) {
     const before = state.lead;
     state.lead = lead;
-    $("scene").disabled = Boolean(lead.source);
+    $("sports").disabled = $("leave").disabled = $("next-task").disabled = Boolean(lead.source);
     $("prediction").hidden = !lead.predict;
     if (state.scene) predicting();
     told("frozen", lead.frozen ? "The teacher has stopped the game for a moment." : "");
@@ -151,20 +223,29 @@ const heard = {
     else if (before.frozen && !lead.frozen && state.scene) changed(true);
   },
   scene(scene) {
-    const other = state.source !== scene.source || scene.task;
+    const match = scene.match && state.scene?.match && scene.source === state.source;
+    if (match) told("partner", scene.there || scene.match.over ? "" : `${scene.match.players[1 - scene.you]} is not there at the moment.`);
+    if (match && scene.shots === state.scene.shots && scene.you === state.scene.you) return;
+    if (match && state.shot && !scene.match.over && scene.shots) return (state.next = scene); // once this shot was seen
+    if (match && state.shot && scene.match.over) return (state.scene.match = scene.match), (state.scene.shots = scene.shots), ending();
+    const other = state.source !== scene.source || contest() || scene.task || scene.match;
     Object.assign(state, { source: scene.source, changes: { ...scene.changes }, scene, shot: false });
     scene.by = new Map(scene.parameters.map((each) => [each.key, each]));
     if (other || !state.stage) {
-      Object.assign(state, { stage: null, run: null, compared: [] });
-      waiting(`Loading ${scene.title} ...`);
+      const before = state.stage;
+      Object.assign(state, { stage: match ? before : null, run: null, compared: [] });
+      if (!state.stage) opened(scene.source, `Loading ${scene.title} ...`);
     }
+    $("ending").hidden = true;
+    $("arrows").checked = !contest();
+    document.querySelector("main").classList.toggle("contest", Boolean(contest()));
     if (player) player.fan = null;
     compare();
     document.title = `${scene.title}: sports sandbox`;
-    $("scene").value = scene.source;
     $("about").textContent = [scene.about, scene.held && `${scene.held}: only in the window`].filter(Boolean).join(" · ");
-    $("playback").hidden = true;
+    $("playback").hidden = $("shot-more").hidden = true;
     settings.build(scene.parameters);
+    for (const [i, key] of (scene.place ?? []).entries()) settings.rows.get(key).row.querySelector("label").textContent = ["ball along", "ball across"][i];
     predicting();
     for (const each of Object.values(ask)) each.forget();
     changed(true);
@@ -183,11 +264,23 @@ const heard = {
     show(run);
   },
   shot({ n, run }) {
-    if (!ask.shoot.answered(n)) return;
+    if (mine() && !ask.shoot.answered(n)) return;
     tell("");
     Object.assign(state, { run, shot: true });
     show(run);
     played(run);
+  },
+  waits({ source, title }) {
+    Object.assign(state, { source, scene: null, stage: null, run: null });
+    settings.build([]);
+    $("about").textContent = $("aimed").textContent = "";
+    opened(source, `Waiting for a second player: open ${location.origin}${location.pathname} there, and choose ${title}, too.`);
+    $("verdict").textContent = title;
+  },
+  left({ text }) {
+    told("refused", text);
+    later("refused", READ, () => told("refused", ""));
+    leave();
   },
   fan({ n, said, by, lines, bars }) {
     if (!ask.fan.answered(n) || !player) return;
@@ -209,7 +302,8 @@ const heard = {
       told("refused", text);
       later("refused", READ, () => told("refused", ""));
     } else tell(text);
-    if (!state.stage || !state.run) waiting(text);
+    if (state.scene && (!state.stage || !state.run)) waiting(text);
+    if (n !== null && ask.stage.awaited === n) later("stage", ANEW, askStage);
     for (const each of Object.values(ask)) if (n !== null && each.awaited === n) each.answered(n);
   },
 };
@@ -222,7 +316,8 @@ function show(run, composed = false) {
     const [colour, light] = stage.others[i % stage.others.length];
     return { ...each, colour, light };
   });
-  const data = onStage(stage, run, run.hidden ? [] : ghosts);
+  const data = { ...onStage(stage, run, run.hidden ? [] : ghosts), suspense: Boolean(contest()) };
+  if (run.good !== undefined) data.scored = run.good;
   if (state.shot) data.duration = Math.max(run.duration, ...ghosts.map(({ duration }) => duration));
   if (!player) window.player = player = new Aim(data, hands);
   if (state.shot && composed) player.load(data), player.resized(), player.seek(player.data.duration);
@@ -230,27 +325,75 @@ function show(run, composed = false) {
   else player.aim(data);
   if (composed) player.reach = player.extent;
   if (fits(stage)) waiting("");
+  const other = state.scene.match && !mine() && !state.shot ? state.scene.match.status : "";
   const goal = state.lead.predict ? `Predict the ${fact()?.label ?? "result"}, then shoot` : scene.about;
-  $("verdict").textContent = run.hidden ? goal : run.verdict;
-  standing(run.task);
+  if (!state.shot) $("verdict").textContent = other || (run.hidden ? goal : run.verdict);
+  if (!state.shot) standing(run.task ?? state.scene.match);
   mayShoot();
   $("notes").textContent = stage.view.notes.join("   ·   ");
-  player.heading($("picture").clientWidth);
   card(run, ghosts);
   if (!composed && (run.place !== stage.place || !fits(stage) || !(run.hidden || player.inSight))) later("stage", STILL, askStage);
   $("keep").disabled = Boolean(run.hidden);
 }
 
-/** Where the player is in a task. */
+/** Where the player is in a task: the attempt, the score, what is needed; in a match both scores, and whose turn it is. */
 function standing(task) {
-  $("standing").hidden = $("restart").hidden = !task;
+  $("standing").hidden = !task;
   if (!task) return;
-  const stars = "★".repeat(task.stars) + "☆".repeat(3 - task.stars);
-  $("standing").textContent = task.over ? `${task.total}: ${task.passed ? "passed" : "not passed"} ${stars}` : `attempt ${task.attempt} of ${task.attempts} · ${task.total}`;
+  const part = (text, marked) => Object.assign(document.createElement("span"), { textContent: text, className: marked ? "turn" : "" });
+  if (task.players) {
+    $("standing").replaceChildren(...task.players.map((name, i) => part(`${name}: ${task.scores[i]}`, i === (task.winner ?? task.turn))));
+    return;
+  }
+  const stars = task.over ? `${starred(task.stars)}` : `to pass ${task.to_pass} · ★★★ ${task.for_stars[2]}`;
+  $("standing").replaceChildren(part(task.over ? task.result : `attempt ${task.attempt} of ${task.attempts}`), part(task.total, true), part(stars));
+}
+
+const starred = (stars) => "★".repeat(stars) + "☆".repeat(3 - stars);
+
+/** A shot has been seen to its end. */
+function finished() {
+  if (!state.shot || state.finished === state.run) return;
+  state.finished = state.run;
+  standing(state.run.task ?? state.run.match);
+  if (contest()) $("verdict").textContent = state.run.match?.said || state.run.verdict;
+  if (contest() && !(state.run.task ?? state.run.match).over) later("next", SEEN, goOn);
+  ending();
+}
+
+/** The result of a task or a match, over the picture, once its last shot was seen. */
+function ending() {
+  const { run } = state, end = run?.task ?? run?.match;
+  $("ending").hidden = !(end?.over && state.finished === run);
+  if ($("ending").hidden) return;
+  $("ending-title").textContent = end.players ? end.status : end.passed ? "Passed" : "Not passed yet";
+  $("ending-stars").textContent = end.players ? end.scores.map((score, i) => `${end.players[i]}: ${score}`).join("   ") : starred(end.stars);
+  $("ending-said").textContent = end.players ? end.said : end.result;
+  $("next-task").hidden = !following();
+  mayShoot();
+  $("restart").focus();
+}
+
+/** The name of the next task of the same sport, if there is one. */
+function following() {
+  const here = state.scenes.get(state.source), names = [...state.scenes.keys()];
+  const after = names.slice(names.indexOf(state.source) + 1);
+  return here?.kind === "task" ? after.find((name) => state.scenes.get(name).kind === "task" && state.scenes.get(name).sport === here.sport) : undefined;
+}
+
+/** From a shot that was seen to the next one. */
+function goOn() {
+  clearTimeout(timers.next);
+  const { next } = state;
+  if (!$("ending").hidden) return;
+  if (!next) return mine() || !state.scene.match ? again(true) : undefined;
+  [state.next, state.shot] = [null, false];
+  heard.scene(next);
 }
 
 function mayShoot() {
-  $("shoot").disabled = Boolean(state.lead.frozen) || !state.run || Boolean(state.run.task?.over);
+  $("shoot").disabled = Boolean(state.lead.frozen) || !state.run || !$("ending").hidden || (!state.shot && !mine());
+  $("shoot").textContent = !state.shot ? "Shoot" : contest() ? "Go on" : "Aim again";
 }
 
 /** The results, with those of the shots that are compared. */
@@ -279,7 +422,10 @@ function card(run, ghosts) {
 
 /** What a shot adds: events, energy. */
 function played(run) {
-  $("playback").hidden = false;
+  $("aimed").textContent = "";
+  $("playback").hidden = Boolean(contest());
+  $("shot-more").hidden = Boolean(contest());
+  mayShoot();
   $("events").replaceChildren(...run.event_rows.map(([t, ...words]) => {
     const item = document.createElement("li"), button = Object.assign(document.createElement("button"), { type: "button" });
     button.append(Object.assign(document.createElement("b"), { textContent: t }), ` ${words.filter(Boolean).join(" ")}`);
@@ -287,7 +433,7 @@ function played(run) {
     return item;
   }));
   $("energy-figure").hidden = !run.energy;
-  if (run.energy) drawEnergy($("energy"), $("energy-legend"), run.energy);
+  if (run.energy && $("shot-more").open) drawEnergy($("energy"), $("energy-legend"), run.energy);
   player.now();
 }
 
@@ -334,7 +480,8 @@ const tell = (text) => told("error", text);
 
 /** The first message on a line: who it is, and what is played, or what the link asks for. */
 function hello() {
-  const here = state.source ? { source: state.source, changes: state.changes } : state.plain ? {} : linked(location.hash);
+  const source = state.source || state.wanted;
+  const here = source ? { source, changes: state.source ? state.changes : {} } : state.plain ? {} : linked(location.hash);
   return { do: "hello", session: sessionStorage.getItem("session") || "", name: state.name || localStorage.getItem("name") || "", ...here };
 }
 
@@ -345,11 +492,20 @@ function begin() {
   $("shoot").addEventListener("click", () => hands.shoot());
   $("prediction").addEventListener("submit", (event) => (event.preventDefault(), hands.shoot()));
   $("again").addEventListener("click", () => again(true));
-  $("restart").addEventListener("click", () => wire.send({ do: "play", source: state.source, changes: {} }));
+  $("restart").addEventListener("click", () => play(state.source, state.scene.title));
+  $("next-task").addEventListener("click", () => play(following(), state.scenes.get(following()).title));
+  $("leave").addEventListener("click", leave);
+  $("sports").addEventListener("click", leave);
+  $("to-tiles").addEventListener("click", () => choose());
+  $("choosing").addEventListener("click", ({ target }) => {
+    const { source, sport } = target.closest("button")?.dataset ?? {}, title = target.closest("button")?.querySelector("b").textContent;
+    const page = sport && document.querySelector(`.sport[data-sport="${CSS.escape(sport)}"]`);
+    if (source && !(page && localStorage.getItem("started"))) play(source, title);
+    else if (sport) choose(sport);
+  });
   $("reset").addEventListener("click", () => ((state.changes = {}), changed(true)));
   $("keep").addEventListener("click", keep);
   $("drop").addEventListener("click", () => ((state.compared = []), compare(), state.run && show(state.run)));
-  $("scene").addEventListener("change", () => wire.send({ do: "play", source: $("scene").value, changes: {} }));
   $("name").addEventListener("change", () => {
     localStorage.setItem("name", $("name").value);
     wire.send({ do: "name", name: $("name").value });
@@ -359,6 +515,7 @@ function begin() {
     if (player) [player.fan = null, player.draw()];
     askFan();
   });
+  $("shot-more").addEventListener("toggle", () => state.shot && state.run.energy && $("shot-more").open && drawEnergy($("energy"), $("energy-legend"), state.run.energy));
   $("copy").addEventListener("click", async () => {
     $("link").select();
     await (navigator.clipboard?.writeText($("link").value) ?? Promise.resolve(document.execCommand("copy")));
@@ -366,16 +523,19 @@ function begin() {
     later("copied", 1500, () => ($("copy").textContent = "Copy"));
   });
   addEventListener("resize", () => {
+    if (!state.scene) return;
     if (state.stage && !fits(state.stage)) {
       waiting("Turning the picture ...");
       later("stage", STILL, askStage);
-    } else if (state.run) waiting("");
-    if (state.shot && state.run.energy) drawEnergy($("energy"), $("energy-legend"), state.run.energy);
+    } else if (state.stage && state.run) waiting("");
+    if (state.shot && state.run.energy && $("shot-more").open) drawEnergy($("energy"), $("energy-legend"), state.run.energy);
   });
   addEventListener("hashchange", () => {
     const { source, changes } = linked(location.hash);
-    if (source) wire.send({ do: "play", source, changes });
+    if (source) opened(source, `Loading ${source} ...`), wire.send({ do: "play", source, changes });
   });
 }
 
 begin();
+if (location.hash.length > 1) opened(linked(location.hash).source, "Loading ...");
+else choose();

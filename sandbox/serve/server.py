@@ -7,13 +7,14 @@ import os
 import socket
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import NamedTuple
 
 import uvicorn
 
 from sandbox.errors import RequestError
 from sandbox.files import reason
-from sandbox.scene.discovery import first_comment, folder_of, listings, listings_of
+from sandbox.scene.discovery import docstring, folder_of, listings_of
 from sandbox.serve import calls
 from sandbox.serve.app import app_of
 from sandbox.serve.limits import CONNECTIONS, MESSAGE, PLAYERS
@@ -21,7 +22,11 @@ from sandbox.serve.processes import JobProcesses
 from sandbox.serve.protocols import Asking, Talking
 from sandbox.serve.room import Listed, Room
 from sandbox.serve.tokens import tokens
-from sandbox.tasks import find_task, is_task, tasks
+from sandbox.tasks import find_task, is_task
+from sandbox.tasks.file import read_task_file
+from sandbox.tasks.games import FOLDER, game_names
+from sandbox.tasks.sports import Sport, sports
+from sandbox.text import title_of
 
 _LOOPBACK, _ALL = "127.0.0.1", "0.0.0.0"
 #: The port that is taken if it is free and no other is asked for, so that addresses stay the same.
@@ -42,23 +47,43 @@ class Address(NamedTuple):
 
 
 def _scenes_of(names: Sequence[str]) -> dict[str, Listed]:
-    """The scenes that may be played, each with its presets, and tasks, by the names that are shown; all installed ones
-    by default. Raises RequestError. No scene is imported for this."""
-    if not names:
-        found = {each.name: Listed(each.name, each.about) for each in listings()}
-        return found | {name: Listed(name, first_comment(find_task(name)), True) for name in tasks()}
-    found = {}
-    for name in names:
+    """What may be played, by the names under which it is listed: of the scenes named, by default of all installed ones
+    in the order of their tiles, each with its tasks, games and presets. Raises RequestError. No scene is imported for
+    this."""
+    known = {sport.name: sport for sport in sports() if not sport.own}
+    found: dict[str, Listed] = {}
+    for name in names or known:
         if is_task(name):
-            found[name] = Listed(name, first_comment(find_task(name)), True)
+            found[name] = _task(name)
             continue
         listed = listings_of(name)
         exact = [each for each in listed if each.name == name]
-        if "/" in name and exact and folder_of(name) is not None:
-            listed = exact  # a preset comes alone
-        for each in listed if exact else [*listed[:1]]:
-            source = each.name if exact else name
-            found[each.name if exact else name] = Listed(source, each.about)
+        if not exact:  # a file
+            found[name] = Listed(name, listed[0].about)
+        elif "/" in name and folder_of(name) is not None:
+            found[name] = Listed(name, exact[0].about, "preset")  # which comes alone
+        else:
+            found |= {each.name: Listed(each.name, each.about, "scene", name) for each in exact}
+            if name in known:
+                found |= _played_in(known[name])
+            presets = (each for each in listed if each.name != name)
+            found |= {each.name: Listed(each.name, each.about, "preset", name) for each in presets}
+    return found
+
+
+def _task(name: str, sport: str = "") -> Listed:
+    """A task, by its name or file."""
+    file = read_task_file(find_task(name))
+    return Listed(name, file.goal, "task", sport, title_of(Path(name).stem))
+
+
+def _played_in(sport: Sport) -> dict[str, Listed]:
+    """The tasks of an installed sport, the easiest first, and its games for two."""
+    files = sorted(sport.files, key=lambda file: (read_task_file(file).level, file.stem))
+    found = {file.stem: _task(file.stem, sport.name) for file in files}
+    for game in game_names(sport.folder):
+        about = docstring(sport.folder / FOLDER / f"{game.replace('-', '_')}.py")
+        found[f"{sport.name}/{FOLDER}/{game}"] = Listed(sport.name, about, "game", sport.name, title_of(game), game)
     return found
 
 
@@ -93,7 +118,7 @@ async def _serve(
     port = listener.getsockname()[1]
     host = _own_address() if share else _LOOPBACK
     hosts = {f"{name}:{port}" for name in (_LOOPBACK, "localhost", host, *([socket.gethostname()] if share else []))}
-    sources = dict.fromkeys(each.source for each in list(scenes.values())[:_WARMED] if not each.is_task)
+    sources = dict.fromkeys(each.source for each in list(scenes.values())[:_WARMED] if each.kind != "task")
     processes = JobProcesses(options.jobs, calls.warmed, list(sources))
     try:
         await _checked(processes, scenes)
@@ -117,7 +142,7 @@ async def _serve(
 async def _checked(processes: JobProcesses, scenes: dict[str, Listed]) -> None:
     """Raise RequestError if the first scene cannot be loaded, before players come."""
     first = next(iter(scenes.values()))
-    reply = await processes.compute("first", "", "described", calls.described, first.source, first.is_task)
+    reply = await processes.compute("first", "", "described", calls.described, first.source, first.kind == "task")
     if reply is not None and "error" in reply:
         raise RequestError(reply["error"])
 

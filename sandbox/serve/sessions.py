@@ -1,4 +1,4 @@
-"""Sessions of players in tasks, in a process that computes: found again from the values of each shot."""
+"""Tasks and matches that are being played, in a process that computes: found again from the shots so far."""
 
 from __future__ import annotations
 
@@ -8,9 +8,13 @@ from typing import Any
 
 from sandbox.files import json_text
 from sandbox.picture.path import first_impact, points, time_after
+from sandbox.scene import Scene
+from sandbox.scene import load as load_scene
 from sandbox.scene.scene_run import SceneRun
-from sandbox.serve.calls import Ask, Game
+from sandbox.serve.calls import Ask, Duel, Game
 from sandbox.tasks import Session, Task, load
+from sandbox.tasks.games import game_of
+from sandbox.window.contest import AtMatch
 
 #: So many sessions are kept; another is played again up to where it is.
 _KEPT = 64
@@ -24,32 +28,118 @@ def task_of(source: str) -> Task:
     return load(source)
 
 
-def session_of(ask: Ask) -> Session | None:
-    """The player's session, at the shot that comes next; None for a scene."""
-    if ask.game is None:
-        return None
-    shots, played = ask.game.shots, len(ask.game.shots)
-    while played >= 0 and _key(ask, played) not in _sessions:
+class InTask:
+    """A player's session at a task, at the shot that comes next."""
+
+    def __init__(self, ask: Ask, game: Game) -> None:
+        self.ask, self.game, self.session = ask, game, _session_of(ask, game)
+        self.path_shown: str = self.session.task.shown
+
+    def scene(self) -> Scene:
+        """The scene of the shot that is aimed, without the noise of the aim. Raises RequestError."""
+        return self.session.scene.changed(self.session.task.aimed(dict(self.ask.changes)), "")
+
+    def aimed(self) -> Scene:
+        """The scene of the shot that is let go. Raises RequestError."""
+        return self.session.aimed(dict(self.ask.changes))
+
+    def call(self, run: SceneRun) -> tuple[str, bool]:
+        """The verdict on a shot, and whether it is a success, before it is recorded."""
+        score = self.session.task.score
+        return run.scene.verdict(run), self.session.task.is_made(score.of_shot(run.result))
+
+    def record(self, run: SceneRun) -> None:
+        """Count a shot."""
+        game, session = self.game, self.session
+        _sessions.pop(_key(self.ask.source, game, len(game.shots)), None)
+        session.record(dict(self.ask.changes), run)
+        _drop_runs(session)
+        after = game._replace(shots=(*game.shots, self.ask.changes))
+        _keep(_key(self.ask.source, after, len(after.shots)), session)
+
+    @property
+    def standing(self) -> dict[str, Any]:
+        """The player's standing: the attempt, the score so far, what is needed, and at the end the stars."""
+        session = self.session
+        task, number = session.task, session.task.score.number
+        return {
+            "attempt": session.attempt.number,
+            "attempts": task.attempts,
+            "total": task.score.text(session.total),
+            "result": session.result,
+            "to_pass": number(task.passing),
+            "for_stars": [number(stars) for stars in task.stars],
+            "over": session.over,
+            "passed": session.passed,
+            "stars": session.stars,
+        }
+
+
+class InMatch:
+    """A match of two, at the shot that comes next; it is found again from what came of each shot."""
+
+    def __init__(self, ask: Ask, duel: Duel) -> None:
+        folder = load_scene(ask.source).folder
+        match = game_of(folder, duel.game)(players=duel.players)
+        for outcome in duel.outcomes:
+            match = match.after(outcome)
+        self.ask = ask
+        self.contest = AtMatch(folder, duel.game, match, seed=duel.seed + len(duel.outcomes))
+        self.path_shown = self.contest.path_shown
+
+    def scene(self) -> Scene:
+        """The scene of the shot that is aimed, without the noise of the aim. Raises RequestError."""
+        return self.contest.scene.changed(self.ask.changes, "")
+
+    def aimed(self) -> Scene:
+        """The scene of the shot that is let go. Raises RequestError."""
+        return self.contest.aimed(self.scene())
+
+    def call(self, run: SceneRun) -> tuple[str, bool]:
+        """The verdict on a shot, and whether it is a success, before it is recorded."""
+        return self.contest.call(run)
+
+    def record(self, run: SceneRun) -> None:
+        """Count a shot."""
+        self.contest.record(run)
+
+    @property
+    def standing(self) -> dict[str, Any]:
+        """Where the match stands."""
+        match = self.contest.match
+        return {
+            "players": match.players,
+            "turn": match.turn,
+            "scores": match.scores,
+            "said": match.said,
+            "status": match.status,
+            "placing": match.placing,
+            "over": match.finished,
+            "winner": match.winner,
+        }
+
+
+def contest_of(ask: Ask) -> InTask | InMatch | None:
+    """What the player is in the middle of; None for a scene."""
+    if isinstance(ask.game, Duel):
+        return InMatch(ask, ask.game)
+    return None if ask.game is None else InTask(ask, ask.game)
+
+
+def _session_of(ask: Ask, game: Game) -> Session:
+    """The player's session at a task, played up to here."""
+    shots, played = game.shots, len(game.shots)
+    while played >= 0 and _key(ask.source, game, played) not in _sessions:
         played -= 1
     if played >= 0:
-        session = _sessions.pop(_key(ask, played))
+        session = _sessions.pop(_key(ask.source, game, played))
     else:
-        played, session = 0, Session(task_of(ask.source), ask.game.seed, ask.game.player)
+        played, session = 0, Session(task_of(ask.source), game.seed, game.player)
     for values in shots[played:]:
         session.shoot(dict(values))
         _drop_runs(session)
-    _keep(_key(ask, len(shots)), session)
+    _keep(_key(ask.source, game, len(shots)), session)
     return session
-
-
-def recorded(ask: Ask, session: Session, run: SceneRun) -> None:
-    """Count a shot: ``run`` is that of what the player asks for."""
-    assert ask.game is not None
-    _sessions.pop(_key(ask, len(ask.game.shots)), None)
-    session.record(dict(ask.changes), run)
-    _drop_runs(session)
-    game = Game(ask.game.seed, ask.game.player, (*ask.game.shots, ask.changes))
-    _keep(_key(ask._replace(game=game), len(game.shots)), session)
 
 
 def _drop_runs(session: Session) -> None:
@@ -58,9 +148,8 @@ def _drop_runs(session: Session) -> None:
         attempt.shots[:] = [replace(shot, run=None) for shot in attempt.shots]  # type: ignore[arg-type]
 
 
-def _key(ask: Ask, shots: int) -> tuple[str, str]:
-    assert ask.game is not None
-    return ask.source, json_text([ask.game.seed, ask.game.player, list(ask.game.shots[:shots])])
+def _key(source: str, game: Game, shots: int) -> tuple[str, str]:
+    return source, json_text([game.seed, game.player, list(game.shots[:shots])])
 
 
 def _keep(key: tuple[str, str], session: Session) -> None:
@@ -74,21 +163,9 @@ def task_document(task: Task) -> dict[str, Any]:
     return {"goal": task.goal, "attempts": task.attempts, "score": task.score.summary, "shown": task.shown}
 
 
-def standing(session: Session) -> dict[str, Any]:
-    """Return the player's standing: the attempt, the score so far, and at the end the stars and if it is passed."""
-    return {
-        "attempt": session.attempt.number,
-        "attempts": session.task.attempts,
-        "total": session.task.score.text(session.total),
-        "over": session.over,
-        "passed": session.passed,
-        "stars": session.stars,
-    }
-
-
-def shown_until(session: Session | None, run: SceneRun, ball: str) -> float | None:
-    """The time in s until which a task shows the path while the player aims; None for all of it."""
-    visible = session.task.shown if session is not None else "all"
+def shown_until(contest: InTask | InMatch | None, run: SceneRun, ball: str) -> float | None:
+    """The time in s until which the path is shown while the player aims; None for all of it."""
+    visible = contest.path_shown if contest is not None else "all"
     if visible == "first contact":
         return first_impact(run, ball)
     if visible == "one metre":

@@ -129,13 +129,12 @@ function changedBy(changes, scene) {
   return own.map(([key, value]) => [key, typeof value === "number" ? typed(value) : value]);
 }
 
-/** The list of all scenes, by sport, and of the tasks. */
+/** The list of all that may be played, by sport. */
 function fillScenes(list, scenes) {
   const groups = new Map();
-  for (const [name, about, isTask] of scenes) {
-    const group = isTask ? "tasks" : name.startsWith(".") ? name : name.split("/")[0];
-    if (!groups.has(group)) groups.set(group, Object.assign(document.createElement("optgroup"), { label: group }));
-    groups.get(group).append(Object.assign(new Option(name, name), { title: about }));
+  for (const [name, about, kind, sport, title] of scenes) {
+    if (!groups.has(sport)) groups.set(sport, Object.assign(document.createElement("optgroup"), { label: sport }));
+    groups.get(sport).append(Object.assign(new Option(kind === "task" || kind === "game" ? `${kind}: ${title}` : name, name), { title: about }));
   }
   list.replaceChildren(...(groups.size === 1 ? [...groups.values()][0].children : groups.values()));
 }

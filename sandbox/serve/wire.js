@@ -108,15 +108,20 @@ Latest.number = 0;
 
 /** A line in place of the picture, until it is there; the picture where it is empty. */
 function waiting(line) {
-  $("waiting").textContent = line;
+  $("waiting").firstElementChild.textContent = line;
   $("waiting").hidden = !line;
 }
 
-/** True for a phone that is held upright. */
-const narrow = () => $("picture").clientWidth < 700 && innerHeight > innerWidth;
+/** The room for the picture on the page, in px across and down. */
+function room() {
+  const { clientWidth } = $("picture").parentElement, tall = parseFloat(getComputedStyle($("picture").parentElement).maxHeight);
+  return [clientWidth, tall].map((size) => Math.min(4000, Math.max(100, Math.round(size) || 0)));
+}
+
+const NEARLY = 0.85; // of a room: one that is smaller or larger by less may keep the picture of the other
 
 /** True if a stage was composed for the page as it is held now. */
-const fits = (stage) => (stage.view.size[0] < 1000) === narrow();
+const fits = (stage) => room().every((size, axis) => Math.min(size, stage.room[axis]) >= NEARLY * Math.max(size, stage.room[axis]));
 
 /** A stage as it came, with its images. */
 async function staged(stage) {

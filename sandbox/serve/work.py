@@ -7,6 +7,7 @@ process when it is read; an error is a line in it.
 from __future__ import annotations
 
 import hashlib
+import io
 import json
 import signal
 import zlib
@@ -21,9 +22,9 @@ from sandbox.errors import RunError, SandboxError
 from sandbox.files import json_ready
 from sandbox.page.parts import css
 from sandbox.page.playing import event_rows, force_data, path_data, path_until, place_data, stage_data, story_data
-from sandbox.page.replay import LAYOUTS
 from sandbox.parameters import Parameter, walk
 from sandbox.picture.energy_chart import bands_of, held_at_the_end
+from sandbox.picture.frames import to_image
 from sandbox.picture.marks import lighter
 from sandbox.picture.path import simplify
 from sandbox.picture.sheet import CARD, drawn_at
@@ -31,11 +32,12 @@ from sandbox.picture.view import View
 from sandbox.scene import Scene, load, simulate
 from sandbox.scene.scene_run import SceneRun
 from sandbox.serve import sessions
-from sandbox.serve.calls import Ask, Kind, Reply
+from sandbox.serve.calls import Ask, Duel, Game, Kind, Reply
+from sandbox.serve.layout import Layout, layout_of
 from sandbox.serve.limits import FAN, MEMORY, PATH, RESULT
 from sandbox.sport.amounts import shown_in
-from sandbox.tasks import Session
-from sandbox.text import encodable
+from sandbox.tasks.sports import TILE
+from sandbox.text import encodable, title_of
 from sandbox.tracebacks import one_line_error
 from sandbox.window.aim import PUSH, Speeds, pull_speeds
 from sandbox.window.fan import fan_of
@@ -50,6 +52,11 @@ _PULLS = 101
 _LINE_DIGITS, _LINE_PIXELS = 2, 900
 #: A parameter that would make a run slow without a player seeing more of it.
 _KEPT = ("accuracy.",)
+
+#: How much larger letters and lines are on a small picture.
+_SMALL_DENSITY = 1.6
+Contest = sessions.InTask | sessions.InMatch | None
+_STANDING = {sessions.InTask: "task", sessions.InMatch: "match"}
 
 _Arguments = ParamSpec("_Arguments")
 
@@ -130,31 +137,42 @@ def _packed(kind: str, **data: Any) -> bytes:
 
 
 @_replying
-def described(source: str, is_task: bool) -> Reply:
-    """A scene or task for the browser: its parameters with their bounds, what a pull does, the results to predict."""
+def described(source: str, is_task: bool, duel: Duel | None = None) -> Reply:
+    """A scene, a task or the next shot of a match for the browser: its parameters with their bounds, what a pull does,
+    the results to predict."""
     task = sessions.task_of(source) if is_task else None
-    scene = task.scene.changed(task.defaults) if task is not None else _scene(source)
-    controls, known = scene.controls, {p.key: p for p in walk(scene.parameters, entries=True)}
-    if task is None:
-        chosen = {key: p for key, p in known.items() if _may_change(p) or key in controls.set_on_pull}
+    match = sessions.InMatch(Ask(source, {}, 0), duel) if duel is not None else None
+    if task is not None:
+        scene, limits = task.scene.changed(task.defaults), {it.key: (it.low, it.high) for it in task.controls}
+    elif match is not None:
+        scene, limits = match.contest.scene, dict(match.contest.limits)
     else:
-        chosen = {it.key: known[it.key]._replace(low=it.low, high=it.high) for it in task.controls}
-    first = (*controls.sliders, *(chosen if task is not None else ()))
-    settings = [_setting(p, first) for p in chosen.values()]
+        scene, limits = _scene(source), {}
+    controls, known = scene.controls, {p.key: p for p in walk(scene.parameters, entries=True)}
+    if limits:
+        chosen = {key: known[key]._replace(low=low, high=high) for key, (low, high) in limits.items()}
+    else:
+        chosen = {key: p for key, p in known.items() if _may_change(p) or key in controls.set_on_pull}
+    settings = [_setting(p, (*controls.sliders, *limits)) for p in chosen.values()]
     order = {key: place for place, key in enumerate(controls.sliders)}
     settings.sort(key=lambda each: order.get(each["key"].partition("[")[0], len(order)))
     facts = [fact for fact in scene.facts.values() if fact.label and fact.unit and not fact.names]
-    return {
-        "kept": {
-            "title": source if task is not None else scene.title,
-            "about": task.goal if task is not None else scene.about,
-            "parameters": settings,
-            "pull": _pull(scene, chosen, task is not None),
-            "facts": [{"key": fact.key, "label": fact.label, "unit": fact.unit} for fact in facts],
-            "held": ", ".join(held.name for held in controls.held),
-            "task": sessions.task_document(task) if task is not None else None,
-        }
+    kept: dict[str, Any] = {
+        "title": title_of(source) if task is not None else scene.title,
+        "about": task.goal if task is not None else scene.about,
+        "parameters": settings,
+        "pull": _pull(scene, chosen, bool(limits)),
+        "facts": [{"key": fact.key, "label": fact.label, "unit": fact.unit} for fact in facts],
+        "held": ", ".join(held.name for held in controls.held),
+        "task": sessions.task_document(task) if task is not None else None,
+        "match": None,
+        "place": None,
     }
+    if match is not None:
+        rules = match.contest.match
+        kept |= {"title": rules.title, "about": rules.goal, "match": match.standing, "facts": []}
+        kept["place"] = list(rules.free[:2]) if len(rules.free) >= 2 else None  # along x and y
+    return {"kept": kept}
 
 
 def _may_change(parameter: Parameter) -> bool:
@@ -182,7 +200,7 @@ def _setting(parameter: Parameter, sliders: Sequence[str]) -> dict[str, Any]:
     }
 
 
-def _pull(scene: Scene, chosen: Mapping[str, Parameter], is_task: bool) -> dict[str, Any] | None:
+def _pull(scene: Scene, chosen: Mapping[str, Parameter], limited: bool) -> dict[str, Any] | None:
     """Return the effect of a pull: the speed at each share of a full pull, and the steps of keys; None without speed or
     angle."""
     controls = scene.controls
@@ -193,7 +211,7 @@ def _pull(scene: Scene, chosen: Mapping[str, Parameter], is_task: bool) -> dict[
     return {
         "speed": controls.speed,
         "angle": controls.angle,
-        "sets": {} if is_task else dict(controls.set_on_pull),
+        "sets": {} if limited else dict(controls.set_on_pull),
         "speeds": [float(f"{speeds.at(share):.4g}") for share in np.linspace(0.0, 1.0, _PULLS).tolist()],
         "push": float(f"{PUSH * speeds.highest:.1g}"),
         "spins": [{"key": spin.key, "step": spin.step} for spin in controls.spins],
@@ -205,65 +223,94 @@ def _pull(scene: Scene, chosen: Mapping[str, Parameter], is_task: bool) -> dict[
 # ---------------------------------------------------------------------------------------------------------------------
 
 
+@contextmanager
+def _drawing(ask: Ask) -> Iterator[Layout]:
+    """Draw in the units and for the page of a player: the layout of his picture."""
+    scene = sessions.task_of(ask.source).scene if isinstance(ask.game, Game) else _scene(ask.source)
+    layout = layout_of(scene, ask.room)
+    with shown_in(ask.units), drawn_at(layout.density, bare=True):
+        yield layout
+
+
 @_replying
 def path(ask: Ask) -> Reply:
-    """The run while a player aims: its paths, verdict and numbers; as much of it as a task shows."""
-    with shown_in(ask.units):
-        scene, run, view, session = _flown(ask)
-        until = sessions.shown_until(session, run, view.ball)
+    """The run while a player aims: its paths, verdict and numbers; as much of it as a task or a game shows."""
+    with _drawing(ask) as layout:
+        scene, run, view, contest = _flown(ask, layout)
+        until = sessions.shown_until(contest, run, view.ball)
         data = _run_data(scene, run, view) if until is None else _start(scene, run, view, until)
-        return {"message": _packed("path", n=ask.n, run=data | _standing(session))}
+        return {"message": _packed("path", n=ask.n, run=data | _standing(contest))}
 
 
 @_replying
 def _hidden(ask: Ask) -> Reply:
     """The run as far as a player knows it who is to predict it: where the balls begin."""
-    with shown_in(ask.units):
-        scene, run, view, session = _flown(ask)
-        return {"message": _packed("path", n=ask.n, run=_start(scene, run, view, 0.0) | _standing(session))}
+    with _drawing(ask) as layout:
+        scene, run, view, contest = _flown(ask, layout)
+        return {"message": _packed("path", n=ask.n, run=_start(scene, run, view, 0.0) | _standing(contest))}
 
 
 @_replying
 def shot(ask: Ask) -> Reply:
     """The run that a player let go: with forces, events and energy, and what the others see of it."""
-    with shown_in(ask.units):
-        session = sessions.session_of(ask)
-        scene = _scene(ask.source).changed(ask.changes, "") if session is None else session.aimed(dict(ask.changes))
+    with _drawing(ask) as layout:
+        contest = sessions.contest_of(ask)
+        scene = _scene(ask.source).changed(ask.changes, "") if contest is None else contest.aimed()
         run = simulate(scene)
-        view = scene.picture(run, LAYOUTS[ask.narrow][0])
-        if session is not None:
-            sessions.recorded(ask, session, run)
-        standing = _standing(session)
+        view = scene.picture(run, layout.size)
+        verdict, good = (scene.verdict(run), Shot(scene, run).scored) if contest is None else contest.call(run)
+        outcome = {}
+        if isinstance(contest, sessions.InMatch):
+            outcome = {fact: run.result[fact] for fact in contest.contest.match.facts}
+        if contest is not None:
+            contest.record(run)
+        standing = _standing(contest)
         more = {
             **force_data(view, run),
             **story_data(view),
             "event_rows": event_rows(run),
             "energy": _energy(run),
+            "verdict": verdict,
+            "good": good,
             **standing,
         }
         numbers = {key: run.result[key] for key, fact in scene.facts.items() if fact.label and fact.unit}
         kept = {
-            "verdict": scene.verdict(run),
-            "scored": Shot(scene, run).scored,
+            "verdict": verdict,
+            "scored": good,
             "facts": {key: value for key, value in numbers.items() if isinstance(value, int | float)},
             "line": _line(view, run.trajectory(view.ball)[:, 1:3], _LINE_PIXELS),
             **standing,
         }
         message = _packed("shot", n=ask.n, run=_run_data(scene, run, view) | more)
-        return {"message": message, "kept": json_ready(kept, _DIGITS)}
+        return {"message": message, "kept": json_ready(kept, _DIGITS) | {"outcome": json_ready(outcome)}}
+
+
+@_replying
+def small(ask: Ask) -> Reply:
+    """A small picture of a shot: its whole path on its place, as a WebP file."""
+    with shown_in(ask.units), drawn_at(_SMALL_DENSITY, bare=True):
+        contest = sessions.contest_of(ask)
+        scene = _scene(ask.source).changed(ask.changes, "") if contest is None else contest.aimed()
+        view = scene.picture(simulate(scene), (2 * TILE[0], 2 * TILE[1]))
+        for _ in view.layers():
+            pass
+        out = io.BytesIO()
+        to_image(view.sheet.surface).reduce(2).save(out, "WEBP", quality=80, method=0)
+        return {"message": out.getvalue()}
 
 
 @_replying
 def _stage(ask: Ask) -> Reply:
     """The place without the run, as it is seen from where the whole run is in sight; where the run is hidden, that of
     the scene's own shot."""
-    size, density = LAYOUTS[ask.narrow]
-    with shown_in(ask.units), drawn_at(density):
-        session = sessions.session_of(ask)
-        if session is not None and session.task.shown != "all":
+    with _drawing(ask) as layout:
+        contest = sessions.contest_of(ask)
+        if contest is not None and contest.path_shown != "all":
             ask = ask._replace(changes={})
-        scene, _, view, _ = _flown(ask, size)
-        data = place_data(view) | {"view": stage_data(view), "place": _place(scene), "dark": view.on_dark}
+        scene, _, view, _ = _flown(ask, layout)
+        seen = stage_data(view, layout.turned)
+        data = place_data(view) | {"view": seen, "room": ask.room, "place": _place(scene), "dark": view.on_dark}
         others = [(lighter(colour) if view.on_dark else colour, lighter(colour)) for colour in view.OTHER_TRACES]
         data["others"] = [tuple(map(css, both)) for both in others]  # on the picture and on the card
         data["good"] = css(CARD["good"])
@@ -273,11 +320,11 @@ def _stage(ask: Ask) -> Reply:
 @_replying
 def _fan(ask: Ask) -> Reply:
     """Similar shots as a player would play them, and how many of them score."""
-    with shown_in(ask.units):
-        session = sessions.session_of(ask)
-        if session is not None and session.task.shown != "all":
-            return {"message": _packed("fan", n=ask.n, said="no similar shots: this task does not show the whole path")}
-        scene, _, view, _ = _flown(ask)
+    with _drawing(ask) as layout:
+        contest = sessions.contest_of(ask)
+        if contest is not None and contest.path_shown != "all":
+            return {"message": _packed("fan", n=ask.n, said="no similar shots: the whole path is not shown here")}
+        scene, _, view, _ = _flown(ask, layout)
         found = fan_of(scene, FAN)
         if found is None:
             said = "no fan: this shot does not start from the player's controls"
@@ -287,21 +334,18 @@ def _fan(ask: Ask) -> Reply:
         return {"message": _packed("fan", n=ask.n, said=found.said, by=found.by, lines=lines, bars=bars)}
 
 
-def _flown(ask: Ask, size: tuple[int, int] | None = None) -> tuple[Scene, SceneRun, View[Any], Session | None]:
-    """The scene with its changes, its run, the run's picture, and where the player is in a task."""
-    session = sessions.session_of(ask)
-    if session is None:
-        scene = _scene(ask.source).changed(ask.changes, "")
-    else:
-        scene = session.scene.changed(session.task.aimed(dict(ask.changes)), "")
+def _flown(ask: Ask, layout: Layout) -> tuple[Scene, SceneRun, View[Any], Contest]:
+    """The scene with its changes, its run, the run's picture, and what the player is in the middle of."""
+    contest = sessions.contest_of(ask)
+    scene = _scene(ask.source).changed(ask.changes, "") if contest is None else contest.scene()
     with _limited(PATH):
         run = simulate(scene)
-    return scene, run, scene.picture(run, size or LAYOUTS[ask.narrow][0]), session
+    return scene, run, scene.picture(run, layout.size), contest
 
 
-def _standing(session: Session | None) -> dict[str, Any]:
-    """Return the player's standing in a task, as a part of a message."""
-    return {} if session is None else {"task": sessions.standing(session)}
+def _standing(contest: Contest) -> dict[str, Any]:
+    """Return the player's standing in a task or a match, as a part of a message."""
+    return {} if contest is None else {_STANDING[type(contest)]: contest.standing}
 
 
 def _start(scene: Scene, run: SceneRun, view: View[Any], until: float) -> dict[str, Any]:
@@ -362,7 +406,7 @@ def warmed(sources: Sequence[str]) -> Reply:
     for source in sources:
         scene = _scene(source)
         run = simulate(scene)
-        path_data(scene.picture(run, LAYOUTS[0][0]), run)
+        path_data(scene.picture(run), run)
     return {"kept": {}}
 
 

@@ -58,6 +58,7 @@ class Picture(AboveView[Parameters]):
     """One shot on a table that stands still."""
 
     OTHER_TRACES = COLOURS["earlier"]
+    STANDS_UPRIGHT = True
     SPIN_NAMES = ("left", "right")  # counter-clockwise is what a tip to the right gives
 
     @property

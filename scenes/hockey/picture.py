@@ -57,6 +57,7 @@ BOTH = (-1, 1)
 
 class Picture(AboveView[Parameters]):
     OTHER_TRACES, THING, CAVEAT = COLOURS["earlier"], "puck", "not validated"
+    STANDS_UPRIGHT = True
 
     @property
     def table(self) -> bool:

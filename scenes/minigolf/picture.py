@@ -37,7 +37,7 @@ BANDS = 24
 
 class Picture(AboveView[Parameters]):
     LOOK, TRACE, OTHER_TRACES = Look(COLOURS["ball"], seams(COLOURS["seam"])), COLOURS["trace"], COLOURS["earlier"]
-    DRIVEN, CAVEAT = COLOURS["driven"], "boards and blades not validated"
+    DRIVEN, CAVEAT, STANDS_UPRIGHT = COLOURS["driven"], "boards and blades not validated", True
 
     @property
     def area(self) -> Area:

@@ -55,7 +55,7 @@ class Picture(AboveView[Parameters]):
 
     LOOK, TRACE, OTHER_TRACES = FromTheSide.LOOK, FromTheSide.TRACE, FromTheSide.OTHER_TRACES
     FAINT_TRACE = mix(TRACE, COLOURS["grass"][0], 0.3)
-    TRAIL, MIN_STROBE_SHARE, DUSK = 0.4, 0.6, COLOURS["dusk"]
+    TRAIL, MIN_STROBE_SHARE, DUSK, STANDS_UPRIGHT = 0.4, 0.6, COLOURS["dusk"], True
 
     @property
     def balls(self) -> list[str]:
