@@ -27,8 +27,8 @@ function amount(value, unit) {
 // ------------------------------------------------------------------------------------------------ the page
 
 class Player {
-  constructor(data) {
-    this.canvas = $("picture");
+  constructor(data, canvas = $("picture")) {
+    this.canvas = canvas;
     this.context = this.canvas.getContext("2d");
     this.power = 0; // of two: the speed
     this.hint = document.createElement("div");

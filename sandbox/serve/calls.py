@@ -23,7 +23,7 @@ class Game(NamedTuple):
 
 
 class Duel(NamedTuple):
-    """Where two players are in a game of a scene: their names, the seed of their aims, the facts of each shot."""
+    """The match of two players in a game of a scene: their names, the seed of their aims, the facts of each shot."""
 
     game: str
     players: tuple[str, str]

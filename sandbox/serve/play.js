@@ -7,6 +7,7 @@ const SEEN = 2500; // ms for which the end of a shot stays, before a match goes 
 const MOST_COMPARED = 3;
 
 const state = { source: "", changes: {}, scene: null, stage: null, run: null, lead: {}, compared: [], shot: false, name: "", scenes: new Map() };
+const names = document.querySelectorAll(".name input"); // on the tiles, and beside a picture
 let player = null, wire, ask, settings, timers = {};
 
 // ------------------------------------------------------------------------------------------------ choosing
@@ -203,13 +204,14 @@ function again(asking) {
 const heard = {
   welcome({ session, name, scenes }) {
     sessionStorage.setItem("session", session);
-    $("name").value = state.name = name;
+    for (const field of names) field.value = name;
+    state.name = name;
     state.scenes = new Map(scenes.map(([source, about, kind, sport, title]) => [source, { about, kind, sport, title }]));
     $("sports").hidden = scenes.length === 1;
   },
   name({ name }) {
     state.name = name;
-    if (document.activeElement !== $("name")) $("name").value = name;
+    for (const field of names) if (document.activeElement !== field) field.value = name;
   },
   lead(lead) {
     const before = state.lead;
@@ -506,10 +508,12 @@ function begin() {
   $("reset").addEventListener("click", () => ((state.changes = {}), changed(true)));
   $("keep").addEventListener("click", keep);
   $("drop").addEventListener("click", () => ((state.compared = []), compare(), state.run && show(state.run)));
-  $("name").addEventListener("change", () => {
-    localStorage.setItem("name", $("name").value);
-    wire.send({ do: "name", name: $("name").value });
-  });
+  for (const field of names) {
+    field.addEventListener("change", () => {
+      localStorage.setItem("name", field.value);
+      wire.send({ do: "name", name: field.value });
+    });
+  }
   $("fan").addEventListener("change", () => {
     $("fan-said").hidden = true;
     if (player) [player.fan = null, player.draw()];

@@ -47,7 +47,7 @@ class _Row(NamedTuple):
 
 
 @dataclass(eq=False)
-class Pair:
+class _Pair:
     """Two players in one match, or one who waits for the second."""
 
     name: str  # of the game, as it is listed
@@ -57,7 +57,7 @@ class Pair:
     scene: Mapping[str, Any] | None = None  # the description of the next shot; None while one waits
 
     def duel(self, game: str) -> calls.Duel:
-        """Where the match stands, for a process that computes."""
+        """The match so far, for a process that computes."""
         first, second = (player.name for player in self.players)
         return calls.Duel(game, (first, second), self.seed, self.outcomes)
 
@@ -83,7 +83,7 @@ class Player:
     last: dict[str, Any] | None = None  # what the others see of the last shot
     tries: list[Mapping[str, Any]] = field(default_factory=list)  # in a task: what was set for each shot
     shooting: bool = False  # a shot is being computed
-    pair: Pair | None = None  # in a match
+    pair: _Pair | None = None  # in a match
 
 
 @dataclass(eq=False)
@@ -110,7 +110,7 @@ class Room:
         self.lead = _Lead()
         self.rows: deque[_Row] = deque(maxlen=ROWS)
         self.small: dict[int, bytes] = {}  # pictures of shots, by their numbers
-        self.pairs: list[Pair] = []  # matches
+        self.pairs: list[_Pair] = []  # matches
         self.counted = 0
         self.seed = secrets.randbelow(2**31)  # of tasks: the same starts for all
         self._numbered = 0
@@ -315,7 +315,7 @@ class Room:
         waiting = (each for each in self.pairs if each.name == name and len(each.players) == 1)
         pair = next((each for each in waiting if each.players[0].connection is not None), None)
         if pair is None:
-            pair = Pair(name, secrets.randbelow(2**31), [])
+            pair = _Pair(name, secrets.randbelow(2**31), [])
             self.pairs.append(pair)
         pair.players.append(player)
         player.pair, player.source, player.changes, player.tries = pair, name, {}, []
@@ -324,7 +324,7 @@ class Room:
         else:
             self._show_match(pair)
 
-    async def _next_shot(self, pair: Pair) -> None:
+    async def _next_shot(self, pair: _Pair) -> None:
         """Show both players of a match its next shot. Raises RequestError."""
         listed, number = self.scenes[pair.name], len(pair.outcomes)
         asked = calls.described, listed.source, False, pair.duel(listed.game)
@@ -335,7 +335,7 @@ class Room:
                 player.changes = {}
             self._show_match(pair)
 
-    def _show_match(self, pair: Pair) -> None:
+    def _show_match(self, pair: _Pair) -> None:
         """Tell both players of a match, or the one who waits, where it stands."""
         for place, player in enumerate(pair.players):
             if player.connection is None:
@@ -383,7 +383,7 @@ class Room:
         return calls.Ask(listed.source, changes, message.n, message.room, self.units, in_game)
 
     def _game_of(self, player: Player) -> calls.Game | calls.Duel:
-        """Where a player is in a task or a match."""
+        """The task or match of a player so far."""
         if player.pair is not None:
             return player.pair.duel(self.scenes[player.pair.name].game)
         return calls.Game(self.seed, player.number, tuple(player.tries))

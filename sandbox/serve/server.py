@@ -47,14 +47,15 @@ class Address(NamedTuple):
 
 
 def _scenes_of(names: Sequence[str]) -> dict[str, Listed]:
-    """What may be played, by the names under which it is listed: of the scenes named, by default of all installed ones
+    """All that may be played, by the names under which it is listed: of the scenes named, by default of all installed ones
     in the order of their tiles, each with its tasks, games and presets. Raises RequestError. No scene is imported for
     this."""
     known = {sport.name: sport for sport in sports() if not sport.own}
     found: dict[str, Listed] = {}
     for name in names or known:
         if is_task(name):
-            found[name] = _task(name)
+            sport = find_task(name).parent.parent.name
+            found.setdefault(name, _task(name, sport if sport in known else ""))
             continue
         listed = listings_of(name)
         exact = [each for each in listed if each.name == name]

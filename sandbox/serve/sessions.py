@@ -105,7 +105,7 @@ class InMatch:
 
     @property
     def standing(self) -> dict[str, Any]:
-        """Where the match stands."""
+        """The state of the match: players, scores, whose turn it is, and how it ended."""
         match = self.contest.match
         return {
             "players": match.players,
@@ -120,7 +120,7 @@ class InMatch:
 
 
 def contest_of(ask: Ask) -> InTask | InMatch | None:
-    """What the player is in the middle of; None for a scene."""
+    """The task or match that the player is in the middle of; None for a scene."""
     if isinstance(ask.game, Duel):
         return InMatch(ask, ask.game)
     return None if ask.game is None else InTask(ask, ask.game)

@@ -17,7 +17,6 @@ from selenium.webdriver.support.wait import WebDriverWait
 import sandbox
 from sandbox.cli import main
 from sandbox.page.parts import save
-from sandbox.page.playing import stage_data
 from sandbox.page.replay import LAYOUTS, page_of
 from sandbox.parameters import parse_assignment
 from sandbox.scene.writing import command
@@ -135,15 +134,6 @@ def test_the_camera_goes_with_the_story_as_in_frames(browser, pages):
         assert at == pytest.approx(camera.pixel(x, y), abs=0.02 * view.size[0])
         assert slower == pytest.approx(view.slower(t), rel=0.2)
     assert browser.complaints() == []
-
-
-def test_a_headline_stays_beside_a_pinball_table():
-    view = run_of("pinball").scene.picture(run_of("pinball"), LAYOUTS[0][0])
-    stage, (table,) = stage_data(view), view.aims
-    left = view.camera.pixel(table.left, 0.0)[0]
-    assert 0.5 * left < view.sheet.frame.left + stage["room"] < left
-    long = run_of("golf").scene.picture(run_of("golf"), LAYOUTS[0][0])
-    assert stage_data(long)["room"] > 0.8 * LAYOUTS[0][0][0]
 
 
 def test_a_longer_run_that_is_compared_is_drawn_to_its_end(browser, pages):

@@ -113,6 +113,8 @@ def test_aim_shoot_and_compare_by_mouse_and_keys(pages, browser: Browser):
     mouse.release().perform()
     page.until("state.shot && player.watched")
     assert browser.run("player.data.forces.causes.length") > 0
+    page.driver.find_element(By.CSS_SELECTOR, "#shot-more summary").click()
+    page.until("document.querySelector('#energy-legend li')")
     assert browser.text("#energy-legend li")[0].startswith("at the end, of ")
     assert browser.text("#card thead th")[0] == "now"
     assert "speed" in browser.text("#card thead th")[1]
@@ -176,7 +178,6 @@ def test_sliders_fan_and_link(pages, browser: Browser, served: Served):
     other.aimed()
     assert other.changes() == changes_there
     assert browser.run("document.documentElement.scrollWidth") <= 390
-    assert browser.run("state.stage.view.size[0]") == 801
     assert other.complaints() == []
 
 
@@ -238,7 +239,7 @@ def test_touch_pulls_and_a_lost_connection_comes_back(pages, browser: Browser):
 def test_a_teacher_and_two_pupils(pages, browser: Browser, served: Served):
     teacher = pages(served.teacher)
     teacher.until("state.scene && board")
-    pupil = pages("")
+    pupil = pages("#basketball")
     pupil.aimed()
     pupil.type("name", NAME)
     other = Client(served.url, name="Ben")
@@ -246,14 +247,13 @@ def test_a_teacher_and_two_pupils(pages, browser: Browser, served: Served):
     teacher.until("state.room.players.some(({ here, name }) => here && name === arguments[0])", NAME[:20])
     assert NAME[:20] in "".join(browser.text("#players li"))
     assert browser.run("document.querySelectorAll('#players img').length") == 0
-    Select(teacher.find("scene")).select_by_value("golf")
-    teacher.find("lead").click()
+    browser.run("document.querySelector('#given [data-source=golf]').click()")  # one press
     teacher.until("state.room.lead.source === 'golf' && !ask.stage.awaited && !ask.path.awaited")
     Select(teacher.find("predict")).select_by_value("carry")
     pupil.at()
     pupil.until("state.source === 'golf' && state.run?.hidden && !ask.stage.awaited")
     assert pupil.verdict() == "Predict the carry, then shoot"
-    assert not pupil.find("scene").is_enabled()
+    assert not pupil.find("sports").is_enabled()
     pupil.find("predicted").send_keys("240", Keys.ENTER)
     pupil.until("state.shot")
     assert browser.text("#card tbody tr:first-child")[0] == "your prediction240 m"
@@ -271,6 +271,7 @@ def test_a_teacher_and_two_pupils(pages, browser: Browser, served: Served):
     assert rows
     assert f"{carry:.1f}240{240 - carry:.2f}" in rows[0].replace("−", "-")
     assert "mean" in browser.text("#bars-title")[0]
+    assert "standard deviation" in browser.text("#bars-title")[0]
     teacher.find("freeze").click()
     pupil.at()
     pupil.until("!document.getElementById('told').hidden")
@@ -287,7 +288,7 @@ def test_a_teacher_and_two_pupils(pages, browser: Browser, served: Served):
 
 def test_a_line_says_what_is_waited_for(pages, browser: Browser):
     """In place of the picture: never a black box, nor one that is stretched once a phone was turned."""
-    page = pages("", width=390, height=844)
+    page = pages("#basketball", width=390, height=844)
     page.aimed()
     line = "document.getElementById('waiting')"
     page.until(f"{line}.hidden")
@@ -296,48 +297,113 @@ def test_a_line_says_what_is_waited_for(pages, browser: Browser):
     page.until(f"!{line}.hidden")
     assert browser.text("#waiting") == ["Turning the picture ..."]
     browser.run("(delete ask.stage.ask, askStage())")
-    page.until(f"{line}.hidden && state.stage.view.size[0] === 1600")
-    browser.run("(ask.stage.ask = () => {})")
-    Select(page.find("scene")).select_by_value("golf")
-    page.until(f"!{line}.hidden && state.source === 'golf'")
-    assert browser.text("#waiting") == ["Loading golf ..."]
+    page.until(f"{line}.hidden && fits(state.stage)")
+    assert browser.run("player.across[0] / player.across[1]") == pytest.approx(
+        browser.run("player.canvas.clientWidth / player.canvas.clientHeight"), rel=0.01
+    )
+
+
+def test_tiles_lead_to_tasks_and_scenes(pages, browser: Browser):
+    """They are there before any script, and the picture of a tile before any player is computed; by keyboard, too."""
+    page = pages("")
+    assert browser.run("document.querySelectorAll('.tiles img').length") == 3
+    assert browser.text(".tiles em") == ["Start here"]
+    page.find("your-name").send_keys(Keys.TAB)
+    for key in (Keys.TAB, Keys.ENTER):  # over the first tile to the second
+        page.driver.switch_to.active_element.send_keys(key)
+    assert browser.text("#chosen") == ["Golf"]
+    page.until("state.scenes.size")
+    browser.run("(ask.stage.ask = () => {})")  # a server that takes long
+    page.driver.find_element(By.CSS_SELECTOR, ".sport [data-source='golf']").click()
+    assert browser.text("#waiting") == ["Loading Golf ..."]
+    assert "tile-golf.jpg" in browser.run("document.getElementById('waiting').style.backgroundImage")
+    page.until("state.source === 'golf'")
     browser.run("(delete ask.stage.ask, askStage())")
-    page.until(f"{line}.hidden")
+    page.aimed()
+    page.find("sports").click()
+    assert browser.text("#chosen") == ["Golf"]
+    assert page.complaints() == []
 
 
-def test_a_teacher_finds_the_shots_of_other_scenes(pages, browser: Browser, served: Served):
+def test_a_pull_on_a_table_that_stands_upright(pages, browser: Browser):
+    """Is turned with it: down the screen, the ball goes up it, along the table."""
+    page = pages("#billiards", width=390, height=844)
+    page.aimed()
+    assert browser.run("player.view.turned")
+    mouse = ActionChains(page.driver, duration=20).move_to_element(page.find("picture")).click_and_hold()
+    mouse.move_by_offset(0, 100).perform()
+    page.aimed()
+    assert page.changes().get("cue.angle", 0.0) == pytest.approx(0.0, abs=0.5)
+    seen = "((t) => player.onScreen(player.pixel(...player.main.path.state(t).slice(0, 2))))"
+    start, on = browser.run(f"[{seen}(0), {seen}(0.05)]")
+    assert on[1] < start[1] - 5
+    assert on[0] == pytest.approx(start[0], abs=1.0)
+    mouse = ActionChains(page.driver, duration=20)
+    mouse.release().perform()
+    page.until("state.shot")
+    assert page.complaints() == []
+
+
+def test_a_teacher_finds_and_presents_the_shots_of_other_scenes(pages, browser: Browser, served: Served):
+    """Small pictures of all shots, of one task or player; one of them large, for all to see."""
     ann = Client(served.url, name="Ann", source="golf")
-    ann.hear("shot", n=ann.ask("shoot"))
+    run = ann.hear("shot", n=ann.ask("shoot"))["run"]
     teacher = pages(served.teacher)
     teacher.until("state.scene && board && state.source === 'basketball'")
-    teacher.until(
-        "[...document.querySelectorAll('#others button')].some((each) => each.textContent.startsWith('golf: '))"
-    )
-    assert any("Ann" in item and "in golf" in item for item in browser.text("#players li"))
-    browser.run(
-        "[...document.querySelectorAll('#others button')].find((each) => each.textContent.startsWith('golf: ')).click()"
-    )
+    teacher.until("[...document.querySelectorAll('#which option')].some((each) => each.text.startsWith('golf ('))")
+    assert any("Ann" in item and "active" in item and "in golf" in item for item in browser.text("#players li"))
+    Select(teacher.find("which")).select_by_value("golf")
     teacher.until("state.source === 'golf' && state.run && document.querySelectorAll('#shots tbody tr').length")
     assert any("Ann" in row for row in browser.text("#shots tbody tr"))
+    teacher.until("document.querySelector('#small img').naturalWidth === 320")
+    assert all("golf" in item for item in browser.text("#small li"))
+    teacher.driver.find_element(By.CSS_SELECTOR, "#small button").click()
+    teacher.until("present.player && document.getElementById('presenting').hidden")
+    assert browser.text("#presented-title") == [f"Ann: {run['verdict']}"]
+    assert browser.run("present.player.main.path.arcs.length") == len(run["balls"][0]["path"]["arcs"])
+    teacher.find("close").click()
     ann.close()
+    assert teacher.complaints() == []
 
 
-def test_names_of_those_who_left_can_be_read(pages, browser: Browser, served: Served):
-    """With a contrast of 4.5 to 1 at least (WCAG AA), on light and on dark."""
+#: Every element with text of its own that is seen: its text, colour, and the grounds under it, the nearest first.
+TEXTS = """(() => [...document.querySelectorAll("body *")].filter((each) => each.checkVisibility()
+  && !each.disabled && [...each.childNodes].some((node) => node.nodeType === 3 && node.data.trim())).map((each) => {
+    const grounds = [];
+    for (let at = each; at; at = at.parentElement) grounds.push(getComputedStyle(at).backgroundColor);
+    const over = each.closest(".picture") !== null && !each.closest("#waiting, #ending, #called");
+    const text = each.textContent.trim().slice(0, 30);
+    return over || each.closest("option, .hidden") ? null : [text, getComputedStyle(each).color, grounds];
+  }).filter(Boolean))()"""
+
+
+def channels(colour: str) -> list[float]:
+    """Red, green and blue of 255, and opacity."""
+    found = [float(part) for part in re.findall(r"[\d.]+", colour)]
+    return [*found, 1.0][:4]
+
+
+def test_all_that_is_written_can_be_read(pages, browser: Browser, served: Served):
+    """With a contrast of 4.5 to 1 at least (WCAG AA), on light and on dark: tiles, a sport, a scene, and the teacher's
+    page with the names of those who left."""
     gone = Client(served.url, name="Gone")
     gone.hear("welcome")
-    teacher = pages(served.teacher)
+    page, scene, teacher = pages(""), pages("#basketball"), pages(served.teacher)
     teacher.until("state.room.players.some(({ name }) => name === 'Gone')")
     gone.close()
     teacher.until("document.querySelector('#players .away')")
-    for dark in (False, True):
-        browser.resize(1280, 900, dark=dark)
-        style = "getComputedStyle(document.querySelector('#players .away'))"
-        ink, opacity = browser.run(f"[{style}.color, Number({style}.opacity)]")
-        paper = browser.run("getComputedStyle(document.body).backgroundColor")
-        (one, two) = ([int(part) for part in re.findall(r"\d+", colour)[:3]] for colour in (ink, paper))
-        seen = [opacity * a + (1 - opacity) * b for a, b in zip(one, two, strict=True)]
-        assert contrast(seen, two) >= 4.5
+    scene.at().aimed()
+    sport = pages("")
+    browser.run("(choose('golf'), 0)")
+    for each in (page, sport, scene, teacher):
+        each.at()
+        for dark in (False, True):
+            browser.resize(1280, 900, dark=dark)
+            texts = browser.run(TEXTS)
+            assert len(texts) > 5
+            for text, ink, grounds in texts:
+                ground = next(each for each in map(channels, grounds) if each[3] == 1.0)
+                assert contrast(channels(ink)[:3], ground[:3]) >= 4.5, (text, ink, ground)
 
 
 def contrast(one: Sequence[float], two: Sequence[float]) -> float:
@@ -351,18 +417,18 @@ def contrast(one: Sequence[float], two: Sequence[float]) -> float:
 
 
 def test_everything_has_a_label_and_fits(pages, browser: Browser):
-    page = pages("")
+    page = pages("#basketball")
     page.aimed()
     named = "each.labels?.length || each.getAttribute('aria-label') || each.textContent.trim()"
     every = "[...document.querySelectorAll('button, input, select, canvas, summary')]"
     assert browser.run(f"{every}.filter((each) => !({named})).map((each) => each.outerHTML)") == []
     buttons = "[...document.querySelectorAll('button, select')].filter((each) => each.offsetParent)"
-    for width, view in ((1280, 1600), (820, 1600), (390, 801)):
+    for width in (1280, 820, 390):
         browser.resize(width, 900)
-        page.until("state.stage.view.size[0] === arguments[0] && player.view === state.stage.view", view)
+        page.until("fits(state.stage) && player.view === state.stage.view")
         assert browser.run("document.documentElement.scrollWidth") <= width
         assert browser.run(f"{buttons}.filter((each) => each.offsetHeight < 32).map((each) => each.outerHTML)") == []
     browser.resize(844, 390)  # on its side: a finger on the picture aims, so it must not fill the screen
-    page.until("state.stage.view.size[0] === 1600 && player.view === state.stage.view")
+    page.until("fits(state.stage) && player.view === state.stage.view")
     page.until("document.getElementById('shoot').getBoundingClientRect().bottom <= innerHeight")
     assert page.complaints() == []

@@ -19,7 +19,6 @@ import pytest
 
 import sandbox
 from sandbox import tasks
-from sandbox.page.replay import LAYOUTS
 from sandbox.serve import calls, command, server, sessions, tokens, work
 from sandbox.serve.limits import AWAY, PLAYERS
 from sandbox.serve.room import Listed, Player, Room
@@ -29,9 +28,8 @@ from tests.serve.conftest import Client, serving
 
 def test_a_path_is_that_of_python(player):
     """With every number to 1 um, for changes within bounds."""
-    client = player()
-    scene = client.hear("scene")
-    assert scene["source"] == "basketball"
+    client = player(source="basketball")
+    client.hear("scene")
     changes = {"launch.speed": 7.6, "launch.angle": 55.0, "air.wind[0]": -2.0}
     n = client.ask("path", changes)
     run = client.hear("path", n=n)["run"]
@@ -48,8 +46,9 @@ def test_a_path_is_that_of_python(player):
 
 def test_place_fan_and_shot_come_as_asked(player):
     client = player(source="basketball")
-    stage = client.hear("stage", n=client.ask("stage", narrow=True))["stage"]
-    assert stage["view"]["size"][0] == LAYOUTS[1][0][0]
+    stage = client.hear("stage", n=client.ask("stage", room=[390, 700]))["stage"]
+    assert stage["room"] == [390, 700]
+    assert stage["view"]["size"] == [780, 780]  # a side view is no taller than wide
     assert stage["view"]["place"].startswith("data:image/webp;base64,")
     fan = client.hear("fan", n=client.ask("fan"))
     assert len(fan["lines"]) == 100
@@ -101,7 +100,7 @@ def test_players_who_left_make_room_for_new_ones():
 
 def test_a_teacher_may_look_at_another_scene(player):
     """Which no pupil notices."""
-    teacher, ann = player(teacher=True), player(name="Ann")
+    teacher, ann = player(teacher=True), player(name="Ann", source="basketball")
     assert teacher.hear("scene")["source"] == ann.hear("scene")["source"] == "basketball"
     teacher.say(do="see", source="golf")
     assert teacher.hear("scene")["source"] == "golf"
@@ -172,7 +171,7 @@ def test_the_addresses_stay_for_some_hours(tmp_path: Path, monkeypatch: pytest.M
 def test_the_teacher_leads_freezes_and_sees_the_shots(player):
     teacher, ann, ben = player(teacher=True), player(name="Cleo"), player(name="=Ben()")
     for client in (ann, ben):
-        client.hear("scene")
+        client.hear("welcome")
     teacher.say(do="clear")
     teacher.say(do="lead", source="golf", changes={"launch.angle": 20.0})
     for client in (ann, ben):
@@ -238,9 +237,53 @@ def test_a_task_is_played_to_its_end(player):
     assert told[-1]["task"]["total"].endswith(" made")
     client.say(do="play", source="free-throw")
     client.hear("scene")
-    assert client.hear("path", n=client.ask("path"))["run"]["task"] | {"total": ""} == {
-        "attempt": 1, "attempts": task.attempts, "total": "", "over": False, "passed": False, "stars": 0,
-    }  # fmt: skip
+    standing = client.hear("path", n=client.ask("path"))["run"]["task"]
+    assert (standing["attempt"], standing["over"], standing["stars"]) == (1, False, 0)
+    assert (standing["to_pass"], standing["for_stars"][2]) == ("3", "5")
+
+
+def test_two_browsers_play_a_match_in_turn(player):
+    """Each sees both scores and every shot; who is not to shoot cannot; and who leaves ends it."""
+    game = "billiards/games/nine-ball"
+    ann, ben = player(name="Ann", source=game), player(name="Ben")
+    assert ann.hear("waits")["title"] == "Nine ball"
+    ben.say(do="play", source=game)
+    both = {client.hear("scene")["you"]: client for client in (ann, ben)}
+    assert both == {0: ann, 1: ben}
+    ben.ask("shoot")
+    assert ben.hear("error")["text"] == "it is not your turn"
+    ann.ask("path", {"table.length": 3.0})
+    assert ann.hear("error")["text"] == "table.length: cannot be changed here"
+    softly = {"cue.speed": 0.5, "cue.angle": 90.0}  # at no ball: a foul
+    n = ann.ask("shoot", softly)
+    runs = [client.hear("shot", n=n)["run"] for client in (ann, ben)]
+    assert runs[0]["verdict"] == runs[1]["verdict"] == "Foul: no ball hit. Ball in hand"
+    for client in (ann, ben):
+        match = client.hear("scene", shots=1)["match"]
+        assert (match["turn"], match["status"], match["over"]) == (1, "Ben to play", False)
+    assert ben.hear("path", n=ben.ask("path", {"balls[0].y": 0.3}))["run"]["hidden"]  # in hand, as far as is shown
+    ann.say(do="play", source="golf")
+    assert ben.hear("left")["text"] == "Ann has left the match."
+
+
+@pytest.mark.parametrize("kind", [kind for kind in server._scenes_of([]).values() if kind.game])
+def test_each_game_begins_in_a_browser(kind: Listed):
+    """With the controls of a player, and no more, for the one whose turn it is."""
+    duel = calls.Duel(kind.game, ("Ann", "Ben"), 7)
+    described = work.described(kind.source, False, duel)["kept"]
+    assert described["match"]["players"] == ("Ann", "Ben")
+    assert {described["pull"]["speed"], described["pull"]["angle"]} <= {p["key"] for p in described["parameters"]}
+
+
+@pytest.mark.parametrize(("room", "turned"), [((390, 700), True), ((940, 680), False)])
+def test_a_table_stands_upright_where_there_is_room(room, turned: bool):
+    """And its balls are at least 10 px wide."""
+    reply = work.WORKS["stage"](calls.Ask("billiards", {}, 1, room))
+    view = json.loads(zlib.decompress(reply["message"]))["stage"]["view"]
+    wide, tall = reversed(view["size"]) if turned else view["size"]
+    assert (view["turned"], wide > tall) == (turned, not turned)
+    shown = min(room[0] / wide, room[1] / tall)  # px of the page for each of the picture
+    assert 2 * 0.028575 * view["scale"] * shown >= 10.0
 
 
 def test_a_session_is_found_again_from_its_shots():
