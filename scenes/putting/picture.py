@@ -20,6 +20,7 @@ AROUND, BEYOND, GREEN = 0.45, 2.5, 6.0
 class Picture(AboveView[Parameters]):
     LOOK, TRACE, OTHER_TRACES = Look(COLOURS["ball"], seams(COLOURS["seam"])), COLOURS["trace"], COLOURS["earlier"]
     CAVEAT, ON_DARK, DUSK = "lip-outs keep their motion", True, COLOURS["dusk"]
+    STANDS_UPRIGHT = True
 
     @property
     def area(self) -> Area:
