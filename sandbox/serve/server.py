@@ -47,7 +47,7 @@ class Address(NamedTuple):
 
 
 def _scenes_of(names: Sequence[str]) -> dict[str, Listed]:
-    """All that may be played, by the names under which it is listed: of the scenes named, by default of all installed ones
+    """All that may be played, by the names that list it: of the scenes named, by default of all installed ones
     in the order of their tiles, each with its tasks, games and presets. Raises RequestError. No scene is imported for
     this."""
     known = {sport.name: sport for sport in sports() if not sport.own}
