@@ -28,7 +28,7 @@ _FARTHEST = 4.0
 
 #: Shots around each point where the best launch is looked for, and around those near it. All points have the same
 #: deviations, so that the place is as with four times as many; the share has a standard error of 0.04 at most.
-_SHOTS, _MORE = 32, 128
+_SHOTS = 32, 128
 
 
 @dataclass(frozen=True)
@@ -74,7 +74,7 @@ def most_often_in(scene: Scene, vary: str) -> MostOften:
     """The best launch among ranges: ``launch.angle=46:60; launch.speed=7.2:7.8``."""
     spans = [parse_span(scene, "vary", part.strip()) for part in vary.split(";")]
     shots = Shots(scene, spans, [Target(scene.controls.scores, MAXIMIZE)], no_progress)
-    best = next(iter(most_often(shots, _SHOTS, _MORE)), None)
+    best = next(iter(most_often(shots, _SHOTS)), None)
     return MostOften(scene, {} if best is None else {**best.result, **best.values})
 
 

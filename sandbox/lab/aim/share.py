@@ -23,9 +23,11 @@ _SCAN, _CLOSER = {1: 41, 2: 11}, {1: 9, 2: 5}
 _SHOTS, _MORE = 128, 512
 
 
-def most_often(shots: Shots, scanned: int = _SHOTS, tried: int = _MORE) -> list[Solution]:
+def most_often(shots: Shots, around: tuple[int, int] | None = None) -> list[Solution]:
     """The place at which most shots of a practised player have the result, with that share and half of its 95 %
-    interval; [] where no shot has it. Of so many shots around each point of the scan, and of the closer look."""
+    interval; [] where no shot has it. ``around`` is how many are tried around each point of the scan, and of the closer
+    look."""
+    scanned, tried = around or (_SHOTS, _MORE)
     spans = shots.spans
     count = len(spans)
     shots.planned = _SCAN[count] ** count + _CLOSER[count] ** count
