@@ -115,6 +115,13 @@ class ColumnMap:
     form: Form | None = None  # None where the user says it
     notes: tuple[str, ...] = ()
 
+    def sentence(self, scene: Scene) -> str:
+        """Say how the table is read."""
+        named = [f"{source.column} as {source.key}" for source in self.sources if source.column]
+        computed = ", ".join(source.key for source in self.sources if not source.column)
+        named += [f"{computed} by arithmetic (sandbox fit --formats)"] if computed and self.form is not None else []
+        return f"read {f'for {scene.title}' if self.form is None else f'as {self.form.title}'}: {', '.join(named)}"
+
     @property
     def columns(self) -> Mapping[str, str]:
         """The column of each parameter and result that is one."""
@@ -325,6 +332,12 @@ def _unknown_key(entry: Entry, scene: Scene, known: Mapping[str, str]) -> str:
 # ---------------------------------------------------------------------------------------------------------------------
 # A table that is not known
 # ---------------------------------------------------------------------------------------------------------------------
+
+
+def known_elsewhere(scene: Scene) -> set[str]:
+    """The names, in lower case, of columns that devices have for other scenes: a pitch's file has that of the hit."""
+    others = (form for form in forms().values() if form.scene != scene.name)
+    return {entry.text.lower() for form in others for group in form.columns for entry in group}
 
 
 def device(table: Table) -> Form | None:

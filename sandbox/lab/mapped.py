@@ -36,7 +36,7 @@ _NO_VALUE = 1e8
 _TOLD_APART = 4
 
 #: Cells of what was not measured, and of rows that sum others up.
-_MISSING = {"", "-", "--", "–", "n/a", "na", "null", "none"}
+MISSING = {"", "-", "--", "–", "n/a", "na", "null", "none"}
 _SUMMARIES = {"avg", "average", "averages", "dev", "std dev", "std. dev", "deviation", "mean", "total", "consistency",
               "durchschnitt", "mittelwert", "promedio", "moyenne", "gemiddelde", "media", "medie"}  # fmt: skip
 
@@ -152,10 +152,7 @@ def mapped(scene: Scene, table: Table, column_map: ColumnMap, choices: Choices =
     measured = {key: one for key, one in found.items() if key in scene.facts}
     given = {key: one for key, one in found.items() if key not in scene.facts}
     if column_map.form is not None:
-        named = [f"{source.column} as {source.key}" for source in column_map.sources if source.column]
-        computed = ", ".join(source.key for source in column_map.sources if not source.column)
-        named += [f"{computed} by arithmetic (sandbox fit --formats)"] if computed else []
-        notes.insert(0, f"read as {column_map.form.title}: {', '.join(named)}")
+        notes.insert(0, column_map.sentence(scene))
     if where:
         asked = " and ".join(map(str, where))
         notes.insert(0, f"only rows with {asked}: {len(selection.rows)} of {len(table)}")
@@ -258,7 +255,7 @@ def _rows(table: Table, column_map: ColumnMap, where: Sequence[Condition], stric
         name for source in column_map.sources if source.key not in SIDEWAYS for name in source.expression.columns
     )]  # fmt: skip
     zeros, rules = (False, ()) if column_map.form is None else (column_map.form.zeros, column_map.form.leave_out)
-    missing = _MISSING | {"0", "0.0"} if zeros else _MISSING
+    missing = MISSING | {"0", "0.0"} if zeros else MISSING
     for row in list(selection.rows):
         cells = {one.name: one.cells[row].strip().lower() for one in needed}
         if _sums_up(one.cells[row] for one in table.columns):
@@ -290,7 +287,7 @@ def _sums_up(row: Iterable[str]) -> bool:
 
 def are_missing(columns: Sequence[Column], row: int) -> bool:
     """True for a row in which any of the columns has no cell."""
-    return any(column.cells[row].strip().lower() in {*_MISSING, "nan"} for column in columns)
+    return any(column.cells[row].strip().lower() in {*MISSING, "nan"} for column in columns)
 
 
 def leave_out_repeated(table: Table, selection: Selection) -> None:
@@ -317,7 +314,7 @@ def _select(table: Table, column_map: ColumnMap, condition: Condition, selection
         if condition.holds(cell, None if fault else table.number(column, row), unit):
             kept.append(row)
         elif fault and compares:
-            selection.leave_out(row, fault, fault=cell.lower() not in _MISSING)
+            selection.leave_out(row, fault, fault=cell.lower() not in MISSING)
     selection.only(kept)
     if not kept:
         numbers = [table.number(column, row) for row in range(len(table)) if not table.fault(column, row)]

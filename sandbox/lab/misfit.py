@@ -14,7 +14,7 @@ from sandbox import units
 from sandbox.errors import RequestError
 from sandbox.lab.against import Shots
 from sandbox.lab.many import simulate_many
-from sandbox.lab.mapped import Quantity, column_of
+from sandbox.lab.mapped import MISSING, Quantity, column_of
 from sandbox.lab.report import Chart, Column, Notes, Panel, Report, Table, words
 from sandbox.lab.runs import Progress, no_progress
 from sandbox.lab.selection import LeftOut, reasons, used
@@ -125,8 +125,9 @@ def groups_of(table: FileTable, column: TableColumn, rows: np.ndarray) -> dict[s
     """The launches of each word or number in these rows; of many numbers, those in each of some bins."""
     places = (rows - 1).tolist()
     if any(table.fault(column, place) for place in places):
-        cells = np.array([column.cells[place].strip() for place in places])
-        return {word or "(empty)": cells == word for word in dict.fromkeys(cells.tolist())}
+        words_in = [column.cells[place].strip() for place in places]
+        cells = np.array(["(empty)" if word.lower() in MISSING else word for word in words_in])
+        return {word: cells == word for word in dict.fromkeys(cells.tolist())}
     numbers = table.numbers(column, places)
     different = np.unique(numbers)
     if len(different) <= _MOST_NUMBERS:

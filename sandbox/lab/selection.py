@@ -74,7 +74,7 @@ def reasons(left_out: Sequence[LeftOut]) -> str:
 
 def used(total: int, left_out: Sequence[LeftOut], what: str = "row") -> str:
     """``used 78 of 80 shots: row 41, ...``; "" if none is left out."""
-    return f"used {total - len(left_out)} of {with_noun(total, what)}: {reasons(left_out)}" if left_out else ""
+    return f"used {total - len(left_out):,} of {with_noun(total, what)}: {reasons(left_out)}" if left_out else ""
 
 
 def rows_text(rows: Sequence[int]) -> str:

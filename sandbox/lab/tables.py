@@ -31,6 +31,10 @@ _AMOUNT = re.compile(rf"(?:± [\d.,]*)?\d (?:{_UNITS})(?!\w)")
 _FIXED_SPACE = "\u00a0"
 
 
+#: A word of so many characters is not broken.
+_LONGEST_WORD = 16
+
+
 def width() -> int:
     """Maximum characters in a line: those of the terminal, or 80 if there is none."""
     return shutil.get_terminal_size((80, 24)).columns
@@ -39,8 +43,9 @@ def width() -> int:
 def table(headings: Sequence[str], rows: Iterable[Sequence[str]], align: str, indent: str = "  ") -> list[str]:
     """Lines with columns aligned by ``align``, a letter for each: l or r.
 
-    Headings and left-aligned cells are wrapped between words so that lines fit ``width``; right-aligned numbers never,
-    even if lines are longer then. Empty headings give no heading line; a column without any text is left out.
+    Headings and left-aligned cells are wrapped between words so that lines fit ``width``; right-aligned numbers, and
+    words that are not very long, never, even if lines are longer then. Empty headings give no heading line; a column
+    without any text is left out.
     """
     cells = [[one_line(cell) for cell in row] for row in rows]
     every = [headings, *cells] if any(headings) else cells
@@ -51,10 +56,14 @@ def table(headings: Sequence[str], rows: Iterable[Sequence[str]], align: str, in
         if align[place] == "r":
             least = max(map(_columns_of, (*headings[place].split(), *(row[place] for row in cells))), default=0)
             too_wide, widths[place] = too_wide - widths[place] + least, least
-    texts = [place for place in used if align[place] == "l" and widths[place] > 1]
-    for _ in range(too_wide if texts else 0):
-        widest = max(texts, key=lambda place: widths[place])
-        widths[widest] = max(1, widths[widest] - 1)
+    texts = [place for place in used if align[place] == "l"]
+    words = {place: [word for row in every for word in row[place].split()] for place in texts}
+    least = {place: min(max(map(_columns_of, own), default=1), _LONGEST_WORD) for place, own in words.items()}
+    for _ in range(too_wide):
+        widest = max(texts, key=lambda place: widths[place] - least[place], default=None)
+        if widest is None or widths[widest] <= least[widest]:
+            break
+        widths[widest] -= 1
     lines = []
     for row in every:
         wrapped = [_wrapped(row[place], widths[place]) for place in used]

@@ -206,6 +206,18 @@ def test_a_shot_without_a_value_counts_for_the_others(tmp_path: Path):
     assert [(one.row, one.why) for one in found["left_out"]] == [(4, "averages of other rows")]
 
 
+def test_a_pitch_is_no_hit_and_null_no_kind(tmp_path: Path):
+    head = "pitch_name,release_speed,release_pos_z,release_extension,plate_z,vy0,vz0,ay,az,launch_speed,launch_angle\n"
+    rows = ["Slider,85,5.8,6.3,2.1,-123,-3,25,-30,null,null\n"] * 2 + ["null,90,5.8,6.3,2.2,-130,-4,27,-20,98,31\n"]
+    file = written(tmp_path, head + "".join(rows))
+    pitches = sandbox.session(file, by="pitch_name").first.shots
+    assert set(pitches.groups) == {"(empty)", "Slider"}
+    assert not {"launch_angle", "ball_speed"} & set(pitches.measures)
+    hits = sandbox.session(file, scene="baseball", columns={"launch.speed": "launch_speed [mph]"}).first.shots
+    assert hits.rows.tolist() == [3]
+    assert {each.row for each in hits.left_out} == {1, 2}
+
+
 def test_all_charts_are_on_the_page(call: Call, tmp_path: Path, file: Path):
     page = tmp_path / "s.html"
     done = call("session", file, file, "--scene", "golf", "--html", page)

@@ -44,6 +44,12 @@ def test_headings_of_numbers_are_wrapped_and_no_digit_is_lost():
     assert "".join(table(["", ""], [["1" * 60, "2" * 60]], "rr")).split() == ["1" * 60, "2" * 60]
 
 
+def test_a_word_of_usual_length_is_not_broken():
+    numbers = ["+0.00310", "+0.00307 to +0.00312", "0.00065", "0.00316", "+0.00525", "1017", "1.2", "3.45"]
+    lines = table(("pitch_name", *"abcdefgh"), [["4-Seam Fastball", *numbers]], "l" + "r" * 8)
+    assert [line.split()[0] for line in lines] == ["pitch_name", "4-Seam", "Fastball"]
+
+
 def test_room_that_a_heading_gives_up_is_that_of_a_text():
     text = " ".join(["word"] * 14)
     assert table(("a heading of three words", "said"), [("1", text)], "rl")[-1] == f"        1  {text}"

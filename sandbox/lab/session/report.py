@@ -317,8 +317,8 @@ def _about(session: Session, parts: Sequence[Part]) -> Notes:
         notes += [f"{name}{sentence}" for sentence in (*_mishits(part), *part.shots.notes)]
     found = session.model.results
     if found is not None:
-        given = [f"{launch} is not in the file, and taken from the scene" for launch in _assumed(session)]
-        notes += [*given, *(note for note in found.notes if "only its cosine" in note)]
+        usual = [note for note in found.notes if "taken as usual" in note]
+        notes += [*usual, *_assumed(session, " ".join(usual))]
     if any(part.ellipses(name) for part in parts for name in part.groups):
         inner, outer = (f"{100 * share:.0f} %" for share in SHARES)
         notes.append(f"ellipses hold {inner} and {outer} of shots that scatter normally as these do")
@@ -343,8 +343,10 @@ def _mishits(part: Part) -> list[str]:
     return [f"set aside: {named}{more}"]
 
 
-def _assumed(session: Session) -> list[str]:
-    """The parts of a launch that the model needs and the file does not have, such as the spin."""
+def _assumed(session: Session, usual: str) -> list[str]:
+    """Name the parts of a launch, such as the spin, that the model needs and neither the file has nor is ``usual``."""
     shots = session.first.shots
     needs = ("launch.speed", "launch.angle", "launch.spin")
-    return [f"{key} = {value_at(shots.scene.parameters, key):g}" for key in needs if key not in shots.measures]
+    lacking = (key for key in needs if key not in shots.measures and key not in usual)
+    values = (f"{key} = {value_at(shots.scene.parameters, key):g}" for key in lacking)
+    return [f"{value} is not in the file, and taken from the scene" for value in values]

@@ -11,7 +11,17 @@ from pathlib import Path
 import numpy as np
 
 from sandbox.errors import RequestError
-from sandbox.lab.formats import ColumnMap, Entry, Source, declared_units, device, in_table, recognized, stated
+from sandbox.lab.formats import (
+    ColumnMap,
+    Entry,
+    Source,
+    declared_units,
+    device,
+    in_table,
+    known_elsewhere,
+    recognized,
+    stated,
+)
 from sandbox.lab.mapped import EVERYTHING, Choices, are_missing, column_of, leave_out_repeated, mapped
 from sandbox.lab.misfit import groups_of
 from sandbox.lab.selection import LeftOut, Selection, reasons, used
@@ -146,6 +156,10 @@ def read_session(
     measures = {key: one for key, one in every.items() if np.isfinite(one.values).any()}
     if not measures:
         raise RequestError(f"{table.where}: has no column of a known meaning; name them by --map, or numbers by --of")
+    some = np.any([np.isfinite(one.values) for one in measures.values()], axis=0)  # a pitch that nobody hit is no hit
+    left_out += tuple(LeftOut(row, "no value in any column that is used") for row in np.array(rows)[~some].tolist())
+    rows = np.array(rows)[some].tolist()
+    measures = {key: replace(one, values=one.values[some]) for key, one in measures.items()}
     group = _group_column(table, column_map, by)
     places = np.array(rows)
     groups = {"all": np.ones(len(rows), dtype=bool)} if group is None else groups_of(table, group, places)
@@ -181,9 +195,10 @@ def _column_map(table: Table, scene: Scene, choices: Choices) -> ColumnMap:
     for source in known.sources if known is not None else ():
         taken.setdefault(source.key, source)
     declared, used_names = declared_units(scene), {name for one in taken.values() for name in one.expression.columns}
+    elsewhere = set() if known is None else known_elsewhere(scene)
     for name in table.names:
         key = name.lower().replace(" ", "_")
-        if key in declared and key not in taken and name not in used_names:
+        if key in declared and key not in taken and name not in used_names and name.lower() not in elsewhere:
             taken |= {source.key: source for source in in_table([Entry(key, f"`{name}`", "")], table)}
     dropped = {name.lower() for name in choices.without}
     kept = (one for one in taken.values() if not {one.key, one.column.lower()} & dropped)
@@ -280,15 +295,14 @@ def _ordered(shots: Shots) -> dict[str, np.ndarray]:
 
 def _notes(shots: Shots, of: Sequence[str], notes: Sequence[str]) -> list[str]:
     """Sentences on how the table was read."""
-    sources, form = shots.column_map.sources, shots.column_map.form
-    read = f"read as {form.title}" if form is not None else f"read for {shots.scene.title}"
+    form = shots.column_map.form
     taken = {name.lower() for name in (*shots.column_map.used, *of, shots.by, "" if form is None else form.across)}
     unused = shots.table.others(taken | {one.name.lower() for one in shots.choices.where})
     asked = f"only rows with {' and '.join(map(str, shots.choices.where))}: {len(shots.rows)} of {len(shots.table)}"
     return [
         *([sentence] if (sentence := used(len(shots.rows) + len(shots.left_out), shots.left_out)) else []),
         *([asked] if shots.choices.where else []),
-        f"{read}: {', '.join(f'{source.column or source.expression.text} as {source.key}' for source in sources)}",
+        shots.column_map.sentence(shots.scene),
         *dict.fromkeys(notes),
         *([f"columns that are not used: {', '.join(unused)}"] if unused else []),
     ]
