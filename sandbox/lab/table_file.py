@@ -39,8 +39,8 @@ _UNIT_CELL = re.compile(r"(?:\[[^\]]*\]|\([^)]*\))?")
 
 _NUMBER = re.compile(rf"\s*{units.NUMBER}\s*")
 _THOUSANDS = re.compile(r"\s*[+-]?\d{1,3}(,\d{3})+(\.\d*)?\s*")
-#: ``12.4 R``: to the left is negative.
-_SIDE = re.compile(r"([+-]?[\d.,]+)\s*([LRlr])")
+#: ``12.4 R``, ``R12.4``: to the left is negative.
+_SIDE = re.compile(r"([+-]?[\d.,]+)\s*([LRlr])|([LRlr])\s*([\d.,]+)")
 #: ``0:00:01:04`` and ``1:02.25``: hours, minutes, seconds and decimals, as on the clock of a film.
 _CLOCK = re.compile(r"(?:(\d+):)??(?:(\d+):)(\d{1,2})(?:[:.,](\d{1,3}))?")
 _COMMA = re.compile(r"\s*[+-]?\d*,\d+(?:[eE][+-]?\d+)?\s*")
@@ -107,7 +107,7 @@ class Table:
     def _parsed(self, text: str) -> float:
         side = _SIDE.fullmatch(text)
         if side is not None:
-            return (-1.0 if side[2] in "Ll" else 1.0) * self._parsed(side[1])
+            return (-1.0 if (side[2] or side[3]) in "Ll" else 1.0) * self._parsed(side[1] or side[4])
         clock = _CLOCK.fullmatch(text) if ":" in text else None
         if clock is not None:
             hours, minutes, seconds = (int(part or 0) for part in clock.groups()[:3])

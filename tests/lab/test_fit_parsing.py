@@ -123,6 +123,21 @@ def test_a_fall_straight_down_needs_no_x():
     assert found.values["gravity"].holds(9.81)
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        '"Event time (s)","Interval (s)"\n0.8,NaN\n1.5,0.7\n2.1,0.6\n',
+        '"Start (s)","Stop 1 (s)","Stop 2 (s)"\n0.8,1.5,2.1\n',
+        '"Bounce 0 (s)","Height 0 (m)","Bounce 1 (s)","Height 1 (m)","Energy 1","Bounce 2 (s)"\n0.8,1,1.5,0.6,1,2.1\n',
+    ],
+)
+def test_bounces_that_phyphox_heard_are_read_as_exported(tmp_path, text):
+    (tmp_path / "heard.csv").write_text(text, "utf-8")
+    found = read_data(sandbox.load("collisions/bouncing-ball"), [tmp_path / "heard.csv"], Reading())
+    assert (found.bounces.tolist(), found.t.tolist()) == ([1, 2, 3], [0.8, 1.5, 2.1])
+    assert [one.key for one in found.free] == ["track.time"]
+
+
 def test_times_of_bounces_may_have_other_names():
     clock = {"Event": [1, 2, 3, 4], "Time (s)": [0.0, 0.7312, 1.3599, 1.9010]}
     vary = {"floor.restitution": None, "balls[0].y": (0.3, 3.0)}

@@ -49,6 +49,14 @@ FILES = {
         {"launch.spin": 6400.0, "launch.axis": -3.0, "side": -5.4864, "apex": 28.0416, "landing_angle": 45.0},
         [AVERAGE],
     ),
+    "square": (
+        "Index,Club,Ball Speed(mph),Launch Direction,Launch Angle,Back Spin,Side Spin,Spin Rate,Spin Axis,Carry(yd),"
+        "Total(yd),Offline(yd),Apex(yd),Landing Angle, Dynamic Loft\n"
+        "1,7 Iron,120,R1.2,17.2,6400,-320,6408,L3,165,171,L6,30.7,45,24\n"
+        "Average,7 Iron,119,R1.2,17.2,6400,-320,6408,L3,165,171,L6,30.7,45,24\n",
+        {"launch.spin": 6408.0, "launch.axis": -3.0, "carry": 150.876, "apex": 28.07208, "landing_angle": 45.0},
+        [AVERAGE],
+    ),
     "skytrak": (
         "Shot,Date,Club,Ball Speed (mph),Launch Angle,Side Angle (deg),Back Spin (rpm),Side Spin (rpm),Carry (yds),"
         "Roll (yds),Total (yds),Offline (yds),Max Height (ft),Descent Angle (deg),Flight Time (sec)\n"

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -21,6 +22,9 @@ from sandbox.scene.scene_run import SceneRun
 #: Names of the columns: of the number of a bounce, its time, and the height after it; in lower case.
 _NUMBERS, _TIMES = ("bounce", "bounces", "bounce number"), ("t", "time", "zeit", "temps")
 _HEIGHTS = ("height", "h", "max height", "apex")
+
+#: Times of impacts in one row, as phyphox exports those of its (in)elastic collision and of its stopwatch.
+_EVENT = re.compile(r"bounce \d|start|stop( \d)?")
 
 #: The columns by name, for --map.
 BOUNCES = ("bounce", "t", "height")
@@ -136,6 +140,22 @@ def _of_run(run: SceneRun, last: int) -> tuple[np.ndarray, np.ndarray]:
 def has_bounces(table: Table) -> bool:
     """True if the table has numbers of bounces, and their times or heights."""
     return _column(table, _NUMBERS) is not None and any(_column(table, names) for names in (_TIMES, _HEIGHTS))
+
+
+def phyphox_events(table: Table) -> Table | None:
+    """The table with columns bounce and t, if it has times of impacts as phyphox's acoustic stopwatch and (in)elastic
+    collision export them: below one another, or next to one another in one row. Names: its own files of experiments."""
+    listed = next((column for column in table.columns if column.name.lower() == "event time"), None)
+    places = [one for one in table.columns if _EVENT.fullmatch(one.name.lower())]
+    if listed is not None:
+        cells, unit = listed.cells, listed.unit
+    elif len(places) > 2 and len(table) == 1:
+        cells, unit = tuple(one.cells[0] for one in places), places[0].unit
+    else:
+        return None
+    t = Column("t", unit, cells)
+    numbers = tuple(str(number) for number in range(1, len(cells) + 1))
+    return replace(table, columns=(Column("bounce", "", numbers), t), broken={}, groups=())
 
 
 def bounces_of(scene: Scene, table: Table, free: Sequence[str], strict: bool) -> Bounces:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from sandbox.errors import RequestError
-from sandbox.lab.fit.bounces import BOUNCES, bounces_of, has_bounces
+from sandbox.lab.fit.bounces import BOUNCES, bounces_of, has_bounces, phyphox_events
 from sandbox.lab.fit.frame import frame_of
 from sandbox.lab.fit.launches import launches
 from sandbox.lab.fit.measured import Measured
@@ -66,6 +66,8 @@ def data_of(scene: Scene, tables: Sequence[tuple[str, Table]], how: Reading) -> 
             if given:
                 raise RequestError(f"{option} is for tables of launches")
         return _track(scene, tables, how, notes)
+    if not choices.entries and len(tables) == 1 and (events := phyphox_events(first)) is not None:
+        return bounces_of(scene, events, how.free or ("time",), choices.strict)
     if not choices.entries and len(tables) == 1 and has_bounces(first):
         return bounces_of(scene, first, how.free, choices.strict)
     if not choices.entries and recognized(first, scene) is None:

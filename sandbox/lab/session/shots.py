@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -32,9 +31,6 @@ from sandbox.text import shortened
 #: Cells that say whether something is true, in lower case.
 _TRUE = {"true", "yes", "y", "made", "make", "in", "hit"}
 _FALSE = {"false", "no", "n", "missed", "miss", "out"}
-
-#: A number with its side, as FlightScope writes it: ``11.4 L``.
-_SIDED = re.compile(r"([\d.,]+)\s*([LR])")
 
 #: The parameters of a launch, in the order of a report.
 LAUNCH = ("launch.speed", "launch.angle", "launch.spin", "launch.direction", "launch.axis")
@@ -169,7 +165,7 @@ def read_session(
 
 
 def _plain(table: Table) -> Table:
-    """The table with 1 and 0 in columns that say yes and no, and with a minus for what is to the left."""
+    """The table with 1 and 0 in columns that say yes and no."""
 
     def changed(column: Column) -> Column:
         words = {cell.strip().lower() for cell in column.cells} - {"", "-"}
@@ -178,10 +174,6 @@ def _plain(table: Table) -> Table:
             return replace(
                 column, cells=tuple("1" if cell in _TRUE else "0" if cell in _FALSE else "" for cell in cells)
             )
-        sided = [_SIDED.fullmatch(cell.strip()) for cell in column.cells]
-        if any(sided):
-            signed = (found and ("-" if found[2] == "L" else "") + found[1] for found in sided)
-            return replace(column, cells=tuple(new or old for new, old in zip(signed, column.cells, strict=True)))
         return column
 
     return replace(table, columns=tuple(map(changed, table.columns)))
