@@ -58,10 +58,10 @@ def table(headings: Sequence[str], rows: Iterable[Sequence[str]], align: str, in
             too_wide, widths[place] = too_wide - widths[place] + least, least
     texts = [place for place in used if align[place] == "l"]
     words = {place: [word for row in every for word in row[place].split()] for place in texts}
-    least = {place: min(max(map(_columns_of, own), default=1), _LONGEST_WORD) for place, own in words.items()}
+    shortest = {place: min(max(map(_columns_of, own), default=1), _LONGEST_WORD) for place, own in words.items()}
     for _ in range(too_wide):
-        widest = max(texts, key=lambda place: widths[place] - least[place], default=None)
-        if widest is None or widths[widest] <= least[widest]:
+        widest = max(texts, key=lambda place: widths[place] - shortest[place], default=None)
+        if widest is None or widths[widest] <= shortest[widest]:
             break
         widths[widest] -= 1
     lines = []
