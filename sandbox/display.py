@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from sandbox import entries
 
@@ -108,11 +109,13 @@ class Drawable:
 
 
 class Reported:
-    """A result with a report, which draws and shows it."""
+    """A result with a report, which draws and shows it: by ``report_of`` of a module above it, ``REPORTED_BY``."""
+
+    REPORTED_BY: ClassVar[str]
 
     def report(self) -> Any:
         """The sections that every output is made of."""
-        raise NotImplementedError
+        return import_module(self.REPORTED_BY).report_of(self)
 
     def plot(self, path: File = None) -> Any:
         """Draw the charts of its report: write them to ``path`` (a PNG), or return a Pillow image."""

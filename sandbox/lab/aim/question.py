@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from math import isfinite
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
 from sandbox import display, units
 from sandbox.errors import RequestError
-from sandbox.lab.aim.report import report_of
 from sandbox.lab.axes import Span
-from sandbox.lab.report import Report
 from sandbox.scene import Scene
 
 #: The wanted value of a number that is to be maximized.
@@ -107,6 +105,8 @@ class Aim(display.Reported):
     (2, ['launch.angle'])
     """
 
+    REPORTED_BY: ClassVar = "sandbox.lab.aim.report"
+
     scene: Scene
     spans: tuple[Span, ...]
     targets: tuple[Target, ...]
@@ -122,9 +122,6 @@ class Aim(display.Reported):
         targets = ", ".join(map(str, self.targets))
         found = "; ".join(", ".join(f"{k} = {v:.6g}" for k, v in one.values.items()) for one in self.solutions)
         return f"<Aim of {self.scene.title} at {targets}: {found or 'no solution'}>"
-
-    def report(self) -> Report:
-        return report_of(self)
 
     @property
     def misses(self) -> dict[str, float]:

@@ -6,10 +6,11 @@ from collections.abc import Iterator, Mapping
 from dataclasses import asdict
 from functools import partial
 from math import ceil, floor, log10
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from sandbox.lab.aim.question import Aim, Interval, Solution, Target, Trial
 from sandbox.lab.axes import label, result_label, unit_of
 from sandbox.lab.chart import mark
 from sandbox.lab.report import Chart, Column, Notes, Panel, Report, Section, Table, words
@@ -17,9 +18,6 @@ from sandbox.lab.scatter import players_spread
 from sandbox.scene.writing import command
 from sandbox.sport.amounts import significant
 from sandbox.text import argument, with_noun
-
-if TYPE_CHECKING:
-    from sandbox.lab.aim.question import Aim, Interval, Solution, Target, Trial
 
 #: Most solutions, and most jumps, in the text; a target met in narrow bands can have dozens.
 _SHOWN = 12

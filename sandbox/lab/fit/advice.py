@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from sandbox.lab.fit.flown import flown
 from sandbox.lab.fit.intervals import inverse_of
+from sandbox.lab.fit.squares import Fit
 from sandbox.lab.runs import runs
 from sandbox.parameters import value_at
 from sandbox.scene.scene_run import SceneRun
-
-if TYPE_CHECKING:
-    from sandbox.lab.fit.squares import Fit
 
 #: Points that are imagined after the last one, at most up to so many times its time; and how much better the worse
 #: known of two values must become.

@@ -4,20 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from sandbox.engine.model.surface import Segment
 from sandbox.lab.fit.flown import flown
+from sandbox.lab.fit.squares import Fit
 from sandbox.lab.report import Chart, Panel
 from sandbox.lab.tables import length, unit_of_length
 from sandbox.scene.points import Points
 from sandbox.scene.scene_run import SceneRun
 from sandbox.sport.amounts import significant
-
-if TYPE_CHECKING:
-    from sandbox.lab.fit.squares import Fit
 
 #: Width, and heights of the path and of a panel of residuals, in inches; the path's is between these two.
 _WIDTH, _LOWEST, _HIGHEST, _PANEL = 9.6, 1.6, 4.6, 1.25

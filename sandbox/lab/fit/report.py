@@ -6,22 +6,20 @@ import re
 from collections.abc import Iterator
 from functools import partial
 from math import inf
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from sandbox.lab.fit.advice import advice
 from sandbox.lab.fit.chart import charts
 from sandbox.lab.fit.falling import gravity_hint
 from sandbox.lab.fit.intervals import HARDLY
 from sandbox.lab.fit.loss import OUTLIER, SQUARES, TUKEY
+from sandbox.lab.fit.squares import Fit, Value
 from sandbox.lab.report import Column, Notes, Report, Table, words
 from sandbox.lab.selection import used
 from sandbox.lab.tables import length
 from sandbox.scene.writing import command
 from sandbox.sport.amounts import significant
 from sandbox.text import one_line, with_noun
-
-if TYPE_CHECKING:
-    from sandbox.lab.fit.squares import Fit, Value
 
 #: Errors of two values that are correlated more than this are strongly so, and this cannot be told apart at all.
 _STRONG, _NOT = 0.95, 0.999

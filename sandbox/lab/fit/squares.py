@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import combinations
 from math import ceil, inf
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -18,10 +18,8 @@ from sandbox.lab.fit.intervals import HARDLY, Errors, clustered, errors_of, grou
 from sandbox.lab.fit.loss import HUBERS, OUTLIER, SQUARES, TUKEYS, Loss
 from sandbox.lab.fit.measured import Measured
 from sandbox.lab.fit.problem import Problem
-from sandbox.lab.fit.report import report_of
 from sandbox.lab.fit.rivals import Weighted, rivals
 from sandbox.lab.fit.search import ALIKE, ENOUGH, neumann, robust_sds, search
-from sandbox.lab.report import Report
 from sandbox.lab.runs import Progress, no_progress, runs
 from sandbox.scene import Scene
 from sandbox.text import with_noun
@@ -102,6 +100,8 @@ class Fit(display.Reported):
     True
     """
 
+    REPORTED_BY: ClassVar = "sandbox.lab.fit.report"
+
     scene: Scene  # with the fitted values
     measured: Measured
     values: dict[str, Value]
@@ -127,9 +127,6 @@ class Fit(display.Reported):
     def free(self) -> list[float]:
         """The values of what belongs to the measurement itself."""
         return [self.values[one.key].value for one in self.measured.free]
-
-    def report(self) -> Report:
-        return report_of(self)
 
     def __repr__(self) -> str:
         values = ", ".join(f"{key} = {one.value:.6g} {one.unit}".rstrip() for key, one in self.values.items())

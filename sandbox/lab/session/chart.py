@@ -6,18 +6,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from sandbox.lab.chart import PLATE
 from sandbox.lab.report import Chart, Panel
 from sandbox.lab.session.shots import Measure
+from sandbox.lab.session.summary import Part, Session
 from sandbox.lab.statistics import Share
 from sandbox.text import with_noun
-
-if TYPE_CHECKING:
-    from sandbox.lab.session.summary import Part, Session
 
 #: Inches for each group in a chart with a row for each, and for what is above and below them.
 _ROW, _REST = 0.27, 0.9

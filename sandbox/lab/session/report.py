@@ -8,19 +8,17 @@ from functools import partial
 from itertools import pairwise
 from math import floor, log10
 from statistics import median
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from sandbox.lab.misfit import Compared
 from sandbox.lab.misfit import document as misfit_document
 from sandbox.lab.report import Column, Notes, Report, Table, words
 from sandbox.lab.session.chart import charts
 from sandbox.lab.session.shots import FEWEST, LAUNCH, NARROW, SHARES, SIDE, Measure, Shots
+from sandbox.lab.session.summary import Difference, Part, Session
 from sandbox.lab.statistics import Numbers, Share
 from sandbox.parameters import value_at
 from sandbox.text import argument, with_noun
-
-if TYPE_CHECKING:
-    from sandbox.lab.session.summary import Difference, Part, Session
 
 #: Most mishits that the text names one by one, and most columns next to each other: of means, and of differences.
 _MOST, _MOST_COLUMNS, _MOST_CHANGES = 12, 5, 3

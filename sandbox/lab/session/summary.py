@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import hypot
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -18,9 +18,7 @@ from sandbox.lab import against
 from sandbox.lab.formats import ColumnMap, recognized
 from sandbox.lab.mapped import Choices, choices_of, mapped
 from sandbox.lab.misfit import Compared, Misfit, misfit
-from sandbox.lab.report import Report
 from sandbox.lab.runs import Progress, no_progress
-from sandbox.lab.session.report import report_of
 from sandbox.lab.session.shots import FEWEST, NARROW, SHARES, SIDE, Measure, Shots, read_session
 from sandbox.lab.statistics import Ellipse, Numbers, Share, student
 
@@ -100,13 +98,12 @@ class Session(Reported):
     'Session'
     """
 
+    REPORTED_BY: ClassVar = "sandbox.lab.session.report"
+
     first: Part
     second: Part | None
     mishit: float | None  # the modified z-score beyond which shots are set aside; None if none are
     model: Model
-
-    def report(self) -> Report:
-        return report_of(self)
 
     def changed_by_group(self) -> dict[str, dict[str, Compared]]:
         """The launches of each group in the air of the session and in the changed one, by result."""

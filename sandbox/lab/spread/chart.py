@@ -4,17 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from sandbox.lab.axes import result_label
 from sandbox.lab.report import Chart, Panel
+from sandbox.lab.spread.spreading import Spread
 from sandbox.lab.spread.texts import mean_and_deviation, name_of, percent
 from sandbox.lab.statistics import Ellipse
-
-if TYPE_CHECKING:
-    from sandbox.lab.spread.spreading import Spread
 
 #: Most histograms, and most rows of causes.
 _MOST, _ROWS = 6, 7

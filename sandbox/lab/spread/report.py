@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from sandbox.lab.axes import Span
 from sandbox.lab.report import Column, Notes, Report, Table, words
 from sandbox.lab.spread.chart import charts
 from sandbox.lab.spread.needs import Need
+from sandbox.lab.spread.spreading import Indices, Spread
 from sandbox.lab.spread.texts import deviation, name_of, percent, value
 from sandbox.lab.statistics import QUANTILES, Ellipse, Numbers, Share
 from sandbox.scene.writing import command
 from sandbox.sport.amounts import in_chosen_unit, margin, signed, significant
 from sandbox.text import argument, one_line
 from sandbox.units import convert
-
-if TYPE_CHECKING:
-    from sandbox.lab.spread.spreading import Indices, Spread
 
 #: The quantiles of the text, of those that JSON has.
 _SHOWN = (0.05, 0.5, 0.95)

@@ -12,18 +12,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
 from sandbox import display
 from sandbox.errors import RequestError, RunError
 from sandbox.lab.many import Runs, simulate_many
-from sandbox.lab.report import Report
 from sandbox.lab.runs import Progress, no_progress
 from sandbox.lab.spread.causes import SAMPLINGS, Cause, Points, cause, causes_of, points_of
 from sandbox.lab.spread.needs import Need, width_of
-from sandbox.lab.spread.report import report_of
 from sandbox.lab.statistics import (
     Ellipse,
     Numbers,
@@ -69,6 +67,8 @@ class Spread(display.Reported):
     (True, ['launch.angle', 'launch.speed'])
     """
 
+    REPORTED_BY: ClassVar = "sandbox.lab.spread.report"
+
     scene: Scene
     by: tuple[Cause, ...]
     points: Points
@@ -80,9 +80,6 @@ class Spread(display.Reported):
 
     def __repr__(self) -> str:
         return f"<Spread of {self.scene.title}: {self.samples:,} shots by {', '.join(each.key for each in self.by)}>"
-
-    def report(self) -> Report:
-        return report_of(self)
 
     @property
     def samples(self) -> int:

@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from sandbox.lab.spread.spreading import Spread
 from sandbox.sport.amounts import amount, in_chosen_unit, ladder, significant, written
 from sandbox.units import convert
-
-if TYPE_CHECKING:
-    from sandbox.lab.spread.spreading import Spread
 
 
 def name_of(spread: Spread, fact: str) -> str:
