@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,7 +11,7 @@ import numpy as np
 from sandbox import units
 from sandbox.errors import RequestError
 from sandbox.lab.fit.flown import flown
-from sandbox.lab.fit.measured import Free
+from sandbox.lab.fit.measured import Free, Rows
 from sandbox.lab.selection import LeftOut, Selection
 from sandbox.lab.table_file import Column, Table
 from sandbox.physics.forces import Gravity
@@ -34,7 +34,7 @@ _LONGER, _STEPS = 2.0, 4
 
 
 @dataclass(frozen=True)
-class Bounces:
+class Bounces(Rows):
     """Times and heights of bounces, in the order of the file."""
 
     bounces: np.ndarray  # the number of each bounce, the first is 1; 0 is the start; shape (rows,)
@@ -52,11 +52,6 @@ class Bounces:
     runs = 1
 
     @property
-    def count(self) -> int:
-        """The bounces."""
-        return len(self.bounces)
-
-    @property
     def names(self) -> tuple[str, ...]:
         """The quantities that were measured."""
         return tuple(name for name, column in (("t", self.t), ("height", self.height)) if column is not None)
@@ -65,26 +60,6 @@ class Bounces:
     def units(self) -> tuple[str, ...]:
         """The units of these."""
         return tuple({"t": "s", "height": "m"}[name] for name in self.names)
-
-    @property
-    def rows(self) -> np.ndarray:
-        """The row of each residual: all that was measured of the first bounce, of the second, and so on."""
-        return np.repeat(self.numbers, len(self.names))
-
-    @property
-    def groups(self) -> np.ndarray:
-        """The place of each residual's quantity in ``names``."""
-        return np.tile(np.arange(len(self.names)), self.count)
-
-    @property
-    def alike(self) -> Mapping[str, np.ndarray]:
-        """No groups of bounces are known."""
-        return {}
-
-    @property
-    def times(self) -> np.ndarray:
-        """NaN for each residual: each run is compared as a whole."""
-        return np.full(self.count * len(self.names), np.nan)
 
     def check(self, scene: Scene) -> None:
         """Raise RequestError if the ball of the scene does not bounce."""

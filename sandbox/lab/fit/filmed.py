@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -10,14 +10,14 @@ import numpy as np
 from sandbox.errors import RequestError
 from sandbox.lab.fit.flown import flown
 from sandbox.lab.fit.frame import Frame
-from sandbox.lab.fit.measured import Free
+from sandbox.lab.fit.measured import Free, Rows
 from sandbox.lab.selection import LeftOut
 from sandbox.scene import Scene
 from sandbox.scene.scene_run import SceneRun
 
 
 @dataclass(frozen=True)
-class Filmed:
+class Filmed(Rows):
     """Measured places of balls, in the order of the file."""
 
     positions: np.ndarray  # m, shape (points, 2): x, y, in the axes of the film
@@ -34,16 +34,6 @@ class Filmed:
 
     def __len__(self) -> int:
         return len(self.positions)
-
-    @property
-    def count(self) -> int:
-        """The points."""
-        return len(self)
-
-    @property
-    def alike(self) -> Mapping[str, np.ndarray]:
-        """No groups are known of points; neighbours have a pattern."""
-        return {}
 
     @property
     def free(self) -> tuple[Free, ...]:

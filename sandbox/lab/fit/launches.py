@@ -10,7 +10,7 @@ from math import isfinite
 import numpy as np
 
 from sandbox.errors import RequestError
-from sandbox.lab.fit.measured import Free
+from sandbox.lab.fit.measured import Free, Rows
 from sandbox.lab.mapped import Mapped
 from sandbox.lab.runs import columns_at
 from sandbox.lab.selection import LeftOut, reasons
@@ -22,7 +22,7 @@ _FEWEST_GROUPS, _FEWEST_IN_GROUP = 3, 3
 
 
 @dataclass(frozen=True)
-class Launches:
+class Launches(Rows):
     """Launches and what was measured of each, in the units that the scene declares."""
 
     given: Mapping[str, np.ndarray]  # by parameter, shape (launches,)
@@ -41,24 +41,9 @@ class Launches:
     free: tuple[Free, ...] = ()
 
     @property
-    def count(self) -> int:
-        """The launches."""
-        return len(self.numbers)
-
-    @property
     def runs(self) -> int:
         """The runs of one candidate, one for each launch."""
         return self.count
-
-    @property
-    def rows(self) -> np.ndarray:
-        """The row of each residual: all results of the first launch, of the second, and so on."""
-        return np.repeat(self.numbers, len(self.measured))
-
-    @property
-    def groups(self) -> np.ndarray:
-        """The place of each residual's result in ``names``."""
-        return np.tile(np.arange(len(self.measured)), self.count)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -72,11 +57,6 @@ class Launches:
         found = {"shot": np.repeat(np.arange(self.count), count)} if count > 1 else {}
         found |= {"result": self.groups} if count > 1 else {}
         return found | {name: np.repeat(words, count) for name, words in self.words.items()}
-
-    @property
-    def times(self) -> np.ndarray:
-        """NaN for each residual, since results have no times."""
-        return np.full(self.count * len(self.measured), np.nan)
 
     def check(self, scene: Scene) -> None:
         """Raise RequestError for a launch that has no such result in the scene."""

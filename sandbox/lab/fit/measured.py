@@ -90,3 +90,39 @@ class Measured(Protocol):
 
     def remarks(self, scene: Scene, free: Sequence[float]) -> tuple[str, ...]:
         """Sentences on the data, compared with the fitted scene; and on what was assumed in reading it."""
+
+
+class Rows:
+    """Data with the same quantities in each row: residuals are those of the first row, of the second, and so on."""
+
+    numbers: np.ndarray  # the row of each in its file, the first is 1; shape (rows,)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The quantities."""
+        raise NotImplementedError
+
+    @property
+    def count(self) -> int:
+        """The rows."""
+        return len(self.numbers)
+
+    @property
+    def rows(self) -> np.ndarray:
+        """The row of each residual."""
+        return np.repeat(self.numbers, len(self.names))
+
+    @property
+    def groups(self) -> np.ndarray:
+        """The place of each residual's quantity in ``names``."""
+        return np.tile(np.arange(len(self.names)), self.count)
+
+    @property
+    def alike(self) -> Mapping[str, np.ndarray]:
+        """No groups are known; neighbours have a pattern."""
+        return {}
+
+    @property
+    def times(self) -> np.ndarray:
+        """NaN for each residual: each run is compared as a whole."""
+        return np.full(self.count * len(self.names), np.nan)

@@ -26,16 +26,6 @@ class Outline(Filmed):
     units = ("m",)
 
     @property
-    def rows(self) -> np.ndarray:
-        """The row of each residual."""
-        return self.numbers
-
-    @property
-    def groups(self) -> np.ndarray:
-        """The group of each residual: 0, since all are distances."""
-        return np.zeros(len(self), dtype=int)
-
-    @property
     def times(self) -> np.ndarray:
         """The order of the points, as if they had been measured one after the other at even times in s.
 

@@ -23,16 +23,6 @@ class Track(Filmed):
     units = ("m", "m")
 
     @property
-    def rows(self) -> np.ndarray:
-        """The row of each residual: x and y of the first point, of the second, and so on."""
-        return np.repeat(self.numbers, 2)
-
-    @property
-    def groups(self) -> np.ndarray:
-        """The group of each residual: 0 in x, 1 in y."""
-        return np.tile([0, 1], len(self))
-
-    @property
     def times(self) -> np.ndarray:
         """The time of each residual in s; where the launch is fitted, the greatest that its range allows."""
         return np.repeat(self.frame.latest(self.t), 2)
