@@ -19,6 +19,7 @@ Valid where the ball can roll: p below (1 + 1/k) mu_s g. Left out: that a slope 
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import hypot
 from typing import Any, ClassVar
@@ -47,12 +48,18 @@ class Slope(Cloth):
     twist: float = 0.0  # 1/s^2
 
     in_closed_form: ClassVar[bool] = False
+    TERMS: ClassVar[Mapping[str, str]] = {
+        **Cloth.TERMS,
+        "pull_x": "slope along x",
+        "pull_y": "slope across x",
+        "twist": "twist of the slope",
+    }
 
     def __post_init__(self) -> None:
         super().__post_init__()
         check(self.name, self, finite=["pull_x", "pull_y", "twist"])
         steepest = (1.0 + 1.0 / self.inertia) * self.strongest
-        if not hypot(self.pull_x, self.pull_y) < steepest:
+        if self.strongest > 0.0 and not hypot(self.pull_x, self.pull_y) < steepest:  # without friction all slide
             pull = hypot(self.pull_x, self.pull_y)
             raise ValueError(
                 f"{self.name}: a slope that pulls by {pull:.3g} m/s^2 must pull by less than {steepest:.3g} m/s^2: "

@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 import sandbox
 from sandbox import Ball, Segment, Setup, Surface
 from sandbox.engine.ledger import ledger
-from sandbox.physics.plane import Strips
+from sandbox.physics.plane import Strips, without
 from sandbox.physics.slope import Slope
 
 MASS, RADIUS, G, INERTIA = 0.046, 0.0213, 9.81, 0.4
@@ -98,6 +98,12 @@ def test_a_ball_at_the_lower_board_rolls_along_it_or_rests():
 def test_too_steep_to_roll_is_refused():
     with pytest.raises(ValueError, match=r"cloth: a slope that pulls by 7 m/s\^2 must pull by less than 6\.87 m/s\^2"):
         Slope(sliding=0.2, pull_x=-7.0)
+
+
+def test_without_friction_a_ball_slides_as_it_falls():
+    """As ``sandbox trade`` leaves it out: p in place of p / (1 + k)."""
+    run = run_on(without(Slope(sliding=0.2, rolling=0.0, pull_x=-0.5), "sliding"), (1.0, 0.0))
+    assert run.state("ball", 2.0).x == pytest.approx(2.0 - 0.5 * 0.5 * 4.0, abs=1e-9)
 
 
 def test_a_putt_across_an_even_slope_is_exact():
