@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, is_dataclass, replace
 from functools import partial
-from math import hypot, isclose
+from math import hypot, inf, isclose
 from typing import Any, NamedTuple
 
 from sandbox.engine.model.accuracy import LEVELS
@@ -279,6 +279,9 @@ def _of_contacts(setup: Setup) -> Iterator[_Variant]:
         law, throw, one_by_one = setup.between_balls, "friction of balls (throw)", replace(setup.contact, name="rigid")
         yield _Variant("contact mechanics", "one impact after another", replace(setup, contact=one_by_one), True)
         yield _Variant(throw, "left out", replace(setup, between_balls=_law_without(law, "friction")), True)
+        if setup.contact.along < inf:
+            rigid = replace(setup, between_balls=_Without(law, "tangential"), contact=replace(setup.contact, along=inf))
+            yield _Variant("restitution along balls", "left out", rigid, True)
         if law(*_FAST) != law(*_SLOW):
             slow = replace(setup, between_balls=ConstantBounce(law(*_SLOW)))
             yield _Variant(throw, "at any speed as at 1 m/s", slow, True)

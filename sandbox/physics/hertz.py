@@ -34,6 +34,11 @@ class _Material(NamedTuple):
         curved = 1.0 / (1.0 / radius + 1.0 / other)
         return 4.0 / 3.0 * self.modulus / (2.0 * (1.0 - self.poisson**2)) * sqrt(curved)
 
+    @property
+    def along(self) -> float:
+        """Stiffness along a contact over that across it, before anything slides (Mindlin 1949)."""
+        return 2.0 * (1.0 - self.poisson) / (2.0 - self.poisson)
+
 
 #: Billiard balls; a maker's figures (dbkcues.ru). They touch for 390 us at 1 m/s; 250 to 300 us are measured (Kim
 #: 2024; Marlow 1995), which would need a resin twice as stiff.
@@ -52,6 +57,14 @@ def contact_time(mass: Any, stiffness: Any, speed: Any) -> Any:
     T = 3.218 (m^2 / (k^2 v))^(1/5); the number is (5/4)^(2/5) 2 sqrt(pi) gamma(2/5) / (5/2 gamma(9/10)).
     """
     return _SHAPE * (mass**2 / (stiffness**2 * speed)) ** 0.2
+
+
+def largest_overlap(mass: Any, stiffness: Any, speed: Any) -> Any:
+    """Overlap in m of two balls of reduced ``mass`` (kg) that meet at ``speed`` (m/s), at its largest, without damping.
+
+    D = (5/4 m v^2 / k)^(2/5).
+    """
+    return (1.25 * mass * speed**2 / stiffness) ** 0.4
 
 
 _SHAPE = 1.25**0.4 * 2.0 * sqrt(pi) * gamma(0.4) / (2.5 * gamma(0.9))

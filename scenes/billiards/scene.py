@@ -16,7 +16,7 @@ import random
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
-from math import asin, atan2, cos, degrees, dist, hypot, pi, radians, sin, sqrt
+from math import asin, atan2, cos, degrees, dist, hypot, inf, pi, radians, sin, sqrt
 from typing import Any, Literal
 
 from sandbox.engine.contact.touch import Obstacle, touched
@@ -25,7 +25,6 @@ from sandbox.kit import (
     Ball,
     Bounce,
     Cloth,
-    ConstantBounce,
     ContactModel,
     Controls,
     Directed,
@@ -54,7 +53,8 @@ from sandbox.kit import (
     text,
     travelled,
 )
-from sandbox.physics.throw import friction_by_speed
+from sandbox.physics.hertz import PHENOLIC
+from sandbox.physics.throw import friction_by_speed, spring_back
 from sandbox.sport.sliding import REST_TIME, all_collisions, collisions_of, in_play, removed_by
 
 from .table import AnyTable, check, cushions, on_bed, traps
@@ -158,6 +158,9 @@ LONGEST = 300.0
 
 #: More balls than these and the cue ball lie on the table only before the break of snooker.
 MOST_OF_POOL = 15
+#: Stiffness of a contact of two balls along it, over that across it.
+ALONG = PHENOLIC.along
+
 #: So many of the balls nearest to a pocket are tried when a shot into it is looked for.
 TRIED = 3
 #: A ball that is to go straight to a pocket is cut by no more than so many deg, and tried so many to either side.
@@ -192,26 +195,32 @@ def build(parameters: Parameters) -> Setup:
     balls = {name: Ball(name, ball.mass, ball.radius, place) for name, place in spots.items()}
     cue = balls[parameters.cue.ball]
     balls[cue.name] = replace(cue, velocity=velocity, spin=spin, rolling_spin=rolling_spin)
-    alike = ConstantBounce(Bounce(ball.restitution, ball.friction or 0.0))
+    gives = parameters.contact.model != "rigid"
     return Setup(
         list(balls.values()),
         surfaces,
         duration=LONGEST,
-        between_balls=SpeedDependentFriction(ball.restitution) if ball.friction is None else alike,
+        between_balls=BallOnBall(ball.restitution, ball.friction, gives),
         plane=Cloth(cloth.sliding_friction, cloth.rolling_friction, cloth.spinning_friction, parameters.gravity),
         traps=traps(table),
-        contact=ContactModel(parameters.contact.model, parameters.contact.stiffness),
+        contact=ContactModel(parameters.contact.model, parameters.contact.stiffness, along=ALONG if gives else inf),
     )
 
 
 @dataclass(frozen=True)
-class SpeedDependentFriction:
-    """An impact of two balls with friction that falls with their sliding speed."""
+class BallOnBall:
+    """An impact of two balls, which spring back along their contact if it gives. Their friction, where it is not given,
+    falls with the speed at which they slip."""
 
     restitution: float
+    friction: float | None
+    gives: bool
 
     def __call__(self, normal_speed: float, slip_speed: float) -> Bounce:
-        return Bounce(self.restitution, friction_by_speed(slip_speed))
+        friction = friction_by_speed(slip_speed) if self.friction is None else self.friction
+        most = friction * (1.0 + self.restitution) * normal_speed  # m/s, impulse over mass
+        reversed_ = spring_back(2.0 / 7.0 * slip_speed / most) if self.gives and most > 0.0 else 0.0
+        return Bounce(self.restitution, friction, tangential=reversed_)
 
 
 def goals(parameters: Parameters) -> list[Goal]:

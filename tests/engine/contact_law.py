@@ -70,3 +70,48 @@ def _cross(a: np.ndarray, normal: np.ndarray) -> np.ndarray:
     """The vector product with vectors in the plane."""
     (x, y, z), (nx, ny, _) = a.T, normal.T
     return np.column_stack([-z * ny, z * nx, x * ny - y * nx])
+
+
+def by_springs(
+    bodies: Sequence[ClusterBall],
+    end: float,
+    stiffness: float,
+    restitution: float,
+    friction: float,
+    along: float,
+    deepest: float,
+    steps: int = 1000,
+    springs: int = 10,
+) -> np.ndarray:
+    """x, y, vx, vy, vz, wx, wy, wz of bodies (m, s, rad) after ``end`` s, shape (bodies, 8), where contacts give way
+    along them, too: rows of equal springs up to the depth ``deepest`` (m), in small steps of first order."""
+    mass, radius, inertia = np.array([body[:3] for body in bodies]).T
+    state = np.array([(*body.position, *body.velocity, 0.0, *body.spin) for body in bodies])
+    i, j = np.array(list(combinations(range(len(bodies)), 2))).T
+    fading, reduced = log(restitution), mass[i] * mass[j] / (mass[i] + mass[j])
+    damping = -sqrt(5) * fading / hypot(fading, pi) * np.sqrt(reduced * stiffness)
+    reach = np.minimum(radius[i] + radius[j], np.hypot(*(state[i, :2] - state[j, :2]).T))
+    places = (np.arange(springs) + 0.5) / springs  # from the middle of the contact, over the largest radius
+    stiff = along * 1.5 * stiffness * sqrt(deepest) / springs  # N/m
+    stretch, h = np.zeros((len(i), springs, 3)), end / steps
+    for _ in range(steps):
+        apart = state[i, :2] - state[j, :2]
+        distance = np.hypot(*apart.T)
+        normal = np.column_stack([apart / distance[:, None], np.zeros(len(i))])
+        depth = np.maximum(reach - distance, 0.0)
+        spins = radius[i, None] * state[i, 5:] + radius[j, None] * state[j, 5:]
+        speed = state[i, 2:5] - state[j, 2:5] - _cross(spins, normal)
+        opening = (speed * normal).sum(axis=1)
+        push = np.maximum(stiffness * depth**1.5 - damping * depth**0.25 * opening, 0.0) * (depth > 0.0)
+        share = np.maximum(depth[:, None] - deepest * places**2, 0.0)
+        stretch += h * (speed - opening[:, None] * normal)[:, None]
+        stretch -= (stretch * normal[:, None]).sum(axis=2)[..., None] * normal[:, None]
+        most = friction * push[:, None] * share / np.maximum(share.sum(axis=1), 1e-30)[:, None] / stiff
+        size = np.sqrt((stretch**2).sum(axis=2))
+        stretch *= np.minimum(1.0, most / np.maximum(size, 1e-30))[..., None]
+        force = push[:, None] * normal - stiff * stretch.sum(axis=1)
+        for k, sign in ((i, 1.0), (j, -1.0)):
+            np.add.at(state[:, 2:5], k, h * sign * force / mass[k, None])
+            np.add.at(state[:, 5:], k, h * _cross(force, normal) * (radius / inertia)[k, None])
+        state[:, :2] += h * state[:, 2:4]
+    return state

@@ -255,7 +255,7 @@ class ClusterSearch:
             link = self._wall_link(place[index], members[index], obstacle, wall_stiffness)
             contacts.append((index, obstacle.surface.name, link))
         links = [link for *_, link in contacts]
-        outcome = Cluster(balls, links).pass_through(self._step, negligible)
+        outcome = Cluster(balls, links, self._setup.contact.along).pass_through(self._step, negligible)
         if outcome.gained > _CREATED * outcome.energy:
             names = ", ".join(sorted(repr(self._movers[index].ball.name) for index in members))
             raise RunError(

@@ -3,7 +3,7 @@
 An impulse is right for an isolated pair. If two balls reach a third while they are in contact, the outcome depends on
 how the contacts overlap in the fraction of a millisecond they last. So the contact is simulated: positions and
 velocities under the normal forces (``cluster_forces.py``) by Kutta's method of order 4, and friction impulses at the
-ends of its steps (``cluster_friction.py``).
+ends of its steps (``cluster_friction.py``, ``cluster_springs.py``).
 
 All contacts are treated at once, as entries of arrays, so that the outcome does not depend on the order of the balls.
 Vectors in the plane are complex numbers, x + iy. Products with matrices are by ``vecdot``: with ``@`` large ones are
@@ -15,16 +15,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
-from math import hypot
+from math import hypot, inf
 
 import numpy as np
 
 from sandbox.engine.impact.cluster_forces import FORCE_ROWS, POSITION, VELOCITY, ClusterForces
 from sandbox.engine.impact.cluster_friction import ClusterFriction
 from sandbox.engine.impact.cluster_parts import ClusterBall, Link
+from sandbox.engine.impact.cluster_springs import SpringFriction
 from sandbox.engine.model.tolerances import CLOSING, NEGLIGIBLE_OVERLAP
 from sandbox.errors import RunError
-from sandbox.physics.hertz import contact_time
+from sandbox.physics.hertz import contact_time, largest_overlap
 from sandbox.physics.integrators import INTEGRATORS
 
 _STAGES = [np.array(stage.weights) for stage in INTEGRATORS["rk4"].stages]
@@ -90,10 +91,12 @@ class ClusterOutcome:
 
 @dataclass(frozen=True)
 class Cluster:
-    """Balls and the links between them. The cost grows with all of them: leave out what cannot be reached."""
+    """Balls and the links between them, with stiffness along a contact over that across it; infinite for balls that
+    give way across it only. The cost grows with all of them: leave out what cannot be reached."""
 
     balls: Sequence[ClusterBall]
     links: Sequence[Link]
+    along: float = inf
 
     def pass_through(self, step: float, negligible: float = 0.0) -> ClusterOutcome:
         """Simulate the contact until nothing touches, or until all blows that are left are slower than ``negligible``
@@ -118,7 +121,6 @@ class _Passage:
         self._negligible = negligible  # m/s
         self._relative_step = step
         self._forces = ClusterForces(balls, links)
-        self._friction = ClusterFriction(self._forces, links)
         self._weights = np.array([(ball.mass, ball.inertia) for ball in balls]).T
         self._room = np.array([*(ball.room for ball in balls), np.inf])
 
@@ -140,6 +142,10 @@ class _Passage:
         shortest, longest = lasts(self._fastest).min(), lasts(min(slowest, self._fastest)).max()
         self._latest = (_PATIENCE[0] * len(balls) + _PATIENCE[1]) * longest  # s, by which all must have separated
         self._longest_step = step * shortest  # s
+        self._friction = ClusterFriction(self._forces, links)
+        if cluster.along < inf:
+            deepest = largest_overlap(self._forces.mass, self._forces.stiffness, self._fastest)
+            self._friction = SpringFriction(self._forces, links, cluster.along, deepest)
         self._scale = np.repeat([self._fastest * shortest, self._fastest], len(balls) + 1)
 
         self._t = self._h = 0.0  # s

@@ -77,7 +77,8 @@ class ContactModel:
     contact mechanics) or "auto" (contact mechanics only if a third body can be reached during the contact).
     ``stiffness`` is that of a pair in N/m^1.5; None means phenolic resin. ``wall_stiffness`` is that of a ball and a
     wall; 0 for walls, such as cushions, that are so much softer than balls that they push back after the balls have
-    separated.
+    separated. ``along`` is the stiffness along a contact over that across it, 0.8 for most elastic balls, which spring
+    back along it; infinite for balls that give way across it only.
 
     >>> from sandbox import Ball, ContactModel, Setup
     >>> ball = Ball("ball", mass=1.0, radius=0.1, position=(0, 0))
@@ -87,6 +88,7 @@ class ContactModel:
     name: Literal["auto", "rigid", "hertz"] = "auto"
     stiffness: float | None = None
     wall_stiffness: float = 0.0
+    along: float = inf
 
     def __post_init__(self) -> None:
         if self.name not in ("auto", "rigid", "hertz"):
@@ -94,6 +96,8 @@ class ContactModel:
         check("contact model", self, not_negative=["wall_stiffness"])
         if self.stiffness is not None:
             check("contact model", self, positive=["stiffness"])
+        if self.along != inf:
+            check("contact model", self, positive=["along"])
 
     def between(self, radius: float, other: float) -> float:
         """Stiffness in N/m^1.5 of two balls with these radii in m."""
