@@ -1,4 +1,4 @@
-"""Write the made-up measurements of docs/from-your-video.md, from-your-launch-monitor.md and session.md: runs of the
+"""Write the made-up measurements of from-your-video.md, from-your-launch-monitor.md, session.md and fit.md: runs of the
 sandbox itself, with noise. Usage: ``python docs/tracks/make.py [FOLDER]``, by default next to this file.
 
 What is behind them is stated here and in no file: a fit can be compared with it.
@@ -45,6 +45,11 @@ MONITOR = {"ball.drag.model": "usga", "ball.lift.model": "usga"}
 
 #: A month later: as many shots with each of these, the speed higher by a share, and the axis tilted by more deg.
 LATER = {"Driver": (1.03, 0.0), "7 Iron": (1.0, -4.0), "PW": (1.0, 0.0)}
+
+#: Banks across a table with these cushions, by balls that slide and balls that roll in turn; readings are off by these,
+#: in deg and m.
+CUSHION = {"cushion.restitution": 0.80, "cushion.friction": 0.17}
+READ = {"out_angle": 0.7, "landing": 0.015}
 
 
 def throw() -> str:
@@ -117,6 +122,18 @@ def bag(seed: int, clubs: dict[str, tuple[float, float]]) -> str:
     return "\n".join(lines) + "\n"
 
 
+def banks() -> str:
+    """A table of banks off one cushion, as one is written by hand."""
+    rng = np.random.default_rng(53)
+    angle, speed, follow = np.linspace(12.0, 38.0, 16).round(), rng.uniform(1.2, 2.4, 16).round(1), [0.0, 0.4] * 8
+    shots = {"cue.angle": 90.0 - angle, "cue.speed": speed, "cue.follow": follow}
+    found = sandbox.simulate_many(sandbox.load("billiards/one-cushion", CUSHION), shots, facts=tuple(READ))
+    out, landing = (found[fact] + rng.normal(0.0, sd, 16) for fact, sd in READ.items())
+    rows = zip(angle, speed, follow, out, landing, strict=True)
+    lines = [f"{a:.0f},{v:.1f},{tip:.1f},{b:.1f},{100.0 * way:.0f}" for a, v, tip, b, way in rows]
+    return "\n".join(["in_angle (deg),speed (m/s),follow,out_angle (deg),landing (cm)", *lines]) + "\n"
+
+
 #: Each file and what is in it.
 FILES = {
     "thrown-ball.txt": throw,
@@ -124,6 +141,7 @@ FILES = {
     "drives.csv": drives,
     "bag.csv": lambda: bag(52, dict.fromkeys(BAG, (1.0, 0.0))),
     "bag-later.csv": lambda: bag(53, LATER),
+    "banks.csv": banks,
 }
 
 if __name__ == "__main__":

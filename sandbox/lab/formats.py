@@ -87,7 +87,7 @@ class Form:
     """The columns of a known device."""
 
     title: str
-    scene: str  # the scene whose shots it measures
+    scene: str  # the scene, or preset, whose shots it measures
     source: str  # where its names are from
     columns: tuple[tuple[Entry, ...], ...]  # those of a group are taken together; the first group that can be is taken
     names: Mapping[str, tuple[str, ...]] = field(default_factory=dict)  # of columns in other languages
@@ -194,7 +194,7 @@ def recognized(table: Table, scene: Scene, without: Sequence[str] = (), beside: 
     """The table as that of the known device for this scene most of whose columns it has, launch and result both, or
     None. Columns ``without`` which it is read are named as in the table, or by what they stand for; with ``beside``
     results are read, too, that are not compared. Raises RequestError for a column that would not be used."""
-    own = (form for form in forms().values() if form.scene == scene.name)
+    own = (form for form in forms().values() if form.scene in (scene.name, scene.title))
     fitting = [(form, _sources(form, table, scene, beside=beside)) for form in own]
     complete = [(form, sources) for form, sources in fitting if _is_complete(sources, scene)]
     if not complete:

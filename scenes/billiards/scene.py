@@ -1,13 +1,14 @@
 """Billiards from above: pool, snooker and carom on cloth, with draw, follow and english.
 
 Models: sliding, rolling and spinning on cloth in closed form; the cue tip's offset, which gives follow, draw, stun and
-english; impacts of balls with restitution, and with friction that falls with their speed, so that cuts and english
-throw the object ball and spin passes on; racks and frozen balls that share an impact (Hertz); cushions whose nose is
-above the ball's centre; jaws as real shapes, and pockets that catch a ball whose centre is over the hole.
+english, and squirt; impacts of balls with restitution, that spring back along their contact, and with friction that
+falls with their speed, so that cuts and english throw the object ball and spin passes on; racks and frozen balls that
+share an impact (Hertz); cushions whose nose is above the ball's centre, as measured on several tables; jaws as real
+shapes, and pockets that catch a ball whose centre is over the hole.
 Leaves out, with the size of the effect: hops, as friction lifts a rolling ball that hits another straight on at 3 m/s
-by 1.1 mm for 0.03 s; squirt, as the ball leaves along the cue (2.7 deg at the most english, by a cue that pivots 0.3 m
-behind its tip). And, not measured: the elevated cue (swerve, masse, jump); how long the cushions hold a ball; the nap
-of the cloth; the pockets' depth, out of which a fast ball may rattle.
+by 1.1 mm for 0.03 s; swerve, as every cue is held level (2.5 deg at the most english with a cue raised by 5 deg). And,
+not measured: masse and jump shots; how long the cushions hold a ball; the nap of the cloth; the pockets' depth, out of
+which a fast ball may rattle.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ import random
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
-from math import asin, atan2, cos, degrees, dist, hypot, inf, pi, radians, sin, sqrt
+from math import asin, atan2, copysign, cos, degrees, dist, hypot, inf, pi, radians, sin, sqrt
 from typing import Any, Literal
 
 from sandbox.engine.contact.touch import Obstacle, touched
@@ -25,6 +26,7 @@ from sandbox.kit import (
     Ball,
     Bounce,
     Cloth,
+    ConstantBounce,
     ContactModel,
     Controls,
     Directed,
@@ -53,11 +55,12 @@ from sandbox.kit import (
     text,
     travelled,
 )
+from sandbox.physics.cue import squirt_angle
 from sandbox.physics.hertz import PHENOLIC
 from sandbox.physics.throw import friction_by_speed, spring_back
 from sandbox.sport.sliding import REST_TIME, all_collisions, collisions_of, in_play, removed_by
 
-from .table import AnyTable, check, cushions, on_bed, traps
+from .table import CUSHIONS, AnyTable, check, cushions, on_bed, traps
 
 
 class PlacedBall(Group):
@@ -73,9 +76,10 @@ class Cue(Directed):
 
     ball: str = text("name of the ball that is struck")
     speed: float = quantity(..., "m/s", 0, 30, "speed of the ball after the stroke")
-    angle: float = quantity(..., "deg", -360, 360, "direction, from +x counter-clockwise")
+    angle: float = quantity(..., "deg", -360, 360, "direction of the cue, from +x counter-clockwise")
     follow: float = quantity(..., "", -0.5, 0.5, "tip above the ball's centre in radii; 0.4 rolls at once")
     english: float = quantity(..., "", -0.5, 0.5, "tip to the right of the ball's centre in radii")
+    end_mass: float = quantity(..., "kg", 0, 1, "of the tip's end, which english pushes aside; 0: no squirt")
 
 
 class BallParameters(Group):
@@ -100,6 +104,11 @@ class Cushion(Solid):
 
     model: Literal["nose", "vertical"] = choice(..., "a nose above the ball's centre, or a wall")
     nose_height: float = quantity(..., "m", 0.001, 0.4, "height of the nose above the cloth")
+    tangential: float = quantity(..., "", 0, 1, "share of the slip that is reversed if the ball grips")
+
+    @property
+    def bounce(self) -> ConstantBounce:
+        return ConstantBounce(Bounce(self.restitution, self.friction, tangential=self.tangential))
 
     def nose(self, radius: float) -> float | None:
         """Height in m of the nose, for balls of that radius; None for walls."""
@@ -137,6 +146,14 @@ class Parameters(SceneParameters):
     cushion: Cushion = group(..., "the cushions")
     contact: BallContact = group(..., "how balls meet")
     gravity: float = quantity(..., "m/s^2", 0, 100, "gravity")
+
+    @classmethod
+    def with_implied(cls, changes: Mapping[str, Any]) -> Mapping[str, Any]:
+        """A table of another kind has cushions of its own."""
+        table = changes.get("table")
+        own = CUSHIONS.get(table.get("kind")) if isinstance(table, Mapping) else None
+        given = changes.get("cushion", {})
+        return changes if own is None or not isinstance(given, Mapping) else {**changes, "cushion": {**own, **given}}
 
 
 CONTROLS = Controls(
@@ -188,7 +205,7 @@ def build(parameters: Parameters) -> Setup:
     """Table, balls and the stroke. Raises RequestError for balls that do not fit, and for a miscue."""
     ball, cloth, cushion, table = parameters.ball, parameters.cloth, parameters.cushion, parameters.table
     check(table, ball.radius)
-    surfaces = cushions(table, cushion.restitution, cushion.friction, cushion.nose(ball.radius))
+    surfaces = cushions(table, cushion.bounce, cushion.nose(ball.radius))
     spots = laid_out(parameters)
     check_spots(spots, parameters, [Obstacle(surface, ball.radius) for surface in surfaces])
     velocity, spin, rolling_spin = struck(parameters)
@@ -228,15 +245,15 @@ def goals(parameters: Parameters) -> list[Goal]:
     pocket, and the cue ball to it, only directions near to that are tried."""
     spots, table, cue = laid_out(parameters), parameters.table, parameters.cue.ball
     start, holes = spots.pop(cue), traps(table)
-    ranges, straight = {}, {}
+    ranges, straight, aside = {}, {}, squirt(parameters)
     for name, place in spots.items():
         half = degrees(asin(min(1.0, 2.0 * parameters.ball.radius / dist(place, start))))
-        ranges[name] = _around(start, place, half)  # as far to either side as the ball is touched
+        ranges[name] = _around(start, place, half, aside)  # as far to either side as the ball is touched
         others = [other for other in spots.values() if other != place]
         for hole in holes:
             ghost = _ghost(start, place, hole.center, others, parameters.ball.radius)
             if ghost is not None:
-                straight[name, hole.name] = _around(start, ghost, NEARLY)
+                straight[name, hole.name] = _around(start, ghost, NEARLY, aside)
     found = []
     for name, place in spots.items():
         ways = [way for (ball, _), way in straight.items() if ball == name] or [ranges[name]]
@@ -249,9 +266,10 @@ def goals(parameters: Parameters) -> list[Goal]:
     return found
 
 
-def _around(start: Vector, aim: Vector, half: float) -> dict[str, tuple[float, float]]:
-    """The directions from a place to another (m), and ``half`` deg to either side."""
-    way = degrees(atan2(aim[1] - start[1], aim[0] - start[0]))
+def _around(start: Vector, aim: Vector, half: float, aside: float) -> dict[str, tuple[float, float]]:
+    """The directions of the cue that send a ball, ``aside`` deg to the left of them, from a place to another (m), and
+    ``half`` deg to either side."""
+    way = degrees(atan2(aim[1] - start[1], aim[0] - start[0])) - aside
     return {"cue.angle": (way - half, way + half)}
 
 
@@ -360,8 +378,15 @@ def struck(parameters: Parameters) -> tuple[Vector, float, Vector]:
             f"cue.follow = {cue.follow:g}, cue.english = {cue.english:g}: the tip is {offset:.3g} radii off the ball's "
             f"centre, and beyond {MISCUE:g} it slips off"
         )
-    (vx, vy), turn = cue.velocity, 2.5 / parameters.ball.radius
-    return (vx, vy), turn * cue.speed * cue.english, (-turn * cue.follow * vy, turn * cue.follow * vx)
+    (ux, uy), turn, aside = cue.velocity, 2.5 / parameters.ball.radius, radians(squirt(parameters))
+    velocity = cos(aside) * ux - sin(aside) * uy, sin(aside) * ux + cos(aside) * uy
+    return velocity, turn * cue.speed * cue.english, (-turn * cue.follow * uy, turn * cue.follow * ux)
+
+
+def squirt(parameters: Parameters) -> float:
+    """The angle in deg by which the struck ball leaves to the left of the cue's direction: ``squirt_angle``."""
+    cue = parameters.cue
+    return degrees(squirt_angle(cue.english, cue.follow, cue.end_mass / parameters.ball.mass))
 
 
 def touches(run: Run, parameters: Parameters) -> list[str]:
@@ -416,6 +441,22 @@ def leaving(run: Run, parameters: Parameters) -> dict[str, tuple[Moment, Moment]
     return {name: ways[name] for name in run.arcs if name in ways}
 
 
+@cached_per_run
+def bank(run: Run, parameters: Parameters) -> tuple[float, float | None] | None:
+    """Of the first cushion that the struck ball meets: the angle in deg from its normal at which the ball leaves, and
+    how far along it, in m, it meets the one across, if that is the next; both positive the way it came."""
+    ball = parameters.cue.ball
+    met = [(name, event.t) for name, event in collisions_of(run, ball) if name.endswith(" cushion")]
+    if not met:
+        return None
+    (name, t), (across, end) = met[0], met[min(1, len(met) - 1)]
+    along = 0 if name.endswith("long cushion") else 1  # the axis of that cushion
+    ball_at, way = run.state(ball, t), copysign(1.0, run.before(ball, t)[2 + along])
+    angle = degrees(atan2(way * ball_at[2 + along], abs(ball_at[3 - along])))
+    opposite = across != name and across.endswith("long cushion") is (along == 0)
+    return angle, way * (run.before(ball, end)[along] - ball_at[along]) if opposite else None
+
+
 def of_leaving(when: int, what: str) -> Callable[[Run, Parameters], dict[str, float]]:
     """The function that reads something of each ball just after it (0), or once it rolls (1)."""
     return lambda run, parameters: {name: getattr(ways[when], what) for name, ways in leaving(run, parameters).items()}
@@ -444,6 +485,7 @@ FACTS = (
     Fact("first_contact", "first contact", "", fact_from(first_contact, lambda meeting, it: meeting[0]), names=True),
     Fact("stroke", "stroke", "m/s", lambda run, parameters: parameters.cue.speed, "start"),
     Fact("tip", "tip", "", tip, "start"),
+    Fact("squirt", "", "deg", lambda run, parameters: squirt(parameters), "start"),
     Fact("cushions", "cushions", "", lambda run, it: sum(name.endswith(" cushion") for name in touches(run, it))),
     Fact("contact_speed", "contact", "m/s", fact_from(first_contact, lambda meeting, it: meeting[1])),
     Fact("path", "path", "m", lambda run, parameters: travelled(run, parameters.cue.ball)),
@@ -459,6 +501,8 @@ FACTS = (
     Fact("leaving_direction", "", "deg", of_leaving(0, "direction")),
     Fact("rolling_speed", "", "m/s", of_leaving(1, "speed")),
     Fact("rolling_direction", "", "deg", of_leaving(1, "direction")),
+    Fact("out_angle", "", "deg", fact_from(bank, lambda found, it: found[0])),
+    Fact("landing", "", "m", fact_from(bank, lambda found, it: found[1])),
     Fact("touches", "", "", touches, names=True),
     ENDED,
 )

@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from pydantic import create_model
 
-from sandbox.kit import Group, RequestError, Segment, Surface, Trap, choice, quantity, switch
+from sandbox.kit import ConstantBounce, Group, RequestError, Segment, Surface, Trap, choice, quantity, switch
 from sandbox.toml import read_toml
 
 
@@ -58,11 +58,17 @@ def _kind(kind: str, sizes: Mapping[str, Any]) -> type[Table]:
     return create_model("Table_" + kind.replace("-", "_"), __base__=Table, __doc__=f"A table: {kind}.", **fields)
 
 
+_FILE: dict[str, Any] = read_toml(Path(__file__).parent / "tables.toml")
+
+_OWN = {kind: sizes.pop("cushion", {}) for kind, sizes in _FILE.items()}
+
+#: The cushion of each kind of table.
+CUSHIONS: dict[str, dict[str, Any]] = {kind: _OWN["9-ft"] | own for kind, own in _OWN.items()}
+
 if TYPE_CHECKING:
     AnyTable = Table
 else:
-    KINDS = read_toml(Path(__file__).parent / "tables.toml")
-    AnyTable = reduce(or_, (_kind(kind, KINDS["9-ft"] | sizes) for kind, sizes in KINDS.items()))
+    AnyTable = reduce(or_, (_kind(kind, _FILE["9-ft"] | sizes) for kind, sizes in _FILE.items()))
 
 
 class Pocket(NamedTuple):
@@ -155,13 +161,15 @@ def on_bed(table: Table, x: float, y: float) -> bool:
     return table.pockets and (in_corner or in_side)
 
 
-def cushions(table: Table, restitution: float, friction: float, nose: float | None = None) -> list[Surface]:
+def cushions(table: Table, law: ConstantBounce, nose: float | None = None) -> list[Surface]:
     """Noses, ``nose`` m over the cloth (None for walls), and then jaws.
 
     Head is at negative x, foot at positive x; left, seen from the head, is at positive y.
     """
     shapes = sorted(_rails(table), key=lambda rail: rail[0].endswith("jaw"))
-    return [Surface(name, shape, restitution, friction, nose_height=nose) for name, shape in shapes]
+    restitution, friction, _, tangential = law.bounce
+    own = law if tangential > 0.0 else None
+    return [Surface(name, shape, restitution, friction, nose_height=nose, law=own) for name, shape in shapes]
 
 
 def _rails(table: Table) -> Iterator[tuple[str, Segment]]:

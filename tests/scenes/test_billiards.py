@@ -97,6 +97,18 @@ def test_follow_and_draw_spin_about_the_axis_across_the_path(angle: float):
     assert (wx, wy) == pytest.approx((-spin * sin(radians(angle)), spin * cos(radians(angle))))
 
 
+@pytest.mark.parametrize("english", [0.51 / 1.125, -0.51 / 1.125])
+def test_english_squirts_to_the_other_side(english: float):
+    """2.5 deg with the tip 0.51 in off (Alciatore, Squirt II); goals are looked for on the way of the ball."""
+    run = shot(spot("cue", 0.0, 0.0), spot("1", 0.5, 0.0), cue__speed=2.0, cue__angle=10.0, cue__english=english)
+    _, _, vx, vy, _ = run.state("cue", 0.0)
+    assert degrees(atan2(vy, vx)) == pytest.approx(10.0 + (2.5 if english > 0.0 else -2.5), abs=0.01)
+    assert hypot(vx, vy) == pytest.approx(2.0)
+    scene = sandbox.load("billiards", {"balls": [spot("cue", 0.0, 0.0), spot("1", 0.5, 0.0)], "cue.english": english})
+    low, high = scene.module.goals(scene.parameters)[0].vary["cue.angle"]
+    assert 0.5 * (low + high) == pytest.approx(-2.5 if english > 0.0 else 2.5, abs=0.01)
+
+
 def test_a_miscue_is_refused():
     with pytest.raises(RequestError, match=r"cue.follow = 0.4, cue.english = 0.4: the tip is 0.566 radii off"):
         shot(spot("cue", 0.0, 0.0), cue__follow=0.4, cue__english=0.4)
@@ -217,7 +229,7 @@ def test_a_rolling_ball_throws_less_than_a_stunned_one():
 def test_english_throws_to_the_other_side_and_passes_spin_on(english: float):
     """Straight on, right english throws left by mu, and the object ball takes up left english: gears."""
     mu = 0.05
-    run = shot(*ghost(0.0, NEAR), cue__speed=2.0, cue__english=english, ball__friction=mu)
+    run = shot(*ghost(0.0, NEAR), cue__speed=2.0, cue__english=english, cue__end_mass=0.0, ball__friction=mu)
     t = impact(run)
     _, _, vx, vy, wz = run.state("1", t)
     assert vy / vx == pytest.approx(mu if english > 0.0 else -mu, rel=1e-6)
@@ -230,7 +242,7 @@ def test_english_throws_to_the_other_side_and_passes_spin_on(english: float):
 def test_outside_english_without_slip_throws_nothing():
     """r wz = v sin f: the surfaces do not rub. Cut to the left, that is 0.4 sin f radii of right english."""
     f = radians(40.0)
-    run = shot(*ghost(f, NEAR), cue__speed=2.0, cue__english=0.4 * sin(f), ball__friction=0.3)
+    run = shot(*ghost(f, NEAR), cue__speed=2.0, cue__english=0.4 * sin(f), cue__end_mass=0.0, ball__friction=0.3)
     assert thrown(run, f) == pytest.approx(0.0, abs=2e-5)
 
 
@@ -280,6 +292,38 @@ def test_a_cushion_takes_up_roll_until_it_grips(friction: float):
     run = shot(spot("cue", 1.27 - R - NEAR, 0.2), cushion__model="vertical", cushion__friction=friction, **stroke)
     roll = R * run.rolling_spin("cue", impact(run))[1]
     assert roll == pytest.approx(2.0 - 2.5 * min(friction * 1.85, 2.0 / 7.0) * 2.0, rel=1e-4)
+
+
+def test_a_table_of_another_kind_has_its_own_cushions():
+    """Until others are given, in the same file or by a later change."""
+    own = {
+        kind: sandbox.load("billiards", {"table.kind": kind}) for kind in ("9-ft", "olhausen", "carom", "diamond-bar")
+    }
+    found = {kind: scene.parameters.cushion for kind, scene in own.items()}
+    assert [cushion.restitution for cushion in found.values()] == [0.85, 0.80, 0.88, 0.85]
+    assert [cushion.tangential for cushion in found.values()] == [0.0, 0.0, 0.0, 0.37]
+    assert own["carom"].changed({"table.kind": "9-ft"}).parameters.cushion == found["9-ft"]
+    given = sandbox.load("billiards", {"table.kind": "carom", "cushion.friction": 0.1}).parameters.cushion
+    assert (given.friction, given.nose_height) == (0.1, 0.037)
+    assert sandbox.load("billiards/snooker-break").parameters.cushion.restitution == 0.98
+
+
+def test_slip_along_a_cushion_may_be_reversed():
+    """A vertical cushion that grips: v_t' = v_t (5 - 2 e_t) / 7."""
+    stroke = {"cue.speed": 2.0, "cue.angle": 20.0, "cushion.model": "vertical", "cushion.friction": 1.0}
+    for back in (0.0, 0.5):
+        run = shot(spot("cue", 1.27 - R - NEAR, 0.2), **stroke, cushion__tangential=back)
+        vy = run.state("cue", impact(run))[3]
+        assert vy == pytest.approx(2.0 * sin(radians(20.0)) * (5.0 - 2.0 * back) / 7.0, rel=1e-4)
+
+
+def test_the_facts_of_a_bank_are_those_of_its_path():
+    run = sandbox.simulate("billiards/one-cushion")
+    (first, second), out = [event.t for event in run.events if event.kind == "impact"][:2], run.result["out_angle"]
+    start, after, end = run.before("cue", first), run.state("cue", first), run.before("cue", second)
+    assert out == pytest.approx(degrees(atan2(after.vx, -after.vy)))
+    assert run.result["landing"] == pytest.approx(end.x - start.x)
+    assert sandbox.simulate(sandbox.load("billiards/one-cushion", {"cue.angle": 5.0})).result["landing"] is None
 
 
 # The table ------------------------------------------------------------------------------------------------------------
