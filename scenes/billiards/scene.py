@@ -151,7 +151,7 @@ class Parameters(SceneParameters):
     def with_implied(cls, changes: Mapping[str, Any]) -> Mapping[str, Any]:
         """A table of another kind has cushions of its own."""
         table = changes.get("table")
-        own = CUSHIONS.get(table.get("kind")) if isinstance(table, Mapping) else None
+        own = CUSHIONS.get(str(table.get("kind"))) if isinstance(table, Mapping) else None
         given = changes.get("cushion", {})
         return changes if own is None or not isinstance(given, Mapping) else {**changes, "cushion": {**own, **given}}
 

@@ -52,23 +52,23 @@ def _kind(kind: str, sizes: Mapping[str, Any]) -> type[Table]:
     """The group of a table of that kind, with its sizes as defaults."""
     fields: dict[str, Any] = {"kind": (Literal[kind], choice(kind, Table.model_fields["kind"].description or ""))}
     for name, default in sizes.items():
+        if name == "cushion":
+            continue
         field = copy(Table.model_fields[name])
         field.default = default
         fields[name] = (field.annotation, field)
     return create_model("Table_" + kind.replace("-", "_"), __base__=Table, __doc__=f"A table: {kind}.", **fields)
 
 
-_FILE: dict[str, Any] = read_toml(Path(__file__).parent / "tables.toml")
-
-_OWN = {kind: sizes.pop("cushion", {}) for kind, sizes in _FILE.items()}
+KINDS = read_toml(Path(__file__).parent / "tables.toml")
 
 #: The cushion of each kind of table.
-CUSHIONS: dict[str, dict[str, Any]] = {kind: _OWN["9-ft"] | own for kind, own in _OWN.items()}
+CUSHIONS = {kind: {**KINDS["9-ft"]["cushion"], **sizes.get("cushion", {})} for kind, sizes in KINDS.items()}
 
 if TYPE_CHECKING:
     AnyTable = Table
 else:
-    AnyTable = reduce(or_, (_kind(kind, _FILE["9-ft"] | sizes) for kind, sizes in _FILE.items()))
+    AnyTable = reduce(or_, (_kind(kind, KINDS["9-ft"] | sizes) for kind, sizes in KINDS.items()))
 
 
 class Pocket(NamedTuple):
