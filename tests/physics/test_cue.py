@@ -21,6 +21,6 @@ def test_squirt_is_zero_without_english_and_without_an_end_mass():
     assert squirt_angle(-0.4, 0.2, 0.05) == -squirt_angle(0.4, 0.2, 0.05)
 
 
-def test_a_heavy_end_sends_the_ball_no_further_than_its_turning_surface():
+def test_a_heavy_end_sends_the_ball_as_its_surface_turns():
     """An end that cannot be pushed aside: tan a = (5/2) x c / (1 + (5/2) c^2), 20.6 deg at the edge of a miscue."""
     assert degrees(squirt_angle(0.5, 0.0, 1e9)) == pytest.approx(20.6, abs=0.1)

@@ -11,7 +11,7 @@ from sandbox.physics.hertz import PHENOLIC
 from sandbox.physics.throw import friction_by_speed, spring_back
 
 
-def test_friction_is_near_the_older_points_which_it_was_not_fitted_to():
+def test_friction_is_near_the_older_points():
     """Marlow's 0.11, 0.06 and 0.01 at slips of 0.07, 0.7 and 7 m/s: 0.13, 0.11 and 0.006 here."""
     found = [friction_by_speed(slip) for slip in (0.0707, 0.707, 7.07)]
     assert found == pytest.approx([0.1297, 0.1071, 0.0058], abs=5e-5)
