@@ -32,6 +32,8 @@ _CARD = palette("card")
 
 #: Width of a tile in px on 720 rows, at most.
 _WIDEST = 240
+#: And in lines of letters at least; and how much farther apart lines of tiles are where there is room.
+_NARROWEST, _SPREAD = 5.5, 1.3
 START_HERE, _TODAY = "Start here", "Today"
 
 
@@ -117,6 +119,7 @@ class Front(Overlay):
         self.sport: Sport | None = None
         self.entries: list[Entry] = []
         self.across = 1  # tiles in a row
+        self.with_stars = True  # there is room under the tiles for the stars that were got
         self.first_sport = next((sport for sport in self.all if sport.tasks), None)
         if self.first_sport is not None and self.best.of(easiest(self.first_sport)):
             self.first_sport = None  # it was played
@@ -190,14 +193,24 @@ class Front(Overlay):
         self.across, size = self._fitting(room, below)
         tall = size[1] + below + gap
         lines = max(1, (room.height + gap) // tall)
+        if len(self.rows) <= self.across * lines:  # all are seen: they spread over the room
+            lines = -(-len(self.rows) // self.across)
+            tall = min(round(_SPREAD * tall), room.height // lines)
         self.seen = self.across * lines
         self.scroll(0)
         self.scroll_bar(room, lines * tall)
+        self.with_stars = all(self._wide(row) <= size[0] for row in self.rows)  # names first
         for i, row in enumerate(self.rows[self.first : self.first + self.seen]):
             place = pygame.Rect(
                 room.left + i % self.across * (size[0] + 2 * gap), room.top + i // self.across * tall, *size
             )
             self._tile(row, place, below)
+
+    def _wide(self, row: Sport | Entry) -> float:
+        """The width in px of what is written under a tile."""
+        letters, (text, lit) = self.sheet.lettering, self._got(row)
+        star_wide = (lit is not None) * (2 * SMALL_STAR * self.sheet.unit + self.sheet.gap)
+        return letters.width(row.title, "small", True) + letters.width(text, "small") + star_wide
 
     def _fitting(self, room: pygame.Rect, below: int) -> tuple[int, tuple[int, int]]:
         """The number of tiles in a row, and the size of their pictures in px."""
@@ -206,7 +219,7 @@ class Front(Overlay):
             wide = min((room.width - gap + 2 * gap) // across - 2 * gap, round(_WIDEST * self.sheet.unit))
             tall = wide * TILE[1] // TILE[0]
             lines = -(-len(self.rows) // across)
-            if lines * (tall + below + gap) <= room.height + gap or wide < 120:
+            if lines * (tall + below + gap) <= room.height + gap or wide < max(120, _NARROWEST * below):
                 break
         return across, (wide, tall)
 
@@ -222,6 +235,8 @@ class Front(Overlay):
         if here:
             pygame.draw.rect(sheet.surface, _CARD["accent"], place.inflate(4, 4), 3, border_radius=round(5 * unit))
         y, right, (text, lit) = place.bottom + below // 2, place.right, self._got(row)
+        if not self.with_stars:
+            text, lit = "", None
         if text:
             written = sheet.write(text, "small", (right, y), _CARD["quiet"], "midright")
             right = written.left - gap
@@ -242,10 +257,10 @@ class Front(Overlay):
         a lit star before them, None for no star."""
         if isinstance(row, Sport):
             got = sum(self.best.stars(task) for task in row.tasks)
-            return (f"{got} of {3 * len(row.tasks)}", got > 0) if row.tasks else ("", None)
+            return (f"{got}/{3 * len(row.tasks)}", got > 0) if row.tasks else ("", None)
         if row.kind == "day":
             got = self.best.stars(AtTaskOfDay.name_of(self.day))
-            return f"{got} of 3", got > 0
+            return f"{got}/3", got > 0
         best = self.best.of(Decathlon.name)
         return (f"{best[0].score:,.0f}" if best else ""), None
 
