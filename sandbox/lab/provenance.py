@@ -70,8 +70,9 @@ def _parts(folder: Path, user_modules: Iterable[Path], content: Callable[[Path],
 
 def _digest(root: Path, files: Iterable[Path], content: Callable[[Path], str]) -> str:
     """A digest of the names and contents of files."""
-    names = ((file.relative_to(root) if file.is_relative_to(root) else file, file) for file in sorted(files))
-    lines = (f"{name.as_posix()}\0{content(file)}\0" for name, file in names)
+    inside = f"{root}{os.sep}"
+    names = ((str(file).removeprefix(inside).replace(os.sep, "/"), file) for file in sorted(files))
+    lines = (f"{name}\0{content(file)}\0" for name, file in names)
     return hashlib.sha256("".join(lines).encode(errors="surrogateescape")).hexdigest()
 
 
@@ -106,10 +107,12 @@ def _user_modules(folder: Path) -> set[Path]:
     """The user's modules that the sources of a folder import, and theirs in turn, if they are
     loaded or next to the folder."""
     found: set[Path] = set()
+    seen: set[tuple[str, Path | None]] = set()
     waiting = list(folder.rglob("*.py"))
     while waiting:
-        source = waiting.pop()
-        for name, above in _imported(source):
+        new = {*_imported(waiting.pop())} - seen
+        seen |= new
+        for name, above in new:
             file = _module_file(folder, name) if above is None else _source(above, name)
             if file is not None and file not in found and not file.is_relative_to(folder) and _is_users(file):
                 found.add(file)
@@ -123,7 +126,7 @@ def _imported(source: Path) -> Iterator[tuple[str, Path | None]]:
         tree = ast.parse(source.read_bytes())
     except (SyntaxError, ValueError, OSError):
         return
-    for node in ast.walk(tree):
+    for node in _statements(tree):
         above = None
         if isinstance(node, ast.Import):
             names = [alias.name for alias in node.names]
@@ -134,6 +137,15 @@ def _imported(source: Path) -> Iterator[tuple[str, Path | None]]:
             continue
         for name in names:
             yield from ((package, above) for package in accumulate(name.split("."), "{}.{}".format))
+
+
+def _statements(node: ast.AST) -> Iterator[ast.AST]:
+    """The statements in a node, at any depth: a fraction of all nodes."""
+    for field in ("body", "orelse", "handlers", "finalbody", "cases"):
+        inside = getattr(node, field, ())
+        for statement in inside if isinstance(inside, list) else ():
+            yield statement
+            yield from _statements(statement)
 
 
 def _module_file(folder: Path, name: str) -> Path | None:

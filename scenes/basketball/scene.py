@@ -355,26 +355,31 @@ def touches(run: Run, parameters: Parameters) -> Any:
     landing, over = run.first_event("floor"), where(left < inf, left, floor)
     never_down = (left == inf) & (True if landing is None else landing.t != landing.t)  # not a number: of many shots
     if anywhere(never_down):
-        stays = decided(parameters).stays
-        kept = first_time(run.starts("ball"), lambda _, state: stays(state))
-        over = where(never_down & (kept < inf), kept, over)
+        kept = run.first_start("ball", decided(parameters).stays, among=never_down)
+        over = where(kept < inf, kept, over)
     return run.touched(over)
 
 
 @dataclass(frozen=True)
-class Decided(Passes):
-    """The ball is on the floor, has left the ring below, or stays between ring and board: without wind its energy
-    ``E / m = g y + v^2 / 2 + k r^2 w^2 / 2``, k its moment of inertia over m r^2, never grows."""
+class Stays:
+    """True of a ball between ring and board that stays there: without wind its energy ``E / m = g y + v^2 / 2 + k r^2
+    w^2 / 2``, k its moment of inertia over m r^2, never grows."""
 
     pocket: tuple[float, float, float] = (0.0, 0.0, 0.0)  # left, right and bottom, in m
     factors: tuple[float, float] = (0.0, 0.0)  # g in m/s^2, k r^2 in m^2
     needed: float = 0.0  # E / m to get out, in J/kg
 
-    def stays(self, state: Any) -> Any:
-        """True if it is between ring and board, and stays there."""
+    def __call__(self, state: Any) -> Any:
         (x, y, vx, vy, spin), (left, right, bottom), (gravity, gyration) = state, self.pocket, self.factors
         energy = gravity * y + 0.5 * (vx * vx + vy * vy + gyration * spin * spin)
         return (x > left) & (x < right) & (y > bottom) & (energy < self.needed)
+
+
+@dataclass(frozen=True)
+class Decided(Passes):
+    """The ball is on the floor, has left the ring below, or stays between ring and board."""
+
+    stays: Stays = Stays()
 
     def passed(self, start: State, end: State) -> Any:
         return super().passed(start, end) | self.stays(start)
@@ -387,7 +392,8 @@ def decided(parameters: Parameters) -> Decided:
     barrier = parameters.gravity * (minimum(level + hoop.tube_radius, top) + ball.radius)
     needed = where((wind[0] == 0.0) & (wind[1] == 0.0) & (bottom <= level), barrier, -inf)
     factors = parameters.gravity, ball.inertia_factor * ball.radius**2
-    return Decided("floor", 1, *parameters.section.across(ball.radius), (back, face, level), factors, needed)
+    stays = Stays((back, face, level), factors, needed)
+    return Decided("floor", 1, *parameters.section.across(ball.radius), stays)
 
 
 def outcome(run: Run, parameters: Parameters) -> Any:

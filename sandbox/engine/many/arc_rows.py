@@ -104,7 +104,7 @@ class Paths:
         at its start, middle and end, shape (6, arcs, 3, paths): a path with fewer arcs has its last again, with a
         duration of 0; NaN where ``until`` is."""
         limits, first = np.broadcast_to(until, len(self.lengths)), np.array(self._bounds[:-1])
-        counts = np.bincount(self._numbers[self.rows[:, T0] < np.repeat(limits, self.lengths)], minlength=len(limits))
+        counts = np.bincount(self.numbers[self.rows[:, T0] < np.repeat(limits, self.lengths)], minlength=len(limits))
         turn = np.arange(counts.max(initial=0))[:, None]
         rows = self.rows[np.minimum(first + np.clip(turn, 0, np.maximum(counts - 1, 0)), len(self.rows) - 1)]
         t0, t1 = rows[..., T0], rows[..., T1]
@@ -117,8 +117,8 @@ class Paths:
         return h, np.moveaxis(np.concatenate((times[..., None], states), axis=-1), (3, 1, 0, 2), (0, 1, 2, 3))
 
     @cached_property
-    def _numbers(self) -> np.ndarray:
-        """The path of each row."""
+    def numbers(self) -> np.ndarray:
+        """The number of the path of each row."""
         return np.repeat(np.arange(len(self.lengths)), self.lengths)
 
     @cached_property
@@ -159,8 +159,9 @@ class Paths:
         falls = np.flatnonzero(starts < 0.0)
         signed = np.where(starts != 0.0, np.arange(len(starts)), -1)
         before = np.append(-1, np.maximum.accumulate(signed))[falls]  # the last arc before that is not zero
-        same = self._number(first + before) == self._number(first + falls)
-        turned = falls[(before >= 0) & (ends[before] > 0.0) & same]
+        jumps = (before >= 0) & (ends[before] > 0.0)
+        falls, before = falls[jumps], before[jumps]
+        turned = falls[self.numbers[first + before] == self.numbers[first + falls]]
         some = np.flatnonzero((values.min(axis=0) <= 0.0) & (values.max(axis=0) > 0.0))
         among, u, doubtful, _ = crossings_of_many(values[:, some])
         clear = ~np.isin(among, doubtful)
@@ -173,12 +174,7 @@ class Paths:
         at, u = at[order], u[order]
         rows = self.rows[first + at]
         t = rows[:, T0] + u * (rows[:, T1] - rows[:, T0])
-        states = np.array([evaluate(rows[:, part].T, u) for part in CURVES]).T
-        return self._number(first + at), t, states
-
-    def _number(self, rows: np.ndarray) -> np.ndarray:
-        """The number of the path to which each of these rows belongs."""
-        return np.searchsorted(self._bounds, rows, side="right") - 1
+        return self.numbers[first + at], t, _states(rows, u)
 
 
 class ArcRows(Path):
@@ -240,6 +236,12 @@ class ArcRows(Path):
     def passages(self, curve: Curve) -> list[Passage]:
         """Each time and state at which a curve becomes negative."""
         return self.paths.passages(self, curve)
+
+
+def _states(rows: np.ndarray, u: np.ndarray) -> np.ndarray:
+    """The states on these rows' arcs where their parameter is u, shape (rows, 5): two curves of a degree at once."""
+    pairs = (rows[:, first.start : second.stop].reshape(len(rows), 2, -1).T for first, second in ((X, Y), (VX, VY)))
+    return np.vstack((*(evaluate(pair, u) for pair in pairs), evaluate(rows[:, SPIN].T, u))).T
 
 
 def _listed(t: np.ndarray, states: np.ndarray) -> list[Passage]:

@@ -3,8 +3,9 @@ for. Whatever computes many shots gives them in this form."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
+from itertools import chain, compress
 from math import inf, nan
 from typing import Any
 
@@ -12,13 +13,13 @@ import numpy as np
 
 from sandbox.engine.live import Record
 from sandbox.engine.many.arc_rows import END, START, T0, T1, Paths
-from sandbox.engine.many.stacking import Stack
+from sandbox.engine.many.stacking import Stack, selector
 from sandbox.engine.model.accuracy import Accuracy
 from sandbox.engine.model.event import Event
 from sandbox.engine.model.setup import Setup
 from sandbox.engine.model.shapes import Vector
 from sandbox.engine.paths.path import Above, Path
-from sandbox.engine.paths.run import Numerics, Run, State, meeting_time, touched_until
+from sandbox.engine.paths.run import Numerics, Run, State, is_meeting, touched_until
 
 #: What is counted of each run: the first fields of ``Numerics``.
 COUNTS = ("force_evaluations", "steps", "refined_steps", "impacts", "pymunk_steps", "queries")
@@ -142,28 +143,28 @@ class AllRuns:
         self._passed.append((line, found))
         return found
 
-    def starts(self, ball: str) -> Iterator[tuple[np.ndarray, State]]:
-        """As ``Run.starts``, in the same way."""
-        paths = self._paths
-        numbers = np.repeat(np.arange(len(paths.lengths)), paths.lengths)
-        return self._in_turn(ball, numbers, paths.rows[:, T0], paths.rows[:, START])
-
-    def steps(self, ball: str, until: Any) -> tuple[np.ndarray, np.ndarray]:
-        """As ``Run.steps``, shapes (arcs, shots) and (6, arcs, 3, shots): a shot with fewer arcs has its last again,
-        with a duration of 0; NaN where ``until`` is."""
+    def first_start(self, ball: str, holds: Callable[[State], Any], among: Any = True) -> np.ndarray:
+        """As ``Run.first_start``: of a dataclass, which may have a number for each run, as ``among`` may."""
         if ball != self._flown.ball:
             raise KeyError(ball)
-        return self._paths.steps(until)
+        paths = self._paths
+        rows = np.repeat(np.broadcast_to(among, len(paths.lengths)), paths.lengths).nonzero()[0]
+        numbers = paths.numbers[rows]
+        there = np.broadcast_to(selector(holds)(numbers)(State(*paths.rows[rows, START].T)), len(rows)).nonzero()[0]
+        numbers, first = np.unique(numbers[there], return_index=True)
+        found = np.full(len(self._flown), inf)
+        found[numbers] = paths.rows[rows[there[first]], T0]
+        return found
 
     def first_event(self, partner: str) -> Event | None:
         """As ``Run.first_event``: one with arrays, not a number for runs without; None if all are."""
-        firsts = [next((each for each in events if each.partner == partner), None) for events in self._flown.events]
-        numbers = [(nan, nan, nan, nan) if each is None else (each.t, each.speed, each.x, each.y) for each in firsts]
-        known = next((each for each in firsts if each is not None), None)
-        if known is None:
+        firsts = self._firsts([event.partner == partner for event in self._events])
+        if not firsts:
             return None
-        t, speed, x, y = np.array(numbers).T
-        return known._replace(t=t, speed=speed, x=x, y=y)
+        found = np.full((4, len(self._flown)), nan)
+        found[:, [*firsts]] = np.array([(each.t, each.speed, each.x, each.y) for each in firsts.values()]).T
+        t, speed, x, y = found
+        return next(iter(firsts.values()))._replace(t=t, speed=speed, x=x, y=y)
 
     def touched(self, until: Any) -> np.ndarray:
         """As ``Run.touched``: lists as an array."""
@@ -191,8 +192,26 @@ class AllRuns:
     def _meeting_times(self, partner: str | None, ball: str = "") -> np.ndarray:
         """``meeting_time`` of each run, computed once."""
         if (partner, ball) not in self._met:
-            self._met[partner, ball] = np.array([meeting_time(events, partner, ball) for events in self._flown.events])
+            found = np.full(len(self._flown), inf)
+            firsts = self._firsts([is_meeting(event, partner, ball) for event in self._events])
+            found[[*firsts]] = [event.t for event in firsts.values()]
+            self._met[partner, ball] = found
         return self._met[partner, ball]
+
+    def _firsts(self, chosen: Sequence[bool]) -> dict[int, Event]:
+        """The first of the chosen events of each run that has one."""
+        found = [*compress(zip(self._runs_of_events, self._events, strict=True), chosen)]
+        return dict(reversed(found))
+
+    @cached_property
+    def _events(self) -> list[Event]:
+        """The events of all runs, one after another."""
+        return [*chain.from_iterable(self._flown.events)]
+
+    @cached_property
+    def _runs_of_events(self) -> list[int]:
+        """The number of the run of each of them."""
+        return [run for run, events in enumerate(self._flown.events) for _ in events]
 
     def _in_turn(
         self, ball: str, numbers: np.ndarray, t: np.ndarray, states: np.ndarray

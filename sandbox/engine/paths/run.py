@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from math import dist, inf, nan
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Protocol, Unpack
@@ -66,13 +66,16 @@ class State(NamedTuple):
     spin: float  # rad/s, counter-clockwise
 
 
-def meeting_time(events: Sequence[Event], partner: str | None, ball: str = "") -> float:
-    """Time in s of the first event with this partner, or with None in which the ball meets anything; inf without."""
+def is_meeting(event: Event, partner: str | None, ball: str) -> bool:
+    """True of an event with this partner, or with None of one in which the ball meets anything."""
     if partner is None:
-        meets = (event.t for event in events if event.kind != "leave" and ball in (event.ball, event.partner))
-    else:
-        meets = (event.t for event in events if event.partner == partner)
-    return next(meets, inf)
+        return event.kind != "leave" and ball in (event.ball, event.partner)
+    return event.partner == partner
+
+
+def meeting_time(events: Sequence[Event], partner: str | None, ball: str = "") -> float:
+    """Time in s of the first such event; inf without one."""
+    return next((event.t for event in events if is_meeting(event, partner, ball)), inf)
 
 
 def touched_until(events: Sequence[Event], until: float) -> list[str]:
@@ -308,6 +311,12 @@ class Run(Drawable):
         times = [(arc, arc.t0 + part * h) for arc, h in arcs for part in (0.0, 0.5, 1.0)]
         states = np.array([(t, *arc.state(t)[:5]) for arc, t in times]).reshape(-1, 3, 6)
         return np.array([h for _, h in arcs]), np.moveaxis(states, 2, 0)
+
+    def first_start(self, ball: str, holds: Callable[[State], bool], among: bool = True) -> float:
+        """Time (s) of the start of the first arc of a ball's path at which something ``holds``; inf without one, or for
+        a run that is not ``among`` those in question."""
+        starts = self.starts(ball) if among else iter(())
+        return next((t for t, state in starts if holds(state)), inf)
 
     def first_event(self, partner: str) -> Event | None:
         """The first event with this partner; None if there is none."""
