@@ -121,13 +121,15 @@ class Course:
     def drawn(self, random: np.random.Generator, options: Mapping[str, Any] | None = None) -> list[Any]:
         """Draw the start of an attempt, in the order of the task; ``options={"start": {key: value}}`` sets some of it.
         Raises RequestError."""
-        for key in options or ():
+        if not options:
+            return [start.drawn(random) for start in self.task.start]
+        for key in options:
             if key != "start":
                 raise RequestError(f'options: there is no {key!r}; write options={{"start": {{key: value}}}}')
         drawn = [start.drawn(random) for start in self.task.start]
-        given = (options or {}).get("start", {})
+        given = options.get("start", {})
         check_mapping("options, start", given, '{"release.height": 2.1}')
-        places = {start.key: place for place, start in enumerate(self.task.start)} if given else {}
+        places = {start.key: place for place, start in enumerate(self.task.start)}
         for key, value in given.items():
             if key not in places:
                 raise RequestError(f"options, start: {key} is not drawn; choose from {', '.join(places)}")
@@ -169,6 +171,13 @@ class Course:
                 x, y = places.get(name, (0.0, 0.0))
                 found += [min(max(x, left), right), min(max(y, bottom), top), float(name in places)]
         return np.array(found or [0.0], np.float32)
+
+    def observations(self, drawn: Sequence[Sequence[Any]], later: Sequence[Scene | None]) -> NDArray[np.float32]:
+        """The observations of many attempts before a shot, shape (attempts, ...)."""
+        if self.several or not self._observed:
+            return np.array([self.next_observation(*each) for each in zip(drawn, later, strict=True)], np.float32)
+        columns = ([_number(start, each[place]) for each in drawn] for place, start in self._observed)
+        return np.array([*columns], np.float32).T
 
     def next_observation(self, drawn: Sequence[Any], later: Scene | None) -> NDArray[np.float32]:
         """The observation of an attempt before a shot: the first, or one from where balls lie in a ``later`` scene."""

@@ -117,8 +117,8 @@ class TaskVectorEnv(VectorEnv[Any, Any, Any]):
 
     def _observations(self, places: Sequence[int]) -> NDArray[np.float32]:
         """The observations of these attempts, shape (places, ...)."""
-        return np.array(
-            [self.course.next_observation(self._drawn[place], self._later[place]) for place in places], np.float32
+        return self.course.observations(
+            [self._drawn[place] for place in places], [self._later[place] for place in places]
         )
 
     def _aimed(self, actions: Any, playing: NDArray[np.bool_]) -> NDArray[Any]:
@@ -193,7 +193,7 @@ class TaskVectorEnv(VectorEnv[Any, Any, Any]):
         course, rows, later = self.course, aimed.tolist(), [*self._later]
         first = [place for place in places if self._later[place] is None]
         points = [[*self._drawn[place], *rows[place]] for place in first]
-        if first:
+        if first:  # a run is made only for an attempt that goes on after it
             yield from zip(first, outcomes(course.task.scene, course.keys, points, asked=course.facts), strict=True)
         for place in (place for place in places if later[place] is not None):
             values: Mapping[str, float] = dict(zip(course.task.defaults, rows[place], strict=True))

@@ -312,10 +312,9 @@ class Varied:
         """The places of points that differ only in numbers, and their parameters in one, with arrays for the numbers
         that differ; or the exception that explains why there are none."""
         groups: dict[str, list[int]] = {}
-        for place, values in enumerate(points):
-            words = repr([value for value, quick in zip(values, self._quick, strict=True) if not quick])
-            groups.setdefault(words, []).append(place)
-        for places in groups.values():
+        for place, values in enumerate(points if self._slow else ()):
+            groups.setdefault(repr([values[slow] for slow in self._slow]), []).append(place)
+        for places in groups.values() if self._slow else [[*range(len(points))]] if points else ():
             columns = zip(*(points[place] for place in places), strict=True)
             merged = [
                 np.array(column) if quick and any(value != column[0] for value in column) else column[0]

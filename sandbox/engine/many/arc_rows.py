@@ -240,7 +240,8 @@ class ArcRows(Path):
 
 def _states(rows: np.ndarray, u: np.ndarray) -> np.ndarray:
     """The states on these rows' arcs where their parameter is u, shape (rows, 5): two curves of a degree at once."""
-    pairs = (rows[:, first.start : second.stop].reshape(len(rows), 2, -1).T for first, second in ((X, Y), (VX, VY)))
+    place, speed = (rows[:, first.start : second.stop] for first, second in ((X, Y), (VX, VY)))
+    pairs = (pair.reshape(len(rows), 2, pair.shape[1] // 2).T for pair in (place, speed))
     return np.vstack((*(evaluate(pair, u) for pair in pairs), evaluate(rows[:, SPIN].T, u))).T
 
 

@@ -161,9 +161,9 @@ class AllRuns:
         firsts = self._firsts([event.partner == partner for event in self._events])
         if not firsts:
             return None
-        found = np.full((4, len(self._flown)), nan)
-        found[:, [*firsts]] = np.array([(each.t, each.speed, each.x, each.y) for each in firsts.values()]).T
-        t, speed, x, y = found
+        numbers: Any = np.full((4, len(self._flown)), nan)
+        numbers[:, [*firsts]] = np.array([(each.t, each.speed, each.x, each.y) for each in firsts.values()]).T
+        t, speed, x, y = numbers
         return next(iter(firsts.values()))._replace(t=t, speed=speed, x=x, y=y)
 
     def touched(self, until: Any) -> np.ndarray:
