@@ -6,7 +6,8 @@ import os
 import sys
 import tempfile
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from math import ceil, dist
 from pathlib import Path
 from typing import Any
@@ -21,6 +22,7 @@ import sandbox
 from sandbox.cli import main as program
 from sandbox.picture.camera import Box, Camera, Eye
 from sandbox.picture.frames import save_png, to_image
+from sandbox.picture.lettering import Lettering
 from sandbox.picture.long import LongView
 from sandbox.picture.painter import Painter, blank
 from sandbox.picture.palette import scene_colours
@@ -28,6 +30,7 @@ from sandbox.picture.places.plan import Ground, Kit, draw_moving
 from sandbox.picture.places.plan import Person as Above
 from sandbox.picture.places.things import Person as Side
 from sandbox.picture.places.things import poses as all_poses
+from sandbox.picture.sheet import Sheet
 from sandbox.picture.view import View
 from sandbox.scene.discovery import installed_folders
 from sandbox.tasks.sports import TILE, TILE_FILE
@@ -43,7 +46,11 @@ HERE = Path(__file__).resolve().parent
 
 #: What is shown of the sports, in rows of two.
 SPORTS = ("golf", "basketball/bank-shot", "billiards/nine-ball-break", "soccer/dipping-free-kick")
-SIZE, GAP = (720, 405), 6  # px
+SIZE, GAP = (832, 468), 12  # px
+#: On the sheet of all sports posters are so high, in px, before their foot is cut off, where their numbers would be.
+WITH_FOOT = 528
+#: A page shows pictures so wide, in px, in which letters have this height at least.
+SHOWN, LETTERS = 838, 14
 WINDOW, FRAME = (1280, 720), 1 / 60  # px, s
 #: The pull of the free throw that goes in, in px.
 PULL = (-111, 142)
@@ -63,19 +70,35 @@ NEW = "beachvolley"
 COMPARE = ("run", "golf", "--compare", "golf/headwind")
 
 
-def poster(name: str) -> Image.Image:
-    """The poster of a scene or preset, drawn twice as large and scaled down."""
-    scene = sandbox.load(name)
-    large = to_image(scene.picture(sandbox.simulate(scene), (2 * SIZE[0], 2 * SIZE[1])).poster())
-    return large.resize(SIZE, Image.Resampling.LANCZOS)
+@contextmanager
+def legible(size: tuple[int, int], across: int) -> Iterator[None]:
+    """Letters so large that they can be read where a page shows a picture ``across`` px wide, of which this is the size
+    of a part, in px."""
+    least = LETTERS * max(1.0, across / SHOWN)
+    Lettering.larger = max(1.0, least / Lettering(size[1]).pixels["small"])
+    yield
+    Lettering.larger = 1.0
 
 
 def sports() -> None:
-    """One poster of each sport on a sheet."""
-    rows = len(SPORTS) // 2
-    sheet = Image.new("RGB", (2 * SIZE[0] + GAP, rows * SIZE[1] + (rows - 1) * GAP), "white")
+    """A picture of each sport on a sheet: its shot and the headline, without the numbers of a poster, which would be
+    too small to read."""
+    rows, wide = len(SPORTS) // 2, 2 * SIZE[0] + GAP
+    sheet = Image.new("RGB", (wide, rows * SIZE[1] + (rows - 1) * GAP), "white")
     for i, name in enumerate(SPORTS):
-        sheet.paste(poster(name), (i % 2 * (SIZE[0] + GAP), i // 2 * (SIZE[1] + GAP)))
+        scene = sandbox.load(name)
+        run = sandbox.simulate(scene)
+        view = scene.picture(run, (SIZE[0], WITH_FOOT))
+        for layer in view.layers():
+            if layer == "balls":
+                break
+        view.before(view.sheet.painter, view.camera, view.moment)
+        with legible(SIZE, wide):
+            words = Sheet(SIZE, view.on_dark, view.sheet.surface.subsurface((0, 0), SIZE))
+            words.write(
+                scene.verdict(run), "small", (view.sheet.frame.left, view.sheet.frame.top), words.ink, bold=True
+            )
+        sheet.paste(to_image(words.surface), (i % 2 * (SIZE[0] + GAP), i // 2 * (SIZE[1] + GAP)))
     sheet.save(HERE / "sports.jpg", quality=QUALITY, subsampling=0, optimize=True, progressive=True)
 
 
@@ -92,7 +115,8 @@ def compare() -> None:
     """The comparison that the README shows, by the command that it names."""
     with tempfile.TemporaryDirectory() as folder:
         plot = Path(folder, "compare.png")
-        program([*COMPARE, "--poster", str(plot)])
+        with legible(WINDOW, WINDOW[0]):
+            program([*COMPARE, "--poster", str(plot)])
         with Image.open(plot) as image:
             image.save(HERE / "compare.jpg", quality=QUALITY, subsampling=0, optimize=True, progressive=True)
 
@@ -102,7 +126,8 @@ def new_scene() -> None:
     with tempfile.TemporaryDirectory() as folder:
         plot = Path(folder, "new.png")
         program(["new", str(Path(folder, NEW))])
-        program(["run", str(Path(folder, NEW)), "--poster", str(plot), "--size", f"{SIZE[0]}x{SIZE[1]}"])
+        with legible(SIZE, SIZE[0]):
+            program(["run", str(Path(folder, NEW)), "--poster", str(plot), "--size", f"{SIZE[0]}x{SIZE[1]}"])
         with Image.open(plot) as image:
             image.save(HERE / "new-scene.jpg", quality=QUALITY, subsampling=0, optimize=True, progressive=True)
 
