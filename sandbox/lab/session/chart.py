@@ -31,7 +31,7 @@ def charts(session: Session, title: str) -> list[Chart]:
     """Distances by group, dispersion, the model, and the differences between two sessions or airs."""
     tall = _REST + _ROW * len(session.first.groups)
     found = [
-        *_bag(session.first, tall),
+        *_bag(session.first, tall, f"{session.first.shots.path.name}: " if session.second is not None else ""),
         *_dispersion(session),
         *_against_model(session, tall),
         *_different(session),
@@ -41,13 +41,13 @@ def charts(session: Session, title: str) -> list[Chart]:
     return [replace(chart, title=title, about=about) for chart in found]
 
 
-def _bag(part: Part, tall: float) -> list[Chart]:
+def _bag(part: Part, tall: float, name: str) -> list[Chart]:
     main = part.shots.main
     note = "Each dot is a shot, the bar the mean and one standard deviation to either side; on the right, the mean and "
     note += "the gap to the next."
     if main.is_share:
         note = "The share, with its 95 % interval (Wilson)."
-    title = f"{main.label} by {part.shots.by}" if part.shots.by else main.label
+    title = name + (f"{main.label} by {part.shots.by}" if part.shots.by else main.label)
     return [Chart([Panel(partial(_rows_of, part, main), title=_titled(title, main.unit))], height=tall, note=note)]
 
 
@@ -203,9 +203,11 @@ def _different(session: Session) -> list[Chart]:
             name: (by[key].value, by[key].low, by[key].high) for name, by in by_group.items() if key in by
         }
         one = shots.measures[key]
-        title = f"{one.label}, {session.second.shots.path.stem} minus {shots.path.stem}" if not panels else one.label
-        panels.append(Panel(partial(_intervals, rows, not panels), _titled("", one.unit), title=title))
-    note = "Difference of the means, with its 95 % interval; in colour where that does not hold 0."
+        panels.append(
+            Panel(partial(_intervals, rows, not panels), _titled("", one.unit), title=f"change of {one.label}")
+        )
+    minus = f"{session.second.shots.path.name} minus {shots.path.name}"
+    note = f"Difference of the means, {minus}, with its 95 % interval; in colour where that does not hold 0."
     tall = _REST + _ROW * len(by_group)
     return [Chart(panels, across=len(panels), height=tall, note=note)] if panels else []
 
