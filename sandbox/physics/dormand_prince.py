@@ -24,9 +24,8 @@ E1, E3, E4, E5, E6, E7 = 71 / 57600, -71 / 16695, 71 / 1920, -17253 / 339200, 22
 
 
 def step_of(acceleration_at: AccelerationFunction, rotates: bool) -> Method:
-    """Return the step of a ball, whose state is (x, y, vx, vy, spin); of a body if it ``rotates``: its
-    state has the angle, too. Components and dt are floats; ``of`` is whatever else the acceleration is a function of.
-    """
+    """Return the step of a ball, whose state is (x, y, vx, vy, spin); of a body if it ``rotates``: its state has the
+    angle, too. Components and dt are floats, or arrays; ``of`` is whatever else the acceleration is a function of."""
 
     def step(t: Any, state: State, acceleration: Acceleration, dt: Any, *of: Any) -> Step:
         x1, y1, vx1, vy1, spin1 = state[:5]

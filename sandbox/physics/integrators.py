@@ -85,27 +85,15 @@ class Integrator(NamedTuple):
 
         return step
 
-    def step_of_many(self, acceleration_at: AccelerationFunction) -> Method:
-        """Return the step of many balls at once, whose states are an array, each independent of the others."""
+    def step_of_many(self, acceleration_at: Callable[[Any, Any], Any]) -> Method:
+        """Return the same step of many balls at once, whose states are an array, each independent of the others."""
         import numpy as np  # here, not above: single runs do not need it
 
-        stages = [(each.time, np.array(each.weights), np.array(each.of_velocities)) for each in self.stages]
-        off = np.array(self.error)
+        one = self.step_of(lambda t, state: acceleration_at(t, np.array(state)))
 
         def step(t: Any, state: Any, acceleration: Any, dt: Any) -> Any:
-            rates = np.empty((len(stages) + 1, *state.shape))  # vx, vy, ax, ay and alpha in each stage
-            rates[0, :2], rates[0, 2:] = state[2:4], acceleration
-
-            def changes(weights: Any, components: int) -> Any:
-                return dt * np.einsum("s,scn->cn", weights, rates[: len(weights), :components])
-
-            for number, (time, weights, of_velocities) in enumerate(stages, 1):
-                end = state + changes(weights, 5)
-                rates[number, :2] = end[2:4]
-                if len(of_velocities):
-                    end[:2] = state[:2] + changes(of_velocities, 2)
-                rates[number, 2:] = acceleration_at(t + time * dt, end)
-            return end, rates[-1, 2:], changes(off, 5) if len(off) else None
+            end, last, error = one(t, state, acceleration, dt)
+            return np.array(end), np.array(last), None if error is None else np.array(error)
 
         return step
 

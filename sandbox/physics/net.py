@@ -38,10 +38,10 @@ class NetDrag:
 
 def net_hold(x: Any, y: Any, across: Any, top: Any, half_width: Any, length: Any) -> Any:
     """The share of its force with which a net holds a ball at (x, y): 1 inside, 0 outside."""
-    beside = half_width - abs(x - across)
-    if not anywhere(beside > -EDGE):  # most of a flight is elsewhere
-        return 0.0
     below = minimum(top - y, length - (top - y))
+    if not anywhere(below > 0.0):
+        return 0.0
+    beside = half_width - abs(x - across)
     if not anywhere((below > 0.0) & (beside > -EDGE)):
         return 0.0
     return smooth(below / EDGE) * smooth(1.0 + beside / EDGE)
