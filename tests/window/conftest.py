@@ -57,15 +57,18 @@ class Player:
         self.settle()
 
     def frames(self, count: int = 1, dt: float = FRAME) -> None:
-        for _ in range(count):
-            self.app.tick(dt)
+        """So many frames, of which the last is looked at."""
+        for _ in range(count - 1):
+            self.view.changed |= self.wait(dt)
+        self.app.tick(dt)
 
-    def wait(self) -> None:
-        """One frame that nobody looks at: it is not drawn, but where a list draws what it waits for."""
+    def wait(self, dt: float = FRAME) -> bool:
+        """One frame that nobody looks at: it is not drawn, but where a list draws what it waits for; returns whether it
+        should have been."""
         with pytest.MonkeyPatch.context() as patch:
             if self.view.shown.overlay is None:
                 patch.setattr(self.view, "draw", lambda: None)
-            self.frames(1)
+            return self.app.tick(dt)
 
     def settle(self) -> None:
         """Frames until there is nothing left to compute or compose; the last one is drawn."""

@@ -24,7 +24,8 @@ from sandbox.window.view import View
 from .test_game import Here
 
 SCENES = sorted(item.name for item in listings() if "/" not in item.name)
-SIZES = ((1920, 1080), (1280, 720), (640, 400))
+#: One of 1920x1080 is laid out as that of 1280x720: all sizes go with the height.
+SIZES = ((1280, 720), (640, 400))
 SAID = "37 of 100 score: 28 to 47 %", "speed ± 0.087 m/s, angle ± 0.62 deg"
 BARS = Bars("entry angle 45.2°, 90 % 42.1° to 48.0°", ("41.0°", "49.5°"), (1, 4, 9, 3), (3, 2, 0, 5), 0.48)
 CELLS = np.arange(13 * 9, dtype=np.uint8).reshape(13, 9) % 2
@@ -69,7 +70,7 @@ def test_nothing_covers_anything_in_any_scene_and_size(source, monkeypatch):
     try:
         for size in SIZES:
             pygame.display.set_mode(size, pygame.RESIZABLE)
-            for panel in (set(), {"panel"}) if size != SIZES[0] else (set(),):  # in the largest there is room for all
+            for panel in (set(), {"panel"}):
                 app.game.memory.lab, view.shown.on = True, {"ghosts", "fan", "map", "charts", "cost", *panel}
                 view.resized()
                 view.lay_out()

@@ -90,14 +90,13 @@ def test_a_lost_ball_is_a_shot_and_space_launches_another(player: Player):
     """It counts with the times of the keys; Space launches another ball."""
     before = player.game.shots.count
     player.key(pygame.K_SPACE)
-    for _ in range(60):
-        player.frames(1)
+    player.frames(60)
     send(player, pygame.KEYDOWN, pygame.K_RIGHT)
     send(player, pygame.KEYUP, pygame.K_RIGHT)
     for _ in range(1200):
         if player.game.watching.live is None:
             break
-        player.frames(1, 1 / 30)
+        player.wait(1 / 30)
     player.settle()
     shot = player.game.shot
     assert shot is not None

@@ -136,19 +136,19 @@ class TestTheFan:
         assert cloud(*asked, known) == alone  # none of those that both have computed counts twice
 
     def test_the_process_of_the_path_helps_with_a_slow_fan(self, player, monkeypatch):
-        player = player("billiards/nine-ball-break")
+        player = player("billiards/nine-ball-break", (640, 400))
         player.game.workers.helper = Processes(1)
         try:
             player.key(pygame.K_f)
             while not player.view.fan.elsewhere.value:
-                player.frames()
+                player.wait()
                 sleep(0.01)
             assert FEWEST <= player.view.fan.job.value.shots < SHOTS
             asked, submit = [], player.game.workers.helper.submit
             monkeypatch.setattr(player.game.workers.helper, "submit", lambda *call: asked.append(call) or submit(*call))
             player.key(pygame.K_UP)
             while not any(work is cloud and not quick for work, _, _, _, quick, *_ in asked):
-                player.frames()
+                player.wait()
                 sleep(0.01)
             assert all(scene == player.game.shot.scene for _, scene, *_ in asked)
             assert not any(known for *_, known in asked)  # shots of the fan from before

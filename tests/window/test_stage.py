@@ -228,7 +228,7 @@ class TestTheCamera:
         playback, scales = player.game.watching.playback, [aimed.scale]
         decided = playback.story.decided
         while playback.t < decided:
-            player.frames(1, LONGEST_FRAME)
+            player.wait(LONGEST_FRAME)
             scales.append(player.view.viewpoint.camera.scale)
         assert all(after >= before * (1 - 1e-6) for before, after in pairwise(scales))
         assert scales[-1] > 4 * aimed.scale
@@ -246,7 +246,7 @@ class TestTheCamera:
         playback = player.game.watching.playback
         playback.seek(playback.story.decided)
         while playback.moves_on or not playback.over:
-            player.frames(1)
+            player.wait()
         player.frames(2)
         assert player.view.viewpoint.camera == player.view.stages.latest.camera
         assert not player.view.needs_drawing(False)
