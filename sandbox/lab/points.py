@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-import csv
 from pathlib import Path
 
 from sandbox.errors import RequestError
-from sandbox.files import is_given
 from sandbox.lab.axes import Values, points_in
 from sandbox.lab.mapped import EVERYTHING, Choices, Mapped, read_shots
-from sandbox.lab.table_file import read_table
+from sandbox.lab.table_file import first_cells, read_table
 from sandbox.parameters import walk
 from sandbox.scene import Scene
-
-#: As much of a first line is looked at, in characters.
-_LONGEST = 100_000
 
 
 def points_from(
@@ -32,11 +27,5 @@ def points_from(
 
 def _names_parameters(scene: Scene, path: Path) -> bool:
     """True if the first line has the key of a parameter, or cannot be read, as that of a pipe or a device."""
-    try:
-        is_given(path)
-        with path.open(encoding="utf-8-sig", errors="replace", newline="") as file:
-            first = next(csv.reader([file.readline(_LONGEST)]), [])
-    except (RequestError, OSError, csv.Error):
-        return True
-    keys = {one.key for one in walk(scene.parameters, entries=True)}
-    return any({name.strip(), name.strip().partition("[")[0]} & keys for name in first)
+    first, keys = first_cells(path), {one.key for one in walk(scene.parameters, entries=True)}
+    return first is None or any({name, name.partition("[")[0]} & keys for name in first)

@@ -21,7 +21,7 @@ import numpy as np
 
 from sandbox import units
 from sandbox.errors import RequestError
-from sandbox.files import read_given
+from sandbox.files import is_given, read_given
 from sandbox.text import one_line, shortened
 
 #: Most bytes of a table, and most rows.
@@ -29,6 +29,9 @@ LARGEST, _MOST_ROWS = 50_000_000, 100_000
 
 #: Lines at the beginning in which the names of the columns are looked for.
 _HEAD = 30
+
+#: As much of a first line is looked at, in characters.
+_LONGEST_LINE = 100_000
 
 #: A control character that no text has.
 _BINARY = re.compile(r"[\x00-\x08\x0e-\x1a\x1c-\x1f]")
@@ -135,6 +138,16 @@ def read_table(option: str, path: Path) -> Table:
         return _of_json(where, text)
     rows, separator = _rows(where, text)
     return _of_rows(where, rows, separator)
+
+
+def first_cells(path: Path) -> list[str] | None:
+    """The cells of a file's first line, as far as it is read; None for what cannot be, such as a pipe."""
+    try:
+        is_given(path)
+        with path.open(encoding="utf-8-sig", errors="replace", newline="") as file:
+            return [cell.strip() for cell in next(csv.reader([file.readline(_LONGEST_LINE)]), [])]
+    except (RequestError, OSError, csv.Error):
+        return None
 
 
 def _decoded(where: str, data: bytes) -> str:
