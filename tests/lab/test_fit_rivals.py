@@ -83,12 +83,9 @@ def test_a_minimum_that_explains_far_less_is_no_rival(tilt: float, count: int):
 def test_values_that_explain_the_data_as_well_are_said():
     scene = sandbox.load("throws", {"launch.speed": FIRST})
     followed: list[tuple[int, int]] = []
-    found = solve(
-        scene,
-        TwoRoots(0.01),
-        [Span("launch.speed", 0.0, 30.0)],
-        progress=lambda done, total: followed.append((done, total)),
-    )
+    spans = [Span("launch.speed", 0.0, 30.0)]
+    problem = Problem(scene, TwoRoots(0.01), spans, progress=lambda done, total: followed.append((done, total)))
+    found = solve(problem)
     assert followed[0][0] == 0 < followed[0][1]  # starts that were followed, of how many
     (other,) = found.others
     assert {round(found.values["launch.speed"].value), round(other.values["launch.speed"])} == {10, 13}
@@ -99,6 +96,6 @@ def test_values_that_explain_the_data_as_well_are_said():
 
 def test_the_better_of_two_minima_is_the_fit():
     scene = sandbox.load("throws", {"launch.speed": FIRST})
-    found = solve(scene, TwoRoots(3.0), [Span("launch.speed", 0.0, 30.0)])
+    found = solve(Problem(scene, TwoRoots(3.0), [Span("launch.speed", 0.0, 30.0)]))
     assert found.values["launch.speed"].value == pytest.approx(SECOND, abs=0.2)
     assert found.others == ()

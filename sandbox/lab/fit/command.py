@@ -103,6 +103,7 @@ def fit(
     from sandbox.lab.fit.launches import Launches
     from sandbox.lab.fit.models import compare, parse_models
     from sandbox.lab.fit.parsing import Film, parse_ball, parse_pair, parse_scale
+    from sandbox.lab.fit.problem import Problem
     from sandbox.lab.fit.report import report_of
     from sandbox.lab.fit.saving import check_saving
     from sandbox.lab.fit.saving import save as saved
@@ -125,7 +126,7 @@ def fit(
         found = (
             fit_track(chosen, data, spans, robust, progress)
             if models is None
-            else compare(chosen, data, spans, *parse_models(chosen, "--models", models), robust, progress)
+            else compare(Problem(chosen, data, spans, robust, progress), *parse_models(chosen, "--models", models))
         )
     files: list[Path] = []
     if save is not None:

@@ -19,7 +19,7 @@ from sandbox.lab.fit.launches import Launches
 from sandbox.lab.fit.measured import Measured
 from sandbox.lab.fit.models import chosen_models, compare
 from sandbox.lab.fit.parsing import Film, parse_scale
-from sandbox.lab.fit.problem import Declared
+from sandbox.lab.fit.problem import Declared, Problem
 from sandbox.lab.fit.remedy import explained
 from sandbox.lab.fit.squares import FarOff, Fit, solve
 from sandbox.lab.mapped import choices_of
@@ -85,7 +85,7 @@ def fit(
     if isinstance(models, Mapping) and len(models) != 1:
         raise RequestError('models: must name one parameter, such as {"ball.drag.model": ["constant", "none"]}')
     key, words = (models, ()) if isinstance(models, str) else next(iter(models.items()))
-    return compare(chosen, measured, spans, key, chosen_models(chosen, "models", key, words), robust)
+    return compare(Problem(chosen, measured, spans, robust), key, chosen_models(chosen, "models", key, words))
 
 
 def fit_track(
@@ -103,10 +103,11 @@ def fit_track(
     given = next((key for key in keys if isinstance(measured, Launches) and key in measured.given), None)
     if given is not None:
         raise RequestError(f"--vary {given}: is a column of the table; to fit it, leave that out: --without {given}")
+    problem = Problem(scene, measured, spans, robust, progress)
     try:
-        return solve(scene, measured, spans, robust, progress=progress)
+        return solve(problem)
     except FarOff as error:
-        raise explained(error, scene, measured, spans) from None
+        raise explained(error, problem) from None
 
 
 def parse_varied(scene: Scene, text: str) -> Span:

@@ -8,11 +8,10 @@ from math import inf
 from typing import Any
 
 from sandbox.errors import RequestError, RunError
-from sandbox.lab.axes import Span, checked
-from sandbox.lab.fit.measured import Measured
+from sandbox.lab.axes import checked
+from sandbox.lab.fit.problem import Problem
 from sandbox.lab.fit.remedy import explained
 from sandbox.lab.fit.squares import FarOff, Fit, Model, check_near, solve
-from sandbox.lab.runs import Progress, no_progress
 from sandbox.parameters import choices_of, value_at
 from sandbox.scene import Scene
 from sandbox.text import nearest
@@ -55,15 +54,7 @@ def _has(scene: Scene, key: str, value: float) -> bool:
         return False
 
 
-def compare(
-    scene: Scene,
-    measured: Measured,
-    spans: Sequence[Span],
-    key: str,
-    words: Sequence[Any],
-    robust: bool = False,
-    progress: Progress = no_progress,
-) -> Fit:
+def compare(problem: Problem, key: str, words: Sequence[Any]) -> Fit:
     """The fit of the best model, with all that were compared. Raises RequestError or RunError if none can be fitted.
 
     Each is fitted with those of the ranges whose parameter it has.
@@ -72,11 +63,12 @@ def compare(
     failure: RequestError | RunError | None = None
     for word in words:
         try:
-            changed = scene.changed({key: word}, "--models")
-            own = [span for span in spans if _has(changed, span.key, span.low)]
+            changed = problem.scene.changed({key: word}, "--models")
+            own = [span for span in problem.spans if _has(changed, span.key, span.low)]
             if not own:
                 raise RequestError(f"{word} has none of the parameters to fit")
-            found[str(word)] = Model(0.0, solve(changed, measured, own, robust, near=False, progress=progress))
+            own_problem = Problem(changed, problem.measured, own, problem.robust, problem.progress)
+            found[str(word)] = Model(0.0, solve(own_problem, near=False))
         except (RequestError, RunError) as error:
             failure = failure or error
             found[str(word)] = Model(inf, None, str(error))
@@ -91,7 +83,7 @@ def compare(
     best = next(iter(ordered.values())).fit
     assert best is not None
     try:
-        check_near(best.scene, measured, best.residuals, robust)
+        check_near(best.scene, problem.measured, best.residuals, problem.robust)
     except FarOff as error:
-        raise explained(error, scene, measured, spans) from None
+        raise explained(error, problem) from None
     return replace(best, models=ordered, models_of=key)

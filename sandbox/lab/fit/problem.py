@@ -10,6 +10,7 @@ import numpy as np
 
 from sandbox.lab.axes import Span, unit_of
 from sandbox.lab.fit.measured import Measured
+from sandbox.lab.runs import Progress, no_progress
 from sandbox.parameters import value_at
 from sandbox.scene import Scene
 
@@ -30,10 +31,19 @@ class Declared(Span):
 
 
 class Problem:
-    """Residuals of measured data as a function of shares, from 0 to 1, of the ranges of what is fitted."""
+    """Residuals of measured data as a function of shares, from 0 to 1, of the ranges of what is fitted; and how it is:
+    with gross errors counted less if ``robust``, and telling ``progress`` about its starts."""
 
-    def __init__(self, scene: Scene, measured: Measured, spans: Sequence[Span]) -> None:
+    def __init__(
+        self,
+        scene: Scene,
+        measured: Measured,
+        spans: Sequence[Span],
+        robust: bool = False,
+        progress: Progress = no_progress,
+    ) -> None:
         self.scene, self.measured, free = scene, measured, measured.free
+        self.spans, self.robust, self.progress = spans, robust, progress
         self.scene_keys = [span.key for span in spans]
         self.keys = [*self.scene_keys, *(one.key for one in free)]
         self.units = [*(unit_of(scene, key) for key in self.scene_keys), *(one.unit for one in free)]

@@ -14,7 +14,6 @@ from sandbox.lab.axes import Span
 from sandbox.lab.fit.descent import Place
 from sandbox.lab.fit.falling import arcs_of, gravity_hint, other_gravity
 from sandbox.lab.fit.frame import frame_of
-from sandbox.lab.fit.measured import Measured
 from sandbox.lab.fit.problem import Problem
 from sandbox.lab.fit.search import follow, robust_sds
 from sandbox.lab.fit.squares import FarOff
@@ -39,10 +38,11 @@ _FASTER, _ASIDE, _SLOW = 0.6, 25.0, 0.5
 _TRIED, _FOLLOWED = 16, 2
 
 
-def explained(error: FarOff, scene: Scene, measured: Measured, spans: Sequence[Span]) -> RequestError:
+def explained(error: FarOff, problem: Problem) -> RequestError:
     """The refusal of a track that no run comes near, with what makes it fit, or what may be wrong."""
+    scene, measured = problem.scene, problem.measured
     free = [one.start for one in measured.free]
-    options = _options(scene, measured, spans) if isinstance(measured, Track) else ""
+    options = _options(scene, measured, problem.spans) if isinstance(measured, Track) else ""
     hint = gravity_hint(scene, measured, free) or (
         "" if options else "is it of this scene, in m and s from its origin, and are the ranges wide enough?"
     )

@@ -11,7 +11,6 @@ import numpy as np
 from sandbox.lab.fit.descent import WORTH, Place, descend
 from sandbox.lab.fit.loss import HUBERS, SQUARES
 from sandbox.lab.fit.problem import Problem
-from sandbox.lab.runs import Progress, no_progress
 
 #: Starts that are tried for each value beyond the first, and those that are followed, at most; fewer are tried where
 #: one is more than so many runs in all, as for a long table of shots.
@@ -48,15 +47,15 @@ _FAR_OFF = 0.1
 ENOUGH, _LARGE = 8, 5.0
 
 
-def search(problem: Problem, robust: bool, progress: Progress = no_progress) -> list[Place]:
-    """The places where starts ended, the best first; none if no run could be completed. ``progress`` is called with
+def search(problem: Problem) -> list[Place]:
+    """The places where starts ended, the best first; none if no run could be completed. Its ``progress`` is called with
     the number of starts that were followed, and of all."""
     starts, scale = _starts(problem)
     ended: list[tuple[float, Place]] = []
     for growth in _GROWTHS:
-        following = _Following(problem, scale, robust, growth)
+        following = _Following(problem, scale, problem.robust, growth)
         for number, share in enumerate(starts):
-            progress(number, len(starts))
+            problem.progress(number, len(starts))
             found = following.from_start(share)
             ended += [(following.merit(place), place) for place in (found, following.freed(found)) if place is not None]
             ended.sort(key=lambda pair: pair[0])

@@ -12,7 +12,6 @@ import numpy as np
 
 from sandbox import display
 from sandbox.errors import RequestError, RunError
-from sandbox.lab.axes import Span
 from sandbox.lab.fit.descent import Place, descend
 from sandbox.lab.fit.intervals import HARDLY, Errors, clustered, errors_of, group_sds, pooled
 from sandbox.lab.fit.loss import HUBERS, OUTLIER, SQUARES, TUKEYS, Loss
@@ -20,7 +19,7 @@ from sandbox.lab.fit.measured import Measured
 from sandbox.lab.fit.problem import Problem
 from sandbox.lab.fit.rivals import Weighted, rivals
 from sandbox.lab.fit.search import ALIKE, ENOUGH, neumann, robust_sds, search
-from sandbox.lab.runs import Progress, no_progress, runs
+from sandbox.lab.runs import runs
 from sandbox.scene import Scene
 from sandbox.text import with_noun
 
@@ -149,30 +148,23 @@ class Fit(display.Reported):
         return likelihood + 2.0 * free * count / max(count - free - 1, 1)
 
 
-def solve(
-    scene: Scene,
-    measured: Measured,
-    spans: Sequence[Span],
-    robust: bool = False,
-    near: bool = True,
-    progress: Progress = no_progress,
-) -> Fit:
+def solve(problem: Problem, near: bool = True) -> Fit:
     """The best fit. Raises RequestError for too few rows; FarOff, if it must be ``near``, for data that no run comes
     near; RunError if no run could be completed."""
+    scene, measured = problem.scene, problem.measured
     measured.check(scene)
-    problem = Problem(scene, measured, spans)
     if measured.count <= len(problem):
         rows, values = with_noun(measured.count, measured.what), with_noun(len(problem), "parameter")
         raise RequestError(f"{rows} for {values}: a fit needs more {measured.what}s than parameters")
-    ended = search(problem, robust, progress)
+    ended = search(problem)
     if not ended:
         raise RunError(f"no run of {scene.title} in these ranges could be completed")
     place, known = ended[0], ended[1:]
     for left in reversed(range(_ROUNDS_OF_RIVALS)):
-        place, sds, loss = _refined(problem, place, robust)
+        place, sds, loss = _refined(problem, place)
         place = Place(place.share, place.residuals, _slopes(problem, place, sds), place.cost)
         if near:
-            check_near(problem.scene, measured, place.residuals, robust)
+            check_near(scene, measured, place.residuals, problem.robust)
         errors = errors_of(place.residuals, place.slopes, sds, measured.groups, loss)
         found = rivals(Weighted(problem, sds, loss), place, errors, known)
         if not left or not found or found[0][0] > -BETTER:
@@ -195,12 +187,12 @@ def _slopes(problem: Problem, place: Place, sds: np.ndarray) -> np.ndarray:
     return slopes
 
 
-def _refined(problem: Problem, place: Place, robust: bool) -> tuple[Place, np.ndarray, Loss]:
+def _refined(problem: Problem, place: Place) -> tuple[Place, np.ndarray, Loss]:
     """The place with each group weighted by its own scatter, the scale of each residual, and the loss."""
     groups = problem.measured.groups
     counts, units, used = np.bincount(groups), problem.measured.units, np.ones(len(groups))
     first = np.unique(groups, return_index=True)[1]
-    if robust:
+    if problem.robust:
         sds = robust_sds(place.residuals, groups)
         for loss in (HUBERS, HUBERS, TUKEYS, TUKEYS):
             place = descend(problem, place.share, 1.0 / sds, loss)
