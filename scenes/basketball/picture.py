@@ -155,7 +155,10 @@ class Picture(SideView[Parameters]):
 
     @property
     def story(self) -> Story:
-        """Ring and net, or where the ball goes instead."""
+        """Ring and net, past which a ball falls that misses all, or where the ball goes instead."""
+        past = [t for t, _ in self.run.crossings("ball", (0.0, self.ring[1]), (0.0, 1.0)) if t <= self.decided]
+        if past and not {*self.run.result["touches"]} - {"floor"} and not self.run.result["made"]:
+            return Story(self.aims[0], past[-1])
         return self.meeting(self.aims[0], share=0.35, spot=1.5)
 
     @property

@@ -66,3 +66,10 @@ def test_ring_and_board_shake_where_the_ball_hits_them():
     t = next(e.t for e in run.events if e.partner.startswith("rim"))
     assert 0.001 < max(abs(shaken(run, t + since)) for since in (0.02, 0.05, 0.1)) <= 0.03  # m
     assert shaken(run, t - 0.01) == shaken(clean, clean.duration) == 0.0
+
+
+def test_an_air_ball_is_seen_as_it_falls_past_the_ring():
+    view = view_of("basketball", launch__speed=6.9)
+    assert view.run.result["touches"] == ["floor"]
+    assert view.story.place == view.aims[0]
+    assert view.run.state("ball", view.story.at)[1] == pytest.approx(view.parameters.hoop.height)
