@@ -92,7 +92,7 @@ class _Site:
         shot = re.fullmatch(r"shot-(\d{1,9})\.webp", name)
         if kind == "teach" and shot is not None:
             picture = await self.room.small_picture(int(shot[1]))
-            return _nothing() if picture is None else Response(picture, media_type="image/webp")
+            return Response(status_code=204) if picture is None else Response(picture, media_type="image/webp")
         if kind is None or name not in self.files or name.endswith(".html"):
             return _nothing()
         return self.sent(name)

@@ -38,6 +38,8 @@ MEMORY = 4 << 30
 UNREAD = 10.0
 #: Rows of the teacher's table, of which the page has the last ones; the oldest go first.
 ROWS, SENT = 2000, 600
+#: A request for a small picture of a shot waits so long, in s; the page asks again.
+DRAWN = 1.0
 #: The addresses stay valid so long after a start, in s, when the server starts again: a day at school.
 KEPT = 12 * 3600.0
 #: A connection that has not said what it wants after so many s is closed.

@@ -228,7 +228,11 @@ const heard = {
     const match = scene.match && state.scene?.match && scene.source === state.source;
     if (match) told("partner", scene.there || scene.match.over ? "" : `${scene.match.players[1 - scene.you]} is not there at the moment.`);
     if (match && scene.shots === state.scene.shots && scene.you === state.scene.you) return;
-    if (match && state.shot && !scene.match.over && scene.shots) return (state.next = scene); // once this shot was seen
+    if (match && state.shot && !scene.match.over && scene.shots) { // once this shot was seen
+      state.next = scene;
+      if (state.finished === state.run) later("next", SEEN, goOn);
+      return;
+    }
     if (match && state.shot && scene.match.over) return (state.scene.match = scene.match), (state.scene.shots = scene.shots), ending();
     const other = state.source !== scene.source || contest() || scene.task || scene.match;
     Object.assign(state, { source: scene.source, changes: { ...scene.changes }, scene, shot: false });
@@ -388,7 +392,7 @@ function goOn() {
   clearTimeout(timers.next);
   const { next } = state;
   if (!$("ending").hidden) return;
-  if (!next) return mine() || !state.scene.match ? again(true) : undefined;
+  if (!next) return state.scene.match ? undefined : again(true);
   [state.next, state.shot] = [null, false];
   heard.scene(next);
 }

@@ -13,7 +13,7 @@ from typing import Any, Literal, NamedTuple
 from sandbox.errors import RequestError
 from sandbox.serve import calls, messages
 from sandbox.serve.connection import LATER, Connection
-from sandbox.serve.limits import AWAY, HELLO, PLAYERS, REMEMBERED, ROWS, SENT
+from sandbox.serve.limits import AWAY, DRAWN, HELLO, PLAYERS, REMEMBERED, ROWS, SENT
 from sandbox.serve.processes import JobProcesses
 
 Kind = Literal["scene", "preset", "task", "game"]
@@ -110,6 +110,7 @@ class Room:
         self.lead = _Lead()
         self.rows: deque[_Row] = deque(maxlen=ROWS)
         self.small: dict[int, bytes] = {}  # pictures of shots, by their numbers
+        self._drawn: dict[int, asyncio.Task[None]] = {}  # the making of others
         self.pairs: list[_Pair] = []  # matches
         self.counted = 0
         self.seed = secrets.randbelow(2**31)  # of tasks: the same starts for all
@@ -515,18 +516,24 @@ class Room:
             teacher.send(kind, reply["message"])
 
     async def small_picture(self, number: int) -> bytes | None:
-        """A small picture of a shot of the table, computed once; None where there is none."""
+        """A small picture of a shot of the table, drawn once; None where there is none, or none yet: a browser has few
+        connections, which must not all wait."""
+        if number not in self.small and number not in self._drawn:
+            self._drawn[number] = asyncio.create_task(self._draw(number))
+        if number in self._drawn:
+            await asyncio.wait([self._drawn[number]], timeout=DRAWN)
+        return self.small.get(number)
+
+    async def _draw(self, number: int) -> None:
+        """Have the small picture of a shot drawn, if it is still in the table."""
         row = next((row for row in self.rows if row.number == number), None)
-        if row is None:
-            return None
-        if number not in self.small:
+        if row is not None:
             reply = await self.processes.compute("small", number, ("small", row.scene), calls.small, row.ask)
-            if reply is None or "message" not in reply:
-                return None
-            self.small[number] = reply["message"]
-            while len(self.small) > ROWS:
-                del self.small[next(iter(self.small))]
-        return self.small[number]
+            if reply is not None and "message" in reply:
+                self.small[number] = reply["message"]
+                while len(self.small) > ROWS:
+                    del self.small[next(iter(self.small))]
+        del self._drawn[number]
 
     def _watched_scene(self, teacher: Connection) -> str:
         """The scene that a teacher looks at."""

@@ -235,7 +235,10 @@ function small(rows) {
 function pictured({ number, name, scene, verdict, scored }) {
   const item = cell("li", ""), button = cell("button", ""), image = Object.assign(new Image(320, 180), { loading: "lazy", alt: "" });
   item.dataset.number = number;
-  image.addEventListener("error", () => setTimeout(() => (image.src = `shot-${number}.webp?${Date.now()}`), ASKED)); // the server had too much to do
+  image.addEventListener("error", () => { // it is not drawn yet
+    image.removeAttribute("src");
+    setTimeout(() => (image.src = `shot-${number}.webp?${Date.now()}`), ASKED);
+  });
   image.src = `shot-${number}.webp`;
   button.type = "button";
   button.append(image, cell("b", name), cell("span", verdict, scored ? "good" : ""), cell("em", named(scene)));

@@ -265,15 +265,9 @@ def shot(ask: Ask) -> Reply:
         if contest is not None:
             contest.record(run)
         standing = _standing(contest)
-        more = {
-            **force_data(view, run),
-            **story_data(view),
-            "event_rows": event_rows(run),
-            "energy": _energy(run),
-            "verdict": verdict,
-            "good": good,
-            **standing,
-        }
+        more = {**story_data(view), "event_rows": [], "energy": None, "verdict": verdict, "good": good, **standing}
+        if contest is None:  # in a task or a match nobody sees them, and they take half of the time
+            more |= {**force_data(view, run), "event_rows": event_rows(run), "energy": _energy(run)}
         numbers = {key: run.result[key] for key, fact in scene.facts.items() if fact.label and fact.unit}
         kept = {
             "verdict": verdict,
