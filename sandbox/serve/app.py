@@ -7,7 +7,7 @@ import csv
 import hmac
 import io
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from contextlib import suppress
 from pathlib import Path
 from string import Template
@@ -25,7 +25,7 @@ from sandbox.page import templates
 from sandbox.serve.choosing import choosing_page, tile_name, tiles_of
 from sandbox.serve.connection import REFUSED, Bucket, Connection
 from sandbox.serve.limits import ADDRESSES, REQUEST_BURST, REQUESTS
-from sandbox.serve.room import Room
+from sandbox.serve.room import Listed, Room
 from sandbox.serve.tokens import Tokens
 from sandbox.text import csv_text
 
@@ -67,7 +67,7 @@ class _Site:
     """The pages, their files and the WebSocket of one room, for those who have a token."""
 
     def __init__(self, room: Room, tokens: Tokens) -> None:
-        self.room, self.tokens, self.files = room, tokens, _files(room)
+        self.room, self.tokens, self.files = room, tokens, _files(room.scenes)
 
     def kind_of(self, request: Request | WebSocket) -> str | None:
         """Return the page whose token the address has; None if it has neither."""
@@ -170,7 +170,7 @@ def _nothing() -> Response:
     return PlainTextResponse("There is nothing here. The whole address is needed, with its token.\n", 404)
 
 
-def _files(room: Room) -> dict[str, tuple[bytes, str]]:
+def _files(scenes: Mapping[str, Listed]) -> dict[str, tuple[bytes, str]]:
     """All files that are ever sent, by name, with their types: no path of a request reaches the disk."""
     scripts = {
         f"{page}.js": "\n".join([*map(templates.source, templates.PLAYER), *map(_source, names)])
@@ -178,9 +178,9 @@ def _files(room: Room) -> dict[str, tuple[bytes, str]]:
     }
     fonts = {name: (resources.folder("assets") / "fonts" / font).read_bytes() for name, font in _FONTS.items()}
     style = templates.source("page.css") + _source("serve.css")
-    tiles = tiles_of(room.scenes)
+    tiles = tiles_of(scenes)
     return {
-        **{f"{page}.html": (_page(page, room).encode(), "text/html") for page in _SCRIPTS},
+        **{f"{page}.html": (_page(page, scenes).encode(), "text/html") for page in _SCRIPTS},
         **{name: (script.encode(), "text/javascript") for name, script in scripts.items()},
         **{name: (font, "font/ttf") for name, font in fonts.items()},
         **{tile_name(sport): (picture, "image/jpeg") for sport, picture in tiles.items()},
@@ -188,9 +188,9 @@ def _files(room: Room) -> dict[str, tuple[bytes, str]]:
     }
 
 
-def _page(page: str, room: Room) -> str:
+def _page(page: str, scenes: Mapping[str, Listed]) -> str:
     """The page of players or of the teacher."""
-    choosing = choosing_page(room.scenes) if page == "play" else ""
+    choosing = choosing_page(scenes) if page == "play" else ""
     content = templates.with_player(_source(f"{page}.html"), _AGAIN, choosing=choosing)
     return templates.framed(
         _TITLES[page],

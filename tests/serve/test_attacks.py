@@ -93,7 +93,7 @@ def test_pages_allow_no_script_of_others(served: Served):
         assert "unsafe" not in policy
         assert (headers["X-Content-Type-Options"], headers["Referrer-Policy"]) == ("nosniff", "no-referrer")
         assert not re.search(rb"<script(?! src=)|<style|\bon\w+=|\bstyle=|javascript:", page)
-    scripts = b"".join(content for content, kind in app._files().values() if kind == "text/javascript")
+    scripts = b"".join(content for content, kind in app._files({}).values() if kind == "text/javascript")
     assert not re.search(rb"innerHTML|outerHTML|insertAdjacentHTML|document\.write|\beval\(|new Function", scripts)
 
 
@@ -105,6 +105,7 @@ MALFORMED = [
     '{"do":"path"}', '{"do":"path","n":-1,"changes":{}}', '{"do":"path","n":1,"changes":{"launch.speed":NaN}}',
     '{"do":"path","n":1,"changes":{"launch.speed":1e999}}', '{"do":"path","n":1,"changes":[]}',
     '{"do":"path","n":1,"changes":{},"more":1}', '{"do":"path","n":1,"changes":{"launch.speed":{"x":1}}}',
+    '{"do":"path","n":1,"changes":{},"room":[0,1e9]}', '{"do":"present","n":1,"number":1}',
     '{"do":"path","n":1,"changes":{"air.wind":[1,2]}}', '{"do":"path","n":true,"changes":{}}',
     json.dumps({"do": "name", "name": "x" * 5000}),
     json.dumps({"do": "path", "n": 1, "changes": {f"k{i}": 1 for i in range(201)}}),
