@@ -116,10 +116,12 @@ class Client:
 
 @pytest.fixture
 def player(served: Served) -> Iterator[Callable[..., Client]]:
-    """Makes players, or the teacher."""
+    """Makes players, by default of basketball, or the teacher."""
     made: list[Client] = []
 
     def enter(teacher: bool = False, url: str = "", **hello: Any) -> Client:
+        if not teacher and "session" not in hello:
+            hello.setdefault("source", "basketball")
         made.append(Client(url or (served.teacher if teacher else served.url), **hello))
         return made[-1]
 

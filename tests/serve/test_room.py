@@ -248,7 +248,7 @@ def test_two_browsers_play_a_match_in_turn(player):
     ann, ben = player(name="Ann", source=game), player(name="Ben")
     assert ann.hear("waits")["title"] == "Nine ball"
     ben.say(do="play", source=game)
-    both = {client.hear("scene")["you"]: client for client in (ann, ben)}
+    both = {client.hear("scene", source=game)["you"]: client for client in (ann, ben)}
     assert both == {0: ann, 1: ben}
     ben.ask("shoot")
     assert ben.hear("error")["text"] == "it is not your turn"
