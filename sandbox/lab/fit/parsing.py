@@ -45,7 +45,7 @@ class Film:
 
 
 @dataclass(frozen=True)
-class Measurements:
+class _Measurements:
     """Measured positions in the order of the files."""
 
     t: np.ndarray | None  # s, shape (points,); None for places without times
@@ -59,7 +59,7 @@ class Measurements:
     def __len__(self) -> int:
         return len(self.positions)
 
-    def of_balls(self, names: Collection[str]) -> tuple[Measurements, tuple[str, ...]]:
+    def of_balls(self, names: Collection[str]) -> tuple[_Measurements, tuple[str, ...]]:
         """The points of these balls, and the names of the others; all, if none is of these."""
         others = tuple(dict.fromkeys(ball for ball in self.balls if ball not in names))
         kept = [ball in names for ball in self.balls]
@@ -115,7 +115,7 @@ def has_some_position(table: Table) -> bool:
     return bool(_places(table, "x") or _places(table, "y"))
 
 
-def measurements(tables: Sequence[tuple[str, Table]], film: Film, strict: bool = False) -> Measurements:
+def measurements(tables: Sequence[tuple[str, Table]], film: Film, strict: bool = False) -> _Measurements:
     """The points of one table, or of several, each with the name of its ball. Raises RequestError; with ``strict`` also
     for a row with a fault."""
     several = len(tables) > 1
@@ -127,7 +127,7 @@ def measurements(tables: Sequence[tuple[str, Table]], film: Film, strict: bool =
     timed = [part.t is not None for part in parts]
     if any(timed) and not all(timed):
         raise RequestError(f"{tables[timed.index(False)][1].where}: has no times, but another track has")
-    every = Measurements(
+    every = _Measurements(
         np.concatenate([part.t for part in parts if part.t is not None]) if all(timed) else None,
         np.concatenate([part.positions for part in parts]),
         tuple(ball for part in parts for ball in part.balls),
@@ -215,7 +215,7 @@ def _falls(table: Table, column: Column, rows: Sequence[int], gravity: float) ->
     return abs(2.0 * float(np.median(fits)) + gravity) < _FALLS * gravity
 
 
-def _of_table(table: Table, film: Film, name: str, strict: bool) -> Iterable[Measurements]:
+def _of_table(table: Table, film: Film, name: str, strict: bool) -> Iterable[_Measurements]:
     """The points of each ball of a table; Tracker writes several side by side, under their names."""
     xs, ys = (_places(table, what) for what in "xy")
     if len(xs) > 1 and len(xs) == len(ys) and table.groups:
@@ -233,7 +233,7 @@ def _of_table(table: Table, film: Film, name: str, strict: bool) -> Iterable[Mea
     yield _of_ball(table, film, xs[0], ys[0], name, strict)
 
 
-def _of_ball(table: Table, film: Film, x: int, y: int, name: str, strict: bool) -> Measurements:
+def _of_ball(table: Table, film: Film, x: int, y: int, name: str, strict: bool) -> _Measurements:
     columns = table.columns[x], table.columns[y]
     selection = Selection(table, strict)
     # a program leaves a frame without a mark empty
@@ -250,7 +250,7 @@ def _of_ball(table: Table, film: Film, x: int, y: int, name: str, strict: bool) 
     balls = [film.balls.get(one, film.balls.get("", one)) for one in given]
     times = _times(table, film, rows, balls)
     numbers, names = np.array(rows, dtype=int) + 1, frozenset(given)
-    return Measurements(times, positions, tuple(balls), numbers, table.where, names, selection.left_out)
+    return _Measurements(times, positions, tuple(balls), numbers, table.where, names, selection.left_out)
 
 
 def _clock(table: Table, film: Film) -> list[Column]:
