@@ -279,6 +279,8 @@ def test_a_client_that_never_reads_is_disconnected(monkeypatch: pytest.MonkeyPat
     over = asyncio.Event()
 
     class Talkative:
+        scenes: dict[str, Any] = {}
+
         async def play(self, there: Connection) -> None:
             while there.is_open:
                 for kind in 20 * ("room", "path"):
