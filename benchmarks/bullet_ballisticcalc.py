@@ -7,6 +7,9 @@ Both get a .308 bullet of 168 gr with a G7 coefficient of 0.223 lb/in^2, 2,750 f
 standard atmosphere at sea level and a zero at 100 yd. py-ballisticcalc runs in Python (``rk4_engine``) and compiled
 (``cythonized_rk4_engine``), with its own settings; it interpolates the same table of drag in another way.
 
+``ours, many`` is a path of a thousand at once, up to a tenth of the angle apart, height and speed read of all: in the
+compiled kernel if ``sandbox compile`` has been run.
+
 Times are processor times, the least of interleaved repeats: of the search for the zero, and of the path alone.
 """
 
@@ -14,16 +17,21 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from importlib import import_module
+from math import atan2, degrees
 from typing import Any, NamedTuple
 
 from measured import command_line, show, timed
 
 import sandbox
 from sandbox.engine import simulate
+from sandbox.engine.kernel.library import compiled
 from sandbox.engine.model.accuracy import resolve
 
 #: Paths of one measurement, since one is short.
 PATHS = 5
+
+#: Paths that are computed at once, of shots that differ a little.
+MANY = 1_000
 
 
 class Way(NamedTuple):
@@ -32,6 +40,7 @@ class Way(NamedTuple):
     name: str
     zero: Callable[[], Any]
     path: Callable[[Any], tuple[float, float]]
+    paths: int = 1  # that it computes at once
 
 
 def ours(level: str) -> Way:
@@ -44,6 +53,20 @@ def ours(level: str) -> Way:
         return there["height"], there["speed"]
 
     return Way(f"ours, {level}", scene.build, path)
+
+
+def ours_of_many() -> Way:
+    """This program, many paths at once; their times are a path's."""
+    scene = sandbox.load("bullet", {"zero.distance": 0.0})
+    how = "compiled" if compiled() else "numpy"
+
+    def path(setup: Any) -> tuple[float, float]:
+        vx, vy = setup.balls[0].velocity
+        angles = [degrees(atan2(vy, vx)) * (1.0 + 0.1 * place / MANY) for place in range(MANY)]
+        found = sandbox.simulate_many(scene, {"launch.angle": angles}, facts=("height", "speed"))
+        return float(found["height"][0]), float(found["speed"][0])
+
+    return Way(f"ours, many, {how}", sandbox.load("bullet").build, path, MANY)
 
 
 def theirs(name: str, engine: str) -> Way:
@@ -75,14 +98,14 @@ def measured(ways: list[Way], repeats: int) -> list[dict[str, Any]]:
             spent, aimed = timed(way.zero)
             row["zero_s"] = min(row["zero_s"], spent)
             spent, there = timed(lambda of=way, shot=aimed: [of.path(shot) for _ in range(PATHS)][-1])
-            row["path_s"] = min(row["path_s"], spent / PATHS)
+            row["path_s"] = min(row["path_s"], spent / (PATHS * way.paths))
             row["height_m"], row["speed"] = there
     return rows
 
 
 def main() -> None:
     arguments = command_line(__doc__, repeats=20)
-    ways = [ours("fast"), ours("balanced"), ours("precise")]
+    ways = [ours("fast"), ours("balanced"), ours("precise"), ours_of_many()]
     try:
         ways += [
             theirs("py-ballisticcalc, Python", "rk4_engine"),

@@ -1,7 +1,7 @@
-"""How the cost grows: with balls, surfaces, bodies in a pile, rows of a sweep, and jobs.
+"""How the cost grows: with balls, surfaces, bodies in a pile, rows of a sweep, jobs, and Dask workers.
 
 Run ``python benchmarks/scaling.py [--json F] [--repeats N] [--only rows,jobs] [--rows 1e6] [--quick]``. Three
-minutes on an idle machine; ``--rows`` is the longest sweep.
+minutes on an idle machine; ``--rows`` is the longest sweep. Dask workers need ``distributed``.
 
 The exponent is the slope of log time over log size, by least squares over the larger half of the sizes: 1 where the
 cost of one more is always the same. Times are processor times, except for the jobs, where they are by the clock.
@@ -13,6 +13,7 @@ cost of one more is always the same. Times are processor times, except for the j
 - Rows: free throws over speed and angle with all facts, written to a file by one process; and the most memory that this
   process has used by then, in all, which rows must not add to.
 - Jobs: the same with several processes; the exponent is that of the throughput, 1 where each adds as much.
+- Dask: the same with the workers of a Dask cluster on this machine, which are processes of one thread each.
 """
 
 from __future__ import annotations
@@ -107,13 +108,13 @@ def simulated(setup: Setup, repeats: int) -> dict[str, Any]:
     return {"time_s": min(times), "events": len(runs[0].events)}
 
 
-def swept(rows: int, jobs: int = 1, clock: Callable[[], float] = thread_time) -> float:
+def swept(rows: int, jobs: int = 1, clock: Callable[[], float] = thread_time, scheduler: str | None = None) -> float:
     """Time in s of a whole sweep into a file."""
     side = round(rows**0.5)
     spans = ("launch.speed", 6.8, 8.6, side), ("launch.angle", 40.0, 70.0, rows // side)
     axes = tuple(Values(key, tuple(np.linspace(low, high, count).tolist())) for key, low, high, count in spans)
     plan = Plan(sandbox.load("basketball"), axes)
-    with tempfile.TemporaryDirectory() as folder, workers(jobs) as pool:
+    with tempfile.TemporaryDirectory() as folder, workers(jobs, scheduler) as pool:
         return timed(sweep_to_file, plan, Path(folder) / "rows.csv", pool, clock=clock)[0]
 
 
@@ -137,12 +138,21 @@ def grown(name: str, sizes: Sequence[int], measure: Callable[[int], dict[str, An
     return {"rows": rows, "exponent": exponent(sizes, [row["time_s"] for row in rows])}
 
 
-def of_jobs(rows: int, jobs: Sequence[int]) -> dict[str, Any]:
+def of_jobs(name: str, rows: int, jobs: Sequence[int], sweep: Callable[[int, int], float]) -> dict[str, Any]:
     """The rows of a second by the clock, by so many processes."""
-    table = [{"jobs": count, "time_s": swept(rows, count, perf_counter)} for count in jobs]
+    table = [{name: count, "time_s": sweep(rows, count)} for count in jobs]
     for row in table:
         row["rows_per_s"] = rows / row["time_s"]
     return {"rows": table, "exponent": exponent(jobs, [row["rows_per_s"] for row in table])}
+
+
+def by_dask(rows: int, jobs: int) -> float:
+    """Time in s by the clock of a sweep by so many workers of a Dask cluster, which has been started."""
+    import distributed
+
+    quiet = {"host": "127.0.0.1", "dashboard_address": None, "silence_logs": 50}
+    with distributed.LocalCluster(n_workers=jobs, threads_per_worker=1, **quiet) as cluster:
+        return swept(rows, clock=perf_counter, scheduler=cluster.scheduler_address)
 
 
 COLUMNS = {"time": "{time_s:.1f ms}", "each": "{each_s:.3f ms}"}
@@ -152,6 +162,7 @@ TITLES: dict[str, tuple[str, dict[str, str]]] = {
     "pile": ("boxes in a pile", {"events": "{events:,}"}),
     "rows": ("rows of a sweep", {"memory": "{memory_mb:.0f} MB"}),
     "jobs": ("jobs of a sweep, by the clock", {"rows a second": "{rows_per_s:,.0f}"}),
+    "dask": ("Dask workers of a sweep, by the clock", {"rows a second": "{rows_per_s:,.0f}"}),
 }
 
 
@@ -160,19 +171,20 @@ def main() -> None:
     arguments = command_line(__doc__, repeats=3, options=options)
     quick, repeats, chosen = arguments.quick, arguments.repeats, arguments.only.split(",")
     gc.set_threshold(100_000)  # as in the program itself
-    some = 2 if quick else None
+    some, rows_of_jobs = (2, 20) if quick else (None, ROWS_OF_JOBS)
     sizes = [rows for rows in ROWS if rows < arguments.rows] + [int(arguments.rows)]
     measured: dict[str, Callable[[], dict[str, Any]]] = {
         "balls": partial(grown, "balls", BALLS[:some], lambda n: simulated(gas(n), repeats)),
         "surfaces": partial(grown, "surfaces", SURFACES[:some], lambda n: simulated(floor_of(n), repeats)),
         "pile": partial(grown, "pile", PILE[:some], lambda n: simulated(pile(n), repeats)),
         "rows": partial(grown, "rows", (10, 20) if quick else sizes, of_rows),
-        "jobs": partial(of_jobs, 20 if quick else ROWS_OF_JOBS, JOBS[:some]),
+        "jobs": partial(of_jobs, "jobs", rows_of_jobs, JOBS[:some], lambda n, jobs: swept(n, jobs, perf_counter)),
+        "dask": partial(of_jobs, "dask", rows_of_jobs, JOBS[:some], by_dask),
     }
     results = {name: measure() for name, measure in measured.items() if name in chosen}
     for name, found in results.items():
         title, more = TITLES[name]
-        columns = {name: f"{{{name}:,}}", **({} if name == "jobs" else COLUMNS), **more}
+        columns = {name: f"{{{name}:,}}", **({} if name in ("jobs", "dask") else COLUMNS), **more}
         show(f"{title}: exponent {found['exponent']:.2f}", found["rows"], columns)
     say("")
     keep(arguments.json, results)
