@@ -21,7 +21,7 @@ from tests.browser import started
 FILE = Path(__file__).resolve().parent / "browser.jpg"
 SIZE, QUALITY = (1280, 820), 84
 #: What is compared, from where the pull starts in px from the picture's middle, and the pull.
-LINK, START, PULL = "#basketball?launch.angle=45&launch.speed=7.3", (-250, 60), (-72, 93)
+LINK, START, PULL = "#basketball?launch.angle=45&launch.speed=7.3", (-250, 60), (-109, 141)
 IDLE = "player && state.stage && Object.values(ask).every((each) => !each.awaited && !each.next)"
 
 
@@ -42,6 +42,7 @@ def picture(driver: webdriver.Chrome, url: str) -> Image.Image:
     pull.move_by_offset(*PULL).perform()
     until("player.fan && !player.fan.late")
     until(IDLE)
+    driver.execute_script("document.querySelector('.side').scrollTop = 0")
     shot = driver.execute_cdp_cmd("Page.captureScreenshot", {"format": "png"})
     return Image.open(io.BytesIO(base64.b64decode(shot["data"]))).convert("RGB")
 
