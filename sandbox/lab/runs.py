@@ -58,7 +58,7 @@ class Outcome(NamedTuple):
 
 
 class Columns(NamedTuple):
-    """What was asked of the runs at many points, in order: a column for each fact."""
+    """Columns of the facts of runs at many points, in order."""
 
     facts: dict[str, list[Any]]  # in their units; None for what did not happen, or could not be computed
     errors: dict[int, Exception]  # by the place of the point

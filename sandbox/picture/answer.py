@@ -1,4 +1,4 @@
-"""What is hit answers: a net is pulled out, a ring shakes. Drawn apart from the physics, in which nothing gives way.
+"""Nets that are pulled out and rings that shake when they are hit: drawn only, nothing gives way in the physics.
 
 The rates and lengths are assumed."""
 
@@ -78,7 +78,7 @@ def pulled_nets(run: Run, ball: str, above: bool) -> list[Pulled]:
 def _pulled(run: Run, hit: Event, nets: Sequence[Segment], above: bool) -> Pulled:
     """The nearest net to a hit, pulled to the side to which the ball flies."""
 
-    def placed(net: Segment) -> tuple[float, float, float, float, float]:
+    def frame_of(net: Segment) -> tuple[float, float, float, float, float]:
         """The direction of a net, how far along it and to its right the ball is, and its length, in m."""
         (ax, ay), (bx, by) = net.a, net.b
         length = hypot(bx - ax, by - ay)
@@ -86,10 +86,10 @@ def _pulled(run: Run, hit: Event, nets: Sequence[Segment], above: bool) -> Pulle
         return x, y, (hit.x - ax) * x + (hit.y - ay) * y, (hit.x - ax) * y - (hit.y - ay) * x, length
 
     def away(net: Segment) -> float:
-        *_, along, aside, length = placed(net)
+        *_, along, aside, length = frame_of(net)
         return hypot(aside, max(-along, 0.0, along - length))
 
-    x, y, along, aside, length = placed(min(nets, key=away))
+    x, y, along, aside, length = frame_of(min(nets, key=away))
     at, (vx, vy) = (hit.x - aside * y, hit.y + aside * x), run.before(hit.ball, hit.t)[2:4]
     if vy * x - vx * y >= 0.0:  # to the left
         return Pulled(hit.t, at, (-y, x), (along, length - along), hit.speed, above)

@@ -1,4 +1,4 @@
-"""What the desktop asks of programs: less motion."""
+"""The setting of the desktop for less motion."""
 
 from __future__ import annotations
 

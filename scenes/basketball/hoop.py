@@ -63,7 +63,7 @@ def hoop(parameters: Parameters) -> list[Thing]:
 
 
 def shaken(run: SceneRun, t: float) -> float:
-    """How far in m board and ring are down at a time in s of a run, from what the ball has hit so far."""
+    """The distance in m by which board and ring are down at a time in s of a run, after all hits so far."""
     hits = (e for e in run.events if e.kind == "impact" and e.partner in SHAKES and e.t < t)
     down = sum(DIPS * hit.speed * yielding(t - hit.t, RATTLES, CALMS) for hit in hits)
     return min(max(down, -DEEPEST), DEEPEST)

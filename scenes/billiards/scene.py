@@ -443,8 +443,8 @@ def leaving(run: Run, parameters: Parameters) -> dict[str, tuple[Moment, Moment]
 
 @cached_per_run
 def bank(run: Run, parameters: Parameters) -> tuple[float, float | None] | None:
-    """Of the first cushion that the struck ball meets: the angle in deg from its normal at which the ball leaves, and
-    how far along it, in m, it meets the one across, if that is the next; both positive the way it came."""
+    """The angle in deg from the normal at which the struck ball leaves the first cushion it meets, and the distance in
+    m along that to where it meets the one across, if that is the next; both positive the way it came."""
     ball = parameters.cue.ball
     met = [(name, event.t) for name, event in collisions_of(run, ball) if name.endswith(" cushion")]
     if not met:

@@ -239,7 +239,7 @@ class Picture(SideView[Parameters]):
         painter.polygon(np.column_stack([[*along, *along[::-1]], edges]), HOLE["flag"])
 
     def _lively(self) -> float:
-        """How much more the flag flutters now that the ball is in the cup, in px on 720 rows."""
+        """The amplitude in px on 720 rows that the flag's flutter gains once the ball is in the cup."""
         if self.answering is None or not self.run.result["holed"]:
             return 0.0
         since = self.answering - self.decided

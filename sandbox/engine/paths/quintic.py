@@ -9,22 +9,22 @@ from __future__ import annotations
 #: Coefficients of polynomials of degree 3, 4, 5, 9 and 10.
 _Cubic = tuple[float, float, float, float]
 _Quartic = tuple[float, float, float, float, float]
-Quintic = tuple[float, float, float, float, float, float]
+_Quintic = tuple[float, float, float, float, float, float]
 _Nonic = tuple[float, float, float, float, float, float, float, float, float, float]
-Decic = tuple[float, float, float, float, float, float, float, float, float, float, float]
+_Decic = tuple[float, float, float, float, float, float, float, float, float, float, float]
 
 
-def evaluate(b: Quintic, u: float) -> float:
+def evaluate(b: _Quintic, u: float) -> float:
     """Return f(u)."""
     return first_part(b, u)[5]
 
 
-def moved(b: Quintic, c: float) -> Quintic:
+def moved(b: _Quintic, c: float) -> _Quintic:
     """Return the coordinate of a path as seen from a place."""
     return b[0] - c, b[1] - c, b[2] - c, b[3] - c, b[4] - c, b[5] - c
 
 
-def across(xs: Quintic, ys: Quintic, tx: float, ty: float) -> Quintic:
+def across(xs: _Quintic, ys: _Quintic, tx: float, ty: float) -> _Quintic:
     """Return the distance of a path from the line through 0 along (tx, ty), positive to its left."""
     x0, x1, x2, x3, x4, x5 = xs
     y0, y1, y2, y3, y4, y5 = ys
@@ -38,7 +38,7 @@ def across(xs: Quintic, ys: Quintic, tx: float, ty: float) -> Quintic:
     )
 
 
-def first_part(b: Quintic, u: float) -> Quintic:
+def first_part(b: _Quintic, u: float) -> _Quintic:
     """Return the coefficients on [0, u], by de Casteljau: each level takes the weighted mean of neighbours in the level
     before, and the first of each level is a coefficient."""
     w = 1.0 - u
@@ -62,7 +62,7 @@ def first_of_cubic(b: _Cubic, u: float) -> _Cubic:
     return b0, b1, b2, b3
 
 
-def as_squared(b: Quintic) -> Decic:
+def as_squared(b: _Quintic) -> _Decic:
     """Return the same polynomial at degree 10."""
     b0, b1, b2, b3, b4, b5 = b
     return (
@@ -80,7 +80,7 @@ def as_squared(b: Quintic) -> Decic:
     )
 
 
-def squared_length(x: Quintic, y: Quintic) -> Decic:
+def squared_length(x: _Quintic, y: _Quintic) -> _Decic:
     """Return the coefficients of x^2 + y^2."""
     x0, x1, x2, x3, x4, x5 = x
     y0, y1, y2, y3, y4, y5 = y
@@ -99,19 +99,19 @@ def squared_length(x: Quintic, y: Quintic) -> Decic:
     )
 
 
-def plus(b: Decic, c: float) -> Decic:
+def plus(b: _Decic, c: float) -> _Decic:
     """Return the coefficients of f(u) + c."""
     b0, b1, b2, b3, b4, b5, b6, b7, b8, b9, b10 = b
     return b0 + c, b1 + c, b2 + c, b3 + c, b4 + c, b5 + c, b6 + c, b7 + c, b8 + c, b9 + c, b10 + c
 
 
-def times(b: Decic, c: float) -> Decic:
+def times(b: _Decic, c: float) -> _Decic:
     """Return the coefficients of c f(u)."""
     b0, b1, b2, b3, b4, b5, b6, b7, b8, b9, b10 = b
     return c * b0, c * b1, c * b2, c * b3, c * b4, c * b5, c * b6, c * b7, c * b8, c * b9, c * b10
 
 
-def derivative(b: Decic) -> _Nonic:
+def derivative(b: _Decic) -> _Nonic:
     """Return the coefficients of df/du."""
     b0, b1, b2, b3, b4, b5, b6, b7, b8, b9, b10 = b
     d0, d1, d2, d3, d4 = 10.0 * (b1 - b0), 10.0 * (b2 - b1), 10.0 * (b3 - b2), 10.0 * (b4 - b3), 10.0 * (b5 - b4)
@@ -119,7 +119,7 @@ def derivative(b: Decic) -> _Nonic:
     return d0, d1, d2, d3, d4, d5, d6, d7, d8, 10.0 * (b10 - b9)
 
 
-def value_and_slope(b: Decic, d: _Nonic, r: float) -> tuple[float, float]:
+def value_and_slope(b: _Decic, d: _Nonic, r: float) -> tuple[float, float]:
     """Return sum_k C(10, k) b[k] r^(10 - k), and the same of the derivative d."""
     f = ((((b[0] * r + 10.0 * b[1]) * r + 45.0 * b[2]) * r + 120.0 * b[3]) * r + 210.0 * b[4]) * r + 252.0 * b[5]
     f = ((((f * r + 210.0 * b[6]) * r + 120.0 * b[7]) * r + 45.0 * b[8]) * r + 10.0 * b[9]) * r + b[10]
@@ -127,7 +127,7 @@ def value_and_slope(b: Decic, d: _Nonic, r: float) -> tuple[float, float]:
     return f, ((((s * r + 126.0 * d[5]) * r + 84.0 * d[6]) * r + 36.0 * d[7]) * r + 9.0 * d[8]) * r + d[9]
 
 
-def without_root_at_start(b: Decic) -> Decic:
+def without_root_at_start(b: _Decic) -> _Decic:
     """Return the coefficients of (f(u) - f(0)) / u, at degree 10."""
     z, b1, b2, b3, b4, b5, b6, b7, b8, b9, b10 = b
     c0, c1, c2, c3, c4 = (b1 - z) * 10.0, (b2 - z) * 5.0, (b3 - z) * 10.0 / 3.0, (b4 - z) * 2.5, (b5 - z) * 2.0
@@ -148,7 +148,7 @@ def without_root_at_start(b: Decic) -> Decic:
     )
 
 
-def halves(b: Decic) -> tuple[Decic, Decic]:
+def halves(b: _Decic) -> tuple[_Decic, _Decic]:
     """Return the coefficients on [0, 1/2] and on [1/2, 1]: each level takes the means of neighbours in the level
     before; the first of each are those of one half, the last those of the other."""
     l0, r1, r2, r3, r4, r5, r6, r7, r8, r9, r10 = b
