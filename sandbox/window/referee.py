@@ -42,7 +42,7 @@ class Referee:
         self.opponent: Opponent | None = None  # that looks for its shot
         self.glow = 0.0  # s that a success goes on glowing
         self.calls: list[bool] = []  # verdicts that were not heard yet: whether each is a success
-        self._cheered = False
+        self._cheered, self._scores = False, False  # whether the verdict was heard, and is a success
         self._scene: Any = None  # that of the shot on its way
         self._before: int | None = None  # how many shots there were before it; None: there is none
         self._rested = 0.0  # s since the end of what is shown again
@@ -196,8 +196,8 @@ class Referee:
             self._accept(playback.shot)
         if self.pending is not None and playback.t >= self.decided and not self._cheered:
             self._cheer()
-        if self.pending is not None and playback.over:
-            self._count()
+        if self.pending is not None and playback.over and not (self._scores and playback.moves_on):
+            self._count()  # a success once the camera has seen all of it
         elif self.again == "slow" and playback.t >= min(self.decided + AFTER, playback.duration):
             playback.playing, self.again, self.glow = False, "still", GLOW
         if self.is_over and self.pending is None and self.again != "slow":
@@ -219,7 +219,7 @@ class Referee:
         self.shots.append(shot)
         known = self.contest.decided_at(shot.run) if self.contest is not None else None
         self.decided = decided_at(shot) if known is None else known
-        self._before, self.pending, self._cheered = None, shot, False
+        self._before, self.pending, self._cheered, self._scores = None, shot, False, False
 
     def _cheer(self) -> None:
         """A verdict is heard, and a success glows."""
@@ -229,7 +229,8 @@ class Referee:
         found: list[bool] = []
         if contest is not None and self._or_leave(lambda: found.append(contest.would_score(run))):
             self.calls += found
-            self.glow = GLOW if found[0] else 0.0
+            self._scores = found[0]
+            self.glow = GLOW if self._scores else 0.0
 
     def _count(self) -> None:
         """Count the shot, and show what decided it again if it is a success."""

@@ -519,6 +519,23 @@ class TestAgainstTheComputer:
         passes(player, lambda: referee.tells and referee.again != "slow")
         assert (contest.match.turn, contest.said) == (0, "Computer scored: 0 to 1")
 
+    def test_a_goal_is_seen_to_its_end_before_it_is_shown_again(self, player):
+        player = player("soccer-curl", (480, 400))
+        player.view.shown.on.add("view")  # the camera goes with the shot
+        game, referee = player.game, player.game.referee
+        referee.begin(AtMatch(installed_folder("soccer-curl"), "penalty-kicks", seed=1))
+        player.settle()
+        game.aiming.set({"launch.angle": 15.0, "launch.speed": 26.0})
+        game.settle()
+        player.key(pygame.K_SPACE)
+        passes(player, lambda: game.watching.playback is not None)
+        player.frames(2)
+        assert game.watching.playback.story is not None
+        passes(player, lambda: game.watching.playback.over)
+        assert (referee.again, referee.pending.run.result["goal"]) == ("", True)  # the net is seen to bulge
+        passes(player, lambda: referee.again == "slow")
+        assert game.watching.playback.t < referee.decided
+
     def test_its_strength_is_its_scatter_and_its_keeper(self):
         strengths = range(1, 4)
         contests = [AtMatch(installed_folder("soccer-curl"), "penalty-kicks", opponent=each) for each in strengths]
