@@ -314,7 +314,7 @@ class Varied:
         groups: dict[str, list[int]] = {}
         for place, values in enumerate(points if self._slow else ()):
             groups.setdefault(repr([values[slow] for slow in self._slow]), []).append(place)
-        for places in groups.values() if self._slow else [[*range(len(points))]] if points else ():
+        for places in groups.values() if self._slow else [[*range(len(points))]] if len(points) else ():
             columns = zip(*(points[place] for place in places), strict=True)
             merged = [
                 np.array(column) if quick and any(value != column[0] for value in column) else column[0]

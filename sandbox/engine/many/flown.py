@@ -156,6 +156,13 @@ class AllRuns:
         found[numbers] = paths.rows[rows[there[first]], T0]
         return found
 
+    def steps(self, ball: str, until: Any) -> tuple[np.ndarray, np.ndarray]:
+        """As ``Run.steps``, shapes (arcs, shots) and (6, arcs, 3, shots): a shot with fewer arcs has its last again,
+        with a duration of 0; NaN where ``until`` is."""
+        if ball != self._flown.ball:
+            raise KeyError(ball)
+        return self._paths.steps(until)
+
     def first_event(self, partner: str) -> Event | None:
         """As ``Run.first_event``: one with arrays, not a number for runs without; None if all are."""
         firsts = self._firsts([event.partner == partner for event in self._events])
