@@ -31,8 +31,10 @@ _AMOUNT = re.compile(rf"(?:± [\d.,]*)?\d (?:{_UNITS})(?!\w)")
 _FIXED_SPACE = "\u00a0"
 
 
-#: A word of so many characters is not broken.
+#: A word of so many characters, or a part of it between hyphens, is not broken.
 _LONGEST_WORD = 16
+#: Where a word may be broken after a hyphen: as ``textwrap`` does.
+_AFTER_HYPHEN = re.compile(r"(?<=\w[^\W\d]-)(?=\w+[^\W\d])")
 
 
 def width() -> int:
@@ -43,9 +45,9 @@ def width() -> int:
 def table(headings: Sequence[str], rows: Iterable[Sequence[str]], align: str, indent: str = "  ") -> list[str]:
     """Lines with columns aligned by ``align``, a letter for each: l or r.
 
-    Headings and left-aligned cells are wrapped between words so that lines fit ``width``; right-aligned numbers, and
-    words that are not very long, never, even if lines are longer then. Empty headings give no heading line; a column
-    without any text is left out.
+    Headings and left-aligned cells are wrapped between words, and if need be after hyphens, so that lines fit
+    ``width``; right-aligned numbers, and words that are not very long, never, even if lines are longer then. Empty
+    headings give no heading line; a column without any text is left out.
     """
     cells = [[one_line(cell) for cell in row] for row in rows]
     every = [headings, *cells] if any(headings) else cells
@@ -57,8 +59,9 @@ def table(headings: Sequence[str], rows: Iterable[Sequence[str]], align: str, in
             least = max(map(_columns_of, (*headings[place].split(), *(row[place] for row in cells))), default=0)
             too_wide, widths[place] = too_wide - widths[place] + least, least
     texts = [place for place in used if align[place] == "l"]
-    words = {place: [word for row in every for word in row[place].split()] for place in texts}
-    shortest = {place: min(max(map(_columns_of, own), default=1), _LONGEST_WORD) for place, own in words.items()}
+    words = {place: {word for row in every for word in row[place].split()} for place in texts}
+    parts = {place: [part for word in own for part in _AFTER_HYPHEN.split(word)] for place, own in words.items()}
+    shortest = {place: min(max(map(_columns_of, own), default=1), _LONGEST_WORD) for place, own in parts.items()}
     for _ in range(too_wide):
         widest = max(texts, key=lambda place: widths[place] - shortest[place], default=None)
         if widest is None or widths[widest] <= shortest[widest]:
@@ -77,13 +80,16 @@ def _wrapped(text: str, room: int) -> list[str]:
     if _columns_of(text) <= room:
         return [text]
     letters = room if _columns_of(text) == len(text) else max(1, room // 2)  # some may take two columns
-    return _lines(text, letters)
+    return _lines(text, letters, hyphens=max(map(len, text.split())) > letters)
 
 
-def _lines(text: str, letters: int, indent: str = "", later: str = "", breaks: bool = True) -> list[str]:
-    """The text in lines of so many letters; a number and its unit stay on one line. ``breaks`` a longer word."""
+def _lines(
+    text: str, letters: int, indent: str = "", later: str = "", breaks: bool = True, hyphens: bool = False
+) -> list[str]:
+    """The text in lines of so many letters; a number and its unit stay on one line. ``breaks`` a longer word, and with
+    ``hyphens`` words after these."""
     joined = _AMOUNT.sub(lambda found: found[0].replace(" ", _FIXED_SPACE), text)
-    wrapper = textwrap.TextWrapper(letters, indent, later, break_on_hyphens=False, break_long_words=breaks)
+    wrapper = textwrap.TextWrapper(letters, indent, later, break_on_hyphens=hyphens, break_long_words=breaks)
     return [line.replace(_FIXED_SPACE, " ") for line in wrapper.wrap(joined)]
 
 
