@@ -29,6 +29,6 @@ def reduces_motion() -> bool:
         return False
     command, less = _ASKED[sys.platform]
     with suppress(OSError, subprocess.SubprocessError):
-        found = subprocess.run(command, capture_output=True, text=True, timeout=_PATIENCE, check=True)
+        found = subprocess.run(command, capture_output=True, encoding="utf-8", timeout=_PATIENCE, check=True)
         return found.stdout.strip() == less
     return False
