@@ -122,7 +122,7 @@ class Picture(SideView[Parameters]):
 
     def draw_hoop(self, painter: Painter, camera: Camera, t: float, near: bool) -> None:
         """Board, ring and net, those parts that are before the ball or those that are not."""
-        eye = self.eye(camera)
+        eye = self.seen_from(camera)
         if self.answering is not None:
             down = hoop.shaken(self.run, self.answering) * eye.camera.scale
             x, y = eye.camera.anchor
@@ -207,10 +207,10 @@ class Picture(SideView[Parameters]):
     def camera(self) -> Camera:
         return self.beside or self.fitted(self.area)
 
-    def eye(self, camera: Camera) -> Eye:
+    def seen_from(self, camera: Camera) -> Eye:
         if camera != self.near:
-            return super().eye(camera)
-        eye = super().eye(self.camera)  # the same eye sees what is in the lens
+            return super().seen_from(camera)
+        eye = self.eye(self.camera)  # the same eye sees what is in the lens
         centre, level = camera.pixel(*self.camera.world(eye.centre, eye.level))
         return replace(eye, camera=camera, centre=centre, level=level)
 
@@ -227,7 +227,7 @@ class Picture(SideView[Parameters]):
         corners = around_corners(sheet.surface, self.lens, 10 * self.unit)
         sheet.surface.fill(COLOURS["lens"], self.lens)
         sheet.surface.set_clip(self.lens)
-        self.draw_things(painter, self.eye(near), near=False)
+        self.draw_things(painter, self.seen_from(near), near=False)
         self.behind(painter, near, moment)
         outside, sheet.labels = sheet.labels, Labels(self.lens.inflate(-2 * sheet.gap, -2 * sheet.gap), sheet.gap)
         points = near.pixels(self.path.points)
