@@ -201,4 +201,4 @@ class LongView(AboveView[P]):
     def notes(self, camera: Camera) -> list[str]:
         """Notes on the near part; in the strip balls are only marks."""
         factor = self.near_camera.scale / camera.scale
-        return [*self._stretched(camera), *self.remarks(camera), f"below, {times(factor)} as large", *self._caveat]
+        return [*self._stretched(camera), *self._caveat, *self.remarks(camera), f"below, {times(factor)} as large"]
