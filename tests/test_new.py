@@ -18,7 +18,7 @@ from sandbox import resources
 from tests.own_scene import change
 from tests.picture.legible import assert_legible
 
-NAME, ABOVE = "beachvolley", "putting"
+NAME, ABOVE = "beachvolley", "backyard"
 
 
 @pytest.fixture(autouse=True)

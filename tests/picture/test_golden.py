@@ -442,7 +442,7 @@ def test_a_chaotic_run_is_kept_until_it_diverges(pytester, monkeypatch):
 
         def test_it(golden):
             until = float(os.environ["UNTIL"]) if "UNTIL" in os.environ else None
-            golden.check("it", sandbox.simulate(sandbox.load("billiards/nine-ball-break")), until)  # a rack
+            golden.check("it", sandbox.simulate(sandbox.load("billiards/eight-ball-break")), until)
         """
     )
     result = again(pytester, "--golden-update")

@@ -57,7 +57,18 @@ def _passed_shot_by_shot(task: Task, values: Mapping[str, float]) -> bool:
 
 
 #: Sports that have a task at each of the five levels.
-FIVE = {"basketball", "golf", "soccer", "soccer-curl", "billiards", "baseball", "tennis", "bowling", "minigolf"}
+FIVE = {
+    "basketball",
+    "golf",
+    "soccer",
+    "soccer-curl",
+    "billiards",
+    "baseball",
+    "tennis",
+    "bowling",
+    "minigolf",
+    "putting",
+}
 
 
 def test_sports_with_tasks_have_one_at_each_level_from_the_first():
