@@ -60,13 +60,14 @@ def table(headings: Sequence[str], rows: Iterable[Sequence[str]], align: str, in
             too_wide, widths[place] = too_wide - widths[place] + least, least
     texts = [place for place in used if align[place] == "l"]
     words = {place: {word for row in every for word in row[place].split()} for place in texts}
-    parts = {place: [part for word in own for part in _AFTER_HYPHEN.split(word)] for place, own in words.items()}
-    shortest = {place: min(max(map(_columns_of, own), default=1), _LONGEST_WORD) for place, own in parts.items()}
-    for _ in range(too_wide):
-        widest = max(texts, key=lambda place: widths[place] - shortest[place], default=None)
-        if widest is None or widths[widest] <= shortest[widest]:
-            break
-        widths[widest] -= 1
+    pieces = {place: [piece for word in own for piece in _AFTER_HYPHEN.split(word)] for place, own in words.items()}
+    for whole in (words, pieces):  # not to be broken
+        shortest = {place: min(max(map(_columns_of, own), default=1), _LONGEST_WORD) for place, own in whole.items()}
+        while too_wide > 0:
+            widest = max(texts, key=lambda place: widths[place] - shortest[place], default=None)
+            if widest is None or widths[widest] <= shortest[widest]:
+                break
+            too_wide, widths[widest] = too_wide - 1, widths[widest] - 1
     lines = []
     for row in every:
         wrapped = [_wrapped(row[place], widths[place]) for place in used]
