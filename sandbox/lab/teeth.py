@@ -94,6 +94,8 @@ def _changed(scene: Scene, effect: str, vary: str) -> Iterator[tuple[str, SceneR
     if vary:
         raise RequestError(f"{scene.name}: {effect!r}: a row with vary names its effects as key=value")
     parameter = next((each for each in walk(scene.parameters, entries=True) if each.key == effect), None)
+    if parameter is not None and parameter.value is None:
+        raise RequestError(f"{scene.name}: {effect} is left out here: name another value, as in {effect}=0.1")
     if parameter is not None:
         values = {change: parameter.within(factor * parameter.value) for factor, change in _FACTORS.items()}
         for change, value in values.items():

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from sandbox.errors import RequestError
 from sandbox.lab.published import KINDS, cases
 from sandbox.lab.report import as_text
 from sandbox.lab.teeth import report_of as report_of_teeth
@@ -53,6 +54,13 @@ def test_rows_fall_without_the_effect_they_test(rows, monkeypatch):
     assert first
     tried = teeth([one.row for one in first if not one.has_teeth])
     assert [f"{one.row.scene} {one.row.name} {one.row.result}" for one in tried if not one.has_teeth] == []
+
+
+def test_an_effect_that_is_left_out_is_named(rows):
+    """The friction of two balls, for example, which falls with their speed unless it is given."""
+    row = next(row for row in rows if row.scene == "billiards" and row.holds and "ball.friction" not in row.set)
+    with pytest.raises(RequestError, match=r"ball\.friction is left out here: .* ball\.friction=0\.1"):
+        teeth([replace(row, tests="ball.friction")])
 
 
 def test_a_row_without_teeth_is_listed():
