@@ -49,23 +49,24 @@ def sports() -> Iterator[str]:
 
 def models() -> Iterator[str]:
     """What each scene models, by the docstring of its ``scene.py``."""
-    for name, folder in scenes():
-        about = ast.get_docstring(ast.parse((folder / "scene.py").read_text("utf-8"))) or ""
-        found = re.search(r"^Models: (.*?)\.?$(?=\n\n|\nLeaves out|\Z)", about, re.DOTALL | re.MULTILINE)
-        if found is None:
-            raise SystemExit(f"scenes/{name}/scene.py: its docstring has no line that begins with Models:")
-        yield item(f"[{name}](../scenes/{name}/scene.py): {' '.join(found[1].split())}.")
+    for name, text in paragraphs("Models", r": (.*?)\.?$(?=\n\n|\nLeaves out|\Z)"):
+        yield item(f"[{name}](../scenes/{name}/scene.py): {text}.")
 
 
 def left_out() -> Iterator[str]:
     """What each scene leaves out, with sizes where they are known, by the docstring of its ``scene.py``."""
+    for name, text in paragraphs("Leaves out", r":?\s*(.*)"):
+        yield item(f"**{name}**: {text.removeprefix(', ')}")
+
+
+def paragraphs(begins: str, goes_on: str) -> Iterator[tuple[str, str]]:
+    """Each scene, and the paragraph of its ``scene.py`` that begins so, without these words, on one line."""
     for name, folder in scenes():
         about = ast.get_docstring(ast.parse((folder / "scene.py").read_text("utf-8"))) or ""
-        found = re.search(r"^Leaves out:?\s*(.*)", about, re.DOTALL | re.MULTILINE)
+        found = re.search(rf"^{begins}{goes_on}", about, re.DOTALL | re.MULTILINE)
         if found is None:
-            raise SystemExit(f"scenes/{name}/scene.py: its docstring has no line that begins with Leaves out")
-        text = " ".join(found[1].split())
-        yield item(f"**{name}**: {text.removeprefix(', ')}")
+            raise SystemExit(f"scenes/{name}/scene.py: its docstring has no line that begins with {begins}")
+        yield name, " ".join(found[1].split())
 
 
 def scenes() -> list[tuple[str, Path]]:
