@@ -31,8 +31,8 @@ _AMOUNT = re.compile(rf"(?:± [\d.,]*)?\d (?:{_UNITS})(?!\w)")
 _FIXED_SPACE = "\u00a0"
 
 
-#: A word of so many characters, or a part of it between hyphens, is not broken.
-_LONGEST_WORD = 16
+#: A word of so many characters, or a part of it between hyphens, is broken only if lines fit then; one so short never.
+_LONGEST_WORD, _SHORTEST_PART = 16, 8
 #: Where a word may be broken after a hyphen: as ``textwrap`` does.
 _AFTER_HYPHEN = re.compile(r"(?<=\w[^\W\d]-)(?=\w+[^\W\d])")
 
@@ -45,9 +45,9 @@ def width() -> int:
 def table(headings: Sequence[str], rows: Iterable[Sequence[str]], align: str, indent: str = "  ") -> list[str]:
     """Lines with columns aligned by ``align``, a letter for each: l or r.
 
-    Headings and left-aligned cells are wrapped between words, and if need be after hyphens, so that lines fit
-    ``width``; right-aligned numbers, and words that are not very long, never, even if lines are longer then. Empty
-    headings give no heading line; a column without any text is left out.
+    Headings and left-aligned cells are wrapped between words, or else after hyphens, or else, if that is enough, within
+    words that are not short, so that lines fit ``width``; right-aligned numbers never, even if lines are longer then.
+    Empty headings give no heading line; a column without any text is left out.
     """
     cells = [[one_line(cell) for cell in row] for row in rows]
     every = [headings, *cells] if any(headings) else cells
@@ -61,8 +61,10 @@ def table(headings: Sequence[str], rows: Iterable[Sequence[str]], align: str, in
     texts = [place for place in used if align[place] == "l"]
     words = {place: {word for row in every for word in row[place].split()} for place in texts}
     pieces = {place: [piece for word in own for piece in _AFTER_HYPHEN.split(word)] for place, own in words.items()}
-    for whole in (words, pieces):  # not to be broken
-        shortest = {place: min(max(map(_columns_of, own), default=1), _LONGEST_WORD) for place, own in whole.items()}
+    for whole, longest in ((words, _LONGEST_WORD), (pieces, _LONGEST_WORD), (pieces, _SHORTEST_PART)):
+        shortest = {place: min(max(map(_columns_of, own), default=1), longest) for place, own in whole.items()}
+        if longest == _SHORTEST_PART and too_wide > sum(max(0, widths[place] - shortest[place]) for place in texts):
+            break  # lines would be too long all the same
         while too_wide > 0:
             widest = max(texts, key=lambda place: widths[place] - shortest[place], default=None)
             if widest is None or widths[widest] <= shortest[widest]:
